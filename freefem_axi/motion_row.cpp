@@ -1,5 +1,5 @@
 // Calls the script of a geometry with -motion and reads its lines "viscontact-action", in which
-// forces and torques are in units of mu, r and the velocity of the motion.
+// viscosity, radius and the velocity of the motion are 1.
 #include "viscontact/freefem_axi/motion_row.hpp"
 
 #include <fmt/format.h>
@@ -63,7 +63,7 @@ Action action_of(const ActionLine& line) {
           line.numbers[3]};
 }
 
-/// Puts the lines into `rows`. Returns false if one is missing or stands twice.
+/// Copies the lines into `rows`. Returns false if one is missing or occurs twice.
 bool take(const std::vector<ActionLine>& lines, std::size_t bodies, std::vector<MotionRow>& rows) {
   if (lines.size() != rows.size() * bodies) return false;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -79,9 +79,9 @@ bool take(const std::vector<ActionLine>& lines, std::size_t bodies, std::vector<
   return true;
 }
 
-/// The power of the rolling flow against the velocities of sliding must be that of the sliding flow
-/// against the velocities of rolling (reciprocal theorem). Returns the difference over what the
-/// error estimates allow.
+/// By the reciprocal theorem the power of the forces of rolling at the velocities of sliding is
+/// that of the forces of sliding at the velocities of rolling. Returns the difference of both over
+/// what the error estimates allow.
 double asymmetry(const Tabulation& tabulation, const std::vector<MotionRow>& rows) {
   const auto& slide = rows.at(0);
   const auto& roll = rows.at(1);

@@ -1,4 +1,5 @@
-// The rows of the tables of motions, and what they depend on.
+// The rows of the tables of motions, and what they depend on. Lengths, masses and times are in the
+// units of the case.
 #include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 #include <fmt/format.h>
@@ -65,7 +66,8 @@ lubrication::TableHead head_of(const Tabulation& tabulation, MotionKind motion) 
     const auto leading = lubrication::leading_factors(
         motion, {tabulation.radius * geometry.curvature(tabulation.geometry_parameters),
                  geometry.is_shear_free, ratio});
-    // Theory's q is in sphere radii, so that q ln q has the coefficient per radius.
+    // In theory's coefficient q is in sphere radii; the coefficient of q ln q with q in the unit of
+    // the table is smaller by the radius.
     const double unit = motion == MotionKind::kSpin ? tabulation.radius : 1;
     head.leading_force_factor = leading.force / unit;
     head.leading_torque_factor = leading.torque / unit;

@@ -1,4 +1,4 @@
-// The names of the motions.
+// The names of the motions, which a change must keep (motion_kind.hpp).
 #include "viscontact/lubrication/motion_kind.hpp"
 
 #include <array>

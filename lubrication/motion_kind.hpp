@@ -16,7 +16,7 @@ enum class MotionKind { kApproach, kSlide, kRoll, kSpin };
 
 /// A motion and its name.
 struct NamedMotion {
-  std::string_view name;  ///< in case files, and of the table's file
+  std::string_view name;  ///< word in case files and tables, and name of the table's file
   MotionKind kind;        ///< the motion
 };
 
@@ -29,8 +29,8 @@ std::string_view to_string(MotionKind motion);
 /// The motion with this name. Throws Error(kBadInput), which lists the names, if there is none.
 MotionKind parse_motion(std::string_view name);
 
-/// "approach, slide": how the head of a table names the motions of its tabulation. Empty without
-/// motions.
+/// The names, separated by commas, as the head of a table lists the motions of its tabulation:
+/// "approach, slide". Empty without motions.
 std::string motions_in_words(const std::vector<MotionKind>& motions);
 /// The motions of a text that motions_in_words() made. Throws Error(kBadInput) as parse_motion()
 /// does.

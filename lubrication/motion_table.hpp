@@ -63,10 +63,12 @@ void check(const TableHead& head, const MotionRow& row, const FilePosition& here
 /// The largest error estimate of the row [1].
 double largest_estimate(const MotionRow& row);
 
-/// The dimensional units of force and torque of a motion: force = -unit * u0 * force factor.
+/// The units of force and torque of a motion: F = -force * v * (force factor) and T = -torque * v *
+/// (torque factor), with the velocity v [L/T] of a sphere that moves or the angular velocity v [1/T]
+/// of one that turns.
 struct ActionUnits {
-  double force = 0;   ///< over the velocity or angular velocity of the motion
-  double torque = 0;  ///< likewise
+  double force = 0;   ///< 6 pi mu r [M/T] or 6 pi mu r^2 [M L/T]
+  double torque = 0;  ///< 8 pi mu r^2 [M L/T] or 8 pi mu r^3 [M L^2/T]
 };
 /// The units for a sphere of radius `radius` [L] > 0 in a fluid of viscosity `viscosity` [M/(L T)].
 ActionUnits action_units(MotionKind motion, double viscosity, double radius);

@@ -1,4 +1,6 @@
-// Reynolds' equation in the film between two curved surfaces of which one or both move along it.
+// The solution of Reynolds' equation (physics.md (2.9), (2.10)) in the film between two curved
+// surfaces that move along it. Lengths are in sphere radii, kappa is 1 plus the neighbour's
+// curvature.
 #include "viscontact/lubrication/near_contact.hpp"
 
 #include <numbers>
@@ -6,7 +8,8 @@
 namespace viscontact::lubrication {
 namespace {
 
-/// Force and torque over ln(1/q), in units of mu r U and mu r^2 U.
+/// Force and torque on the sphere over ln(1/q), in units of mu r U and mu r^2 U, where U is the
+/// velocity of the motion.
 struct FilmAction {
   double force = 0, torque = 0;
 };
@@ -18,7 +21,7 @@ FilmAction across(double move, double turn, const NeighbourSurface& neighbour) {
   // A shear-free plane does not resist sliding in the film. Rolling presses fluid through it.
   if (neighbour.is_shear_free) return {0, -6 * kPi / 5 * turn};
   const double kappa = 1 + neighbour.curvature;
-  // Velocity of the sphere's surface at the gap less that of the neighbour's.
+  // Velocity of the sphere's surface at the gap minus that of the neighbour's surface.
   double slip = move - turn - neighbour.velocity_ratio * move;
   double source = -turn;
   if (neighbour.velocity_ratio != 0) {

@@ -1,5 +1,6 @@
 // What lubrication theory says of forces and torques near contact if a sphere slides, rolls or
-// spins beside its neighbour (physics.md (2.9) to (2.11)). Lengths are in sphere radii.
+// spins beside its neighbour (physics.md (2.9) to (2.11)). Lengths, also the gap q, are in sphere
+// radii. The tabulation of motions writes these coefficients into the head of its tables.
 #pragma once
 
 #include <string_view>
@@ -14,8 +15,8 @@ struct NeighbourSurface {
   double curvature = 0;
   /// True: no tangential stress on the neighbour, which is then a plane at rest.
   bool is_shear_free = false;
-  /// The neighbour's velocity over that of the sphere, in the same motion [1]; not 0 only if the
-  /// curvature is > 0.
+  /// The neighbour's velocity over that of the sphere, in the same motion [1]. Unless the curvature
+  /// is > 0, it must be 0.
   double velocity_ratio = 0;
 };
 

@@ -1,6 +1,8 @@
-// CVODE integrates the motion of a sphere whose film resists, from one change of the solid contact
-// to the next: the sphere touches the roughness, its slip ends, friction no longer suffices, or it
-// is lifted off.
+// The models `smooth` and `rough`: CVODE integrates the motion (physics.md (4.8), (4.9)) from one
+// change of the solid contact to the next: the sphere touches the roughness, its slip ends,
+// friction no longer prevents slip, or the sphere is lifted off. x is along the plane, z away from
+// it, y the axis of rotation; u, V are the velocities of sphere and plane along x, w is the angular
+// velocity. Lengths, masses and times are in any one consistent system of units.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,7 +47,8 @@ class RollingEquation {
   double contact_force() const;                            ///< of the solids along z, >= 0
   double friction_force(std::span<const double> y) const;  ///< of the solids along x
   double slip(std::span<const double> y) const;            ///< of the lowest point [L/T]
-  /// 1/m + r^2/I: how much a friction force accelerates the lowest point.
+  /// 1/m + r^2/I [1/M], with the moment of inertia I: the acceleration of the lowest point by a
+  /// unit of friction.
   double compliance() const;
   /// True if Coulomb's friction can keep the slip at 0. If not, sets the direction of sliding.
   bool can_roll(std::span<const double> y);
@@ -121,7 +124,7 @@ double RollingEquation::slip(std::span<const double> y) const {
   return slip_of({y[kMove], y[kTurn]}, radius_);
 }
 
-/// Force and torque without those of the solids.
+/// Force and torque on the sphere without those of the solids.
 RollingForce RollingEquation::free_force(std::span<const double> y) const {
   const auto fluid = fluid_force(fluid_.at(gap_of(y)), {y[kMove], y[kTurn]});
   return {motion_.force + fluid.force, motion_.torque + fluid.torque};
@@ -188,7 +191,8 @@ void RollingEquation::derivative(std::span<const double> y, std::span<double> f)
   f[kAngle] = y[kTurn];
 }
 
-/// All entries but that of the gap by the gap, which is 0 here; by columns.
+/// All entries of the Jacobian, by columns, but the derivative of the gap's rate by the gap, which
+/// is set to 0 here.
 void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) const {
   std::ranges::fill(j, 0.0);
   const auto at = [&](std::size_t row, std::size_t column) -> double& {
@@ -213,8 +217,9 @@ void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) c
   at(kAngle, kTurn) = 1;
 }
 
-/// The tolerances of all components but the gap. Those of the velocities refer to the largest
-/// velocity that the forces can make, so that one that passes through 0 does not stop CVODE.
+/// The tolerances of all components but the gap. Those of the velocities are relative to the
+/// largest velocity that the forces can cause, so that a velocity that passes through 0 does not
+/// stop CVODE.
 void RollingEquation::tolerance(std::span<const double> y, std::span<double> allowed) const {
   const auto r = fluid_.at(std::min(gap_of(y), fluid_.largest_gap()));
   const double move = std::abs(y[kMove]) + radius_ * std::abs(y[kTurn]) +
@@ -245,7 +250,7 @@ class LubricatedRun {
         equation_(motion, fit, contact_gap),
         cvode_(equation_.system(now_), equation_.initial_state()) {}
 
-  /// The rows at the times, as far as the sphere is not lifted off before.
+  /// Adds the rows until the end, or until the sphere is lifted off.
   RollingTrajectory run() {
     add_rows_until(0);
     const bool starts_in_contact = motion_.initial_gap <= contact_gap_ &&
@@ -266,7 +271,7 @@ class LubricatedRun {
   const std::optional<LiftOff>& lift_off() const { return lift_off_; }
 
  private:
-  /// Takes the step of CVODE, or its part up to the first change of the contact.
+  /// Accepts the last step of CVODE, or the part of it up to the first change of the contact.
   void advance() {
     double end = cvode_.time();
     const bool touches =
@@ -320,7 +325,8 @@ class LubricatedRun {
     if (motion_.normal_force > 0) lift_off_ = {now_, state};
   }
 
-  /// Sets the slip to 0 exactly, and rolls on if friction suffices.
+  /// Sets the slip to 0 exactly. The sphere then rolls if friction can prevent slip, else it
+  /// slides.
   void stick(RollingStateVector& state) {
     push(state, -equation_.slip(state) / equation_.compliance());
     equation_.solids.contact =

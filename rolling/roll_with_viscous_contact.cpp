@@ -1,5 +1,5 @@
-// Time steps of viscous contact for a sphere that moves along a plane and turns (physics.md (4.5),
-// (4.10), (4.11)).
+// The model `viscous_contact` of a sphere that moves along a plane and turns: time steps by
+// physics.md (4.5) and (4.10). Lengths, masses and times are in any one consistent system of units.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +13,9 @@
 namespace viscontact::rolling {
 namespace {
 
-/// (M/h + R) v = M v_before/h + forces + friction (1, -r), as a 2 x 2 system.
+/// The 2 x 2 system (M/h + R) v = M v_before/h + forces + friction (1, -r) for v = (velocity along
+/// x, angular velocity), with M = diag(mass, moment of inertia), the resistances R, the step h and
+/// the radius r.
 class ImplicitStep {
  public:
   ImplicitStep(const RollingMotion& motion, const RollingResistance& r, double radius, double step)
@@ -27,7 +29,7 @@ class ImplicitStep {
     return {(c_ * f.force - b_ * f.torque) / determinant,
             (a_ * f.torque - b_ * f.force) / determinant};
   }
-  /// How much a unit of friction changes the slip at the end of the step.
+  /// Change of the slip at the end of the step by a unit of friction.
   double compliance() const { return slip_of(solve({1, -radius_}), radius_); }
 
  private:
@@ -40,7 +42,7 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
                                             const motions::PairFit& fit) {
   const RollingFluid fluid(fit);
   const double radius = fit.radius;
-  // k of R ~ k/q: gamma = k ln(film/q0).
+  // k is the coefficient of 1/q in the resistance of a plane: gamma = k ln(film/q0).
   const double k = 6 * std::numbers::pi * fit.viscosity * radius * radius, q0 = motion.initial_gap;
   const double gamma_min = motion.roughness > 0 ? std::min(0.0, k * std::log(motion.roughness / q0))
                                                 : -std::numeric_limits<double>::infinity();
@@ -61,7 +63,7 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
         reduced_model::contact_step(normal, step * motion.normal_force,
                                     {motion.mass, gamma_min, step}, reduced_model::NoDrag{});
     normal = contact.state;
-    // In contact the film has the thickness of gamma; before, the gap itself.
+    // In contact the film is recovered from gamma; without contact it is the gap itself.
     row.gap = normal.gap > 0 ? normal.gap : q0 * std::exp(normal.gamma / k);
     const ImplicitStep implicit(motion, fluid.at(std::min(row.gap, fluid.largest_gap())), radius,
                                 step);

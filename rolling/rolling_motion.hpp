@@ -1,6 +1,7 @@
 // A sphere near a plane that moves in two directions and turns (physics.md (4.8) to (4.11)): x
-// along the plane, z away from it, y the axis of rotation. Lengths, masses and times are in any one
-// consistent system of units.
+// along the plane, z away from it, y the axis of rotation; q is the gap. Lengths, masses and times
+// are in any one consistent system of units. The command `rolling` and its sweeps use these models;
+// a change must keep their names, which case files contain.
 #pragma once
 
 #include <optional>
@@ -22,30 +23,30 @@ struct RollingMotion {
   double normal_velocity = 0;        ///< dq/dt at the start [L/T]
   double velocity = 0;               ///< dx/dt at the start [L/T]
   double angular_velocity = 0;       ///< w at the start [1/T]; > 0 rolls along +x
-  double force = 0;                  ///< along x, gravity less buoyancy [M L/T^2]
+  double force = 0;                  ///< constant force along x [M L/T^2]
   double normal_force = 0;           ///< along z [M L/T^2]; < 0 towards the plane
   double torque = 0;                 ///< about y [M L^2/T^2]
   double plane_velocity = 0;         ///< V of the plane along x [L/T]
   double roughness = 0;              ///< gap at which solids touch [L], >= 0
   double friction = 0;               ///< Coulomb's coefficient mu_s of the solids [1], >= 0
   double end_time = 0;               ///< [T], > 0
-  double time_step = 0;              ///< of the contact model, and spacing of rows [T], > 0
+  double time_step = 0;              ///< of viscous_contact, and spacing of all rows [T], > 0
   double relative_tolerance = 1e-9;  ///< of CVODE, in (0, 1)
   /// Asks the models to stop early.
   StopToken stop{};
 };
 
-/// What the solids do.
+/// Whether the solids touch, and if so whether they roll without slip or slide.
 enum class SolidContact { kNone, kRolling, kSliding };
 
 /// The state of the sphere at one time.
 struct RollingRow {
-  double time = 0;             ///< [T]
-  double gap = 0;              ///< q [L]; of a contact model that of the film that gamma stands for
-  double position = 0;         ///< x [L], 0 at the start
-  double angle = 0;            ///< turned about y [radians], 0 at the start
-  double normal_velocity = 0;  ///< dq/dt [L/T]
-  double velocity = 0;         ///< dx/dt [L/T]
+  double time = 0;              ///< [T]
+  double gap = 0;               ///< q [L]; of viscous_contact in contact the recovered film
+  double position = 0;          ///< x [L], 0 at the start
+  double angle = 0;             ///< turned about y [radians], 0 at the start
+  double normal_velocity = 0;   ///< dq/dt [L/T]
+  double velocity = 0;          ///< dx/dt [L/T]
   double angular_velocity = 0;  ///< w [1/T]
   double contact_force = 0;     ///< of the solids along z [M L/T^2], >= 0
   double friction_force = 0;    ///< of the solids along x [M L/T^2]
@@ -65,10 +66,12 @@ RollingTrajectory roll_smooth(const RollingMotion& motion, const motions::PairFi
 /// is without rebound. Throws as roll_smooth() does.
 RollingTrajectory roll_rough(const RollingMotion& motion, const motions::PairFit& fit);
 
-/// Viscous contact (physics.md (4.5)) along z with time steps: no force of the film except by
-/// gamma; friction once the film is thinner than the roughness. Resistances along x and to rotation
-/// are those at the thickness of the film, and those at the gap, at most the largest one of the
-/// fit, while there is no contact. First order in the time step.
+/// Viscous contact (physics.md (4.5)) along z with time steps: the film acts only by gamma, minus
+/// the impulse that it has absorbed. The solids touch, with friction, when the film recovered from
+/// gamma is as thin as the roughness. Resistances along x and to rotation are those at the
+/// recovered film, or without contact those at the gap (at gaps above the interval of the fit those
+/// at its end). The trajectory is of first order in the time step. Throws Error(kBadInput) if the
+/// fit lacks squeeze, slide, roll or slide_roll.
 RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
                                             const motions::PairFit& fit);
 
@@ -82,7 +85,7 @@ struct RollingEnd {
   std::optional<double> contact_time;
 };
 
-/// The end of a trajectory, which has at least one row, of a sphere of this radius [L].
+/// The end of `trajectory`, which has at least one row, of a sphere of this radius [L].
 RollingEnd end_of(const RollingTrajectory& trajectory, const RollingMotion& motion, double radius);
 
 /// A model by name.

@@ -1,4 +1,5 @@
-// Sums the terms of the fit.
+// Sums the terms of the fit of a pair, and decides between rolling and sliding (Coulomb). Lengths,
+// masses and times are in the units of the fit.
 #include "viscontact/rolling/rolling_resistance.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,6 @@
-// Forces on a sphere that moves along a plane and turns: the fluid's resistance and dry friction.
+// Forces on a sphere that moves along a plane and turns: the fluid's resistance (physics.md (2.12))
+// and dry friction. x is along the plane, y the axis of rotation, q the gap. Lengths, masses and
+// times are in any one consistent system of units. The models of rolling_motion.hpp use it.
 #pragma once
 
 #include <vector>
@@ -20,7 +22,7 @@ struct RollingForce {
       torque = 0;    ///< [M L^2/T^2], of an impulse [M L^2/T]
 };
 
-/// The symmetric matrix that takes velocities to the force and torque against them.
+/// The symmetric matrix that maps velocities to the force and torque against them.
 struct RollingResistance {
   double slide = 0;       ///< [M/T]
   double roll = 0;        ///< [M L^2/T]
@@ -30,11 +32,12 @@ struct RollingResistance {
 /// The resistances at a gap, and their derivatives by ln q.
 class RollingFluid {
  public:
-  /// Throws Error(kBadInput) if the fit lacks squeeze, slide, roll or slide_roll.
+  /// `fit` must outlive the object. Throws Error(kBadInput) if the fit lacks squeeze, slide, roll
+  /// or slide_roll.
   explicit RollingFluid(const motions::PairFit& fit);
 
-  /// At a gap [L] > 0. Below the interval of the fit its formula is continued; it has the terms of
-  /// theory. Throws Error(kBadInput) above the interval.
+  /// The resistances at a gap [L] > 0. Below the interval of the fit its formula, which has the
+  /// terms of theory, is continued. Throws Error(kBadInput) above the interval.
   RollingResistance at(double gap) const;
   RollingResistance slopes(double gap) const;  ///< d/d ln q of at()
 
@@ -66,9 +69,10 @@ struct Friction {
   SolidContact contact = SolidContact::kRolling;
 };
 
-/// The friction on a sphere of which the lowest point would have the slip (or its rate) `slip`
-/// without friction and `slip` + `compliance` T with the friction T: no slip if |T| <= bound, else
-/// T = -+bound.
+/// Coulomb's friction T on a sphere. Its lowest point would have the slip `slip` [L/T] without
+/// friction, and has `slip` + `compliance` T with it; or these are rates of the slip [L/T^2], and T
+/// is a force instead of an impulse. If |T| <= bound is enough, there is no slip; otherwise T is
+/// bound or -bound, against the slip. compliance > 0, bound >= 0.
 Friction coulomb(double slip, double compliance, double bound);
 
 }  // namespace viscontact::rolling

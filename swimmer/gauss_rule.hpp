@@ -1,4 +1,4 @@
-// Gauss-Legendre quadrature with any number of points.
+// Gauss-Legendre quadrature with any number of points, for integrals along a stroke.
 #pragma once
 
 #include <Eigen/Core>

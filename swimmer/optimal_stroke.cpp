@@ -1,4 +1,5 @@
-// Newton's method for the stroke of least energy (optimal_stroke.hpp).
+// Newton's method for the stroke of least energy (optimal_stroke.hpp). Lengths, masses and times
+// are in the units of the fit; energies are those at a period of 1.
 #include "viscontact/swimmer/optimal_stroke.hpp"
 
 #include <fmt/format.h>
@@ -43,10 +44,10 @@ class LoopOptimizer {
  private:
   /// The multiple of the loop that has this displacement. Nothing if none was found in the table.
   std::optional<PolynomialLoop> scaled_to(PolynomialLoop loop, double displacement) const;
-  /// Nothing if a loop beside this one leaves the table.
+  /// The Hessian of the Lagrangian at a loop. Nothing if a loop beside this one leaves the table.
   std::optional<MatrixXd> lagrangian_hessian(const PolynomialLoop& loop, double multiplier) const;
-  /// Newton's step along which the displacement stays, and below it the new multiplier. Nothing if
-  /// there is no Hessian.
+  /// Newton's step, which keeps the displacement to first order, and in the last entry the new
+  /// multiplier. Nothing if there is no Hessian.
   std::optional<VectorXd> newton_step(const PolynomialLoop& loop, const LoopSums& sums,
                                       double multiplier) const;
 
@@ -138,8 +139,8 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
     if (!step) return {};
     const VectorXd direction = step->head(step->size() - 1);
     multiplier = (*step)[step->size() - 1];
-    // A step is straight, but loops of equal displacement are not; each trial is therefore scaled
-    // back to the displacement, so that the energy alone must fall.
+    // Along a straight step the displacement changes to second order. Each trial is therefore
+    // scaled to the wanted displacement, so that only the energy must fall.
     std::optional<PolynomialLoop> next;
     double share = 1;
     for (int halvings = 0; !next && halvings < kMostHalvings; ++halvings, share /= 2) {
@@ -162,8 +163,9 @@ bool is_contained(const Swimmer& swimmer, const PolynomialLoop& loop) {
   return true;
 }
 
-/// The plane of arm velocities in which small loops displace most at given energy: two columns, of
-/// unit energy at unit speed, and the displacement of a unit square in them.
+/// The plane of arm velocities in which small loops of a given energy have the largest
+/// displacement: two columns that span it, each of unit power, and the displacement of the loop of
+/// the unit square that they span.
 struct BestPlane {
   MatrixXd directions;
   double curl = 0;
@@ -186,8 +188,8 @@ BestPlane best_plane(const Swimmer& swimmer, const VectorXd& through) {
   return {directions, svd.singularValues()[0]};
 }
 
-/// A loop that is a small circle in the best plane through `through`, for a small displacement; the
-/// centre is seen from there at `angle`.
+/// A small circle through `through` in the best plane, for a small displacement. `angle` is the
+/// direction in this plane from `through` to the centre.
 PolynomialLoop small_loop(const BestPlane& plane, const VectorXd& through, double displacement,
                           double angle, Index polynomials) {
   const double radius = std::sqrt(std::abs(displacement) / (std::numbers::pi * plane.curl));
@@ -202,7 +204,8 @@ PolynomialLoop small_loop(const BestPlane& plane, const VectorXd& through, doubl
       polynomials);
 }
 
-/// Follows the optimum from a small displacement to the wanted one. Nothing if it leaves the table.
+/// Follows the optimal loop from a small displacement to the wanted one. Nothing if a loop on the
+/// way leaves the table.
 std::optional<Extremal> follow(const Swimmer& swimmer, const OptimalStrokeRequest& request,
                                double angle, const StopToken& stop) {
   constexpr Index kPolynomials = 8;  // enough to follow; more are added at the end
@@ -248,8 +251,8 @@ OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeReq
                             "within the table; ask for less, begin at a shape farther from the "
                             "table's borders, or make a table of more arms",
                             request.displacement));
-  // With fewer polynomials than `best` has, the loop starts from its first ones but does not replace
-  // it: a short loop may turn far from the longer ones.
+  // For fewer polynomials than `best` has, the search starts from the first polynomials of `best`.
+  // The result does not replace `best`, because with few polynomials it may be far from the others.
   OptimalStroke optimal;
   for (Index count = kFewestPolynomials;; count += 2) {
     count = std::min(count, request.polynomials);

@@ -1,6 +1,8 @@
-// The stroke of least energy for a given displacement (Alouges, DeSimone & Lefebvre 2008): among the
-// loops through a given shape with this displacement, the one with the least energy in a given
-// period. Its power is constant. Lengths, masses and times are in the units of the fit.
+// The stroke of least energy for a given displacement (Alouges, DeSimone & Lefebvre 2008): among
+// the loops through a given shape with this displacement, the one with the least energy in a given
+// period. Its power is constant. Lengths, masses and times are in the units of the fit. The
+// commands `swimmer` and `sweep` use it; a change must keep energies to the digits of
+// docs/swimmer.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,17 +34,18 @@ struct OptimalStrokeStep {
 struct OptimalStroke {
   /// The shapes of the stroke.
   PolynomialLoop loop;
-  /// Multiplier of the displacement at a period of 1 [M L/T^2]: the least energy grows by this per
-  /// displacement.
+  /// Multiplier of the displacement at a period of 1 [M L/T^2]: derivative of the least energy by
+  /// the displacement.
   double multiplier = 0;
-  /// With few polynomials to all of them; the last one is the result.
+  /// The results with rising numbers of polynomials; the last one is that of `loop`.
   std::vector<OptimalStrokeStep> convergence;
 };
 
-/// Finds a loop of least energy. Newton's method on the conditions of Karush, Kuhn and Tucker starts
-/// from small loops in four directions, whose displacement then grows to the wanted one; the best
-/// end counts. Throws Error(kBadInput) if every such loop leaves the table, Error(kNotConverged) if
-/// Newton's method fails, and Error(kInterrupted) if `stop` requests a stop.
+/// Finds a loop of least energy. Newton's method on the conditions of Karush, Kuhn and Tucker
+/// starts from small loops in four directions, whose displacement then grows to the wanted one; of
+/// the four results the one with the least energy is returned. Throws Error(kBadInput) if every
+/// such loop leaves the table, Error(kNotConverged) if Newton's method fails, and
+/// Error(kInterrupted) if `stop` requests a stop.
 OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeRequest& request,
                                   const StopToken& stop);
 

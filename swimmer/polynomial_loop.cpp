@@ -1,4 +1,5 @@
-// Polynomial loops, their sums and gradients (polynomial_loop.hpp).
+// Polynomial loops, their sums and gradients (polynomial_loop.hpp). Lengths, masses and times are
+// in the units of the swimmer's fit.
 #include "viscontact/swimmer/polynomial_loop.hpp"
 
 #include <Eigen/QR>
@@ -18,7 +19,8 @@ Eigen::VectorXd shape_at(const PolynomialLoop& loop, const Eigen::VectorXd& basi
 }  // namespace
 
 LoopBasis loop_basis(double s, Index count) {
-  // P_j and its derivatives by s, by the three-term recurrence and P'_{j+1} = P'_{j-1} + (2j + 1) P_j.
+  // P_j and its derivatives by s, by the three-term recurrence and P'_{j+1} = P'_{j-1} + (2j + 1)
+  // P_j.
   const double y = 2 * s - 1;
   Eigen::VectorXd p(count), dp(count), ddp(count);
   for (Index j = 0; j < count; ++j) {

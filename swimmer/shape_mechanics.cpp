@@ -1,4 +1,5 @@
-// Solves the balance of forces of a swimmer at one shape (shape_mechanics.hpp).
+// Solves the balance of forces of a swimmer at one shape; the symbols are those of
+// shape_mechanics.hpp. Lengths, masses and times are in the units of the fit.
 #include "viscontact/swimmer/shape_mechanics.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +11,8 @@ namespace {
 
 using Eigen::Index;
 
-/// B: position of sphere i relative to the middle one, by the arms between them.
+/// The matrix B, by which the position of sphere i relative to the middle sphere is the sum of
+/// B_ik x_k over the arms x_k.
 Eigen::MatrixXd relative_positions(Index spheres) {
   const auto middle = static_cast<Index>(middle_sphere(static_cast<std::size_t>(spheres)));
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(spheres, spheres - 1);
@@ -42,7 +44,8 @@ bool Swimmer::contains(const Eigen::VectorXd& arms) const {
 ShapeMechanics Swimmer::at(const Eigen::VectorXd& arms, bool with_slopes) const {
   for (Index k = 0; k < arms.size(); ++k) {
     const auto [from, to] = arm_interval(k);
-    // The gap decides, because the difference of an arm and two radii has a rounding error.
+    // The gaps decide, as in the table, because the sum of a gap and two radii has a rounding
+    // error.
     if (!contains(arms) && !(arms[k] >= from && arms[k] <= to))
       throw Error(ErrorKind::kBadInput,
                   fmt::format("arm x{} is {:.9g}; the table has arms from {:.9g} to {:.9g}", k + 1,
@@ -66,7 +69,8 @@ ShapeMechanics Swimmer::at(const Eigen::VectorXd& arms, bool with_slopes) const 
     const Eigen::RowVectorXd row_slope = slope.colwise().sum();
     mechanics.displacement_form_slopes.emplace_back(-(row_slope * b + row_slope.sum() * a) /
                                                     mechanics.towing_resistance);
-    // The derivative of `motion` is 1 dA/dx, and 1' R motion = 0 as the total force vanishes.
+    // The derivative of `motion` is e dA/dx with the vector e of ones, and e^T R motion = 0,
+    // because the total force vanishes.
     mechanics.metric_slopes.emplace_back(mechanics.motion.transpose() * slope * mechanics.motion);
   }
   return mechanics;

@@ -1,15 +1,16 @@
 // A swimmer made of spheres on a line that changes its arms, in a fluid without inertia (Najafi &
-// Golestanian 2004, Phys. Rev. E 69, 062901; Alouges, DeSimone & Lefebvre 2008, J. Nonlinear Sci. 18,
-// 277; physics.md, section 7). Lengths, masses and times are in the units of the fit.
+// Golestanian 2004, Phys. Rev. E 69, 062901; Alouges, DeSimone & Lefebvre 2008, J. Nonlinear Sci.
+// 18, 277; physics.md, section 7). Lengths, masses and times are in the units of the fit.
 //
 // x_k is the distance between the centres of spheres k and k + 1. With the resistance matrix R(x),
 // the spheres move at U_i = V + sum_k B_ik dx_k/dt, where V is the velocity of the middle sphere.
 // The total force vanishes, sum_ij R_ij U_j = 0, so that
 //
-//   V = sum_k A_k(x) dx_k/dt,   power = sum_kl G_kl(x) dx_k/dt dx_l/dt.
+//   V = sum_k A_k(x) dx_k/dt,   power = sum_kl Phi_kl(x) dx_k/dt dx_l/dt.
 //
-// The displacement of a closed stroke is the integral of A along its loop, and does not depend on
-// the time law.
+// B_ik is 1 if arm k is between the middle sphere and a sphere i behind it, -1 if sphere i is
+// before it, else 0. The displacement of a closed stroke is the integral of A along its loop, and
+// does not depend on the time law.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,7 +31,7 @@ struct ShapeMechanics {
   double towing_resistance = 0;
   // Derivatives by each arm, if they were asked for.
   std::vector<Eigen::RowVectorXd> displacement_form_slopes;  ///< dA/dx_k [1/L]
-  std::vector<Eigen::MatrixXd> metric_slopes;                ///< dG/dx_k [M/(L T)]
+  std::vector<Eigen::MatrixXd> metric_slopes;                ///< dPhi/dx_k [M/(L T)]
 };
 
 /// Number of the middle sphere, from 0: of an even number of spheres, the first of the two.

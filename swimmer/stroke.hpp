@@ -1,5 +1,5 @@
-// Strokes: closed paths of a swimmer's arms, with their time law. Lengths and times are in the units
-// of the case.
+// Strokes: closed paths of a swimmer's arms, with their time law. An arm is the distance between
+// the centres of neighbouring spheres. Lengths and times are in the units of the case.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,12 +28,12 @@ struct Stroke {
   std::vector<StrokeLeg> legs;  ///< in order of time, at least one
 };
 
-/// Straight legs from corner to corner [L] and back to the first one. Each leg takes the same time, at
-/// constant velocity. Needs at least two corners.
+/// Straight legs from corner to corner [L] and back to the first one. Each leg takes the same time,
+/// at constant velocity. Needs at least two corners.
 Stroke polygon_stroke(const std::vector<Eigen::VectorXd>& corners, double period);
 
-/// Straight legs between samples of the arms [L] at rising times [T], at constant velocity each. The
-/// first time is that of the stroke's beginning, and the last sample closes the loop; throws
+/// Straight legs between samples of the arms [L] at rising times [T], at constant velocity each.
+/// The first time is that of the stroke's beginning, and the last sample closes the loop; throws
 /// Error(kBadInput) if it differs from the first one by more than rounding.
 Stroke sampled_stroke(const std::vector<double>& times,
                       const std::vector<Eigen::VectorXd>& samples);

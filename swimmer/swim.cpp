@@ -1,4 +1,5 @@
-// Integrates displacement and power along a stroke (swim.hpp).
+// Integrates displacement and power along a stroke (swim.hpp). Lengths, masses and times are in the
+// units of the fit.
 #include "viscontact/swimmer/swim.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ struct Integrals {
   double displacement = 0, energy = 0;
   double length = 0;  ///< integral of the square root of the power
   double towing = 0;  ///< integral of the towing resistance over time
-  double path = 0;    ///< length of the path of the arms, to which errors are compared
+  double path = 0;    ///< length of the path of the arms [L], to which errors are relative
 
   Integrals& operator+=(const Integrals& other) {
     displacement += other.displacement;

@@ -1,5 +1,5 @@
 // What a stroke does: displacement, energy, positions, forces and power. Lengths, masses and times
-// are in the units of the fit and of the stroke.
+// are in the units of the fit and of the stroke. The commands `swimmer` and `sweep` use it.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,12 +31,13 @@ struct SwimSums {
 };
 
 /// Integrates one period of a stroke by Gauss-Legendre quadrature on each leg; the number of points
-/// is doubled until the sums change by less than 1e-12 of themselves, or of the path of the arms. Throws Error(kBadInput) if the
-/// stroke leaves the table, and Error(kNotConverged) if the sums do not converge.
+/// is doubled until the sums change by less than 1e-12 of themselves (the displacement: of the
+/// length of the path of the arms). Throws Error(kBadInput) if the stroke leaves the table, and
+/// Error(kNotConverged) if the sums do not converge.
 SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke);
 
-/// The swimmer at `intervals` + 1 times of equal distance or more: each leg begins and ends at one
-/// of them. Throws as swim_sums does.
+/// The swimmer at about `intervals` + 1 times, or more: each leg has times at its beginning, at its
+/// end, and at equal distances between. Throws as swim_sums does.
 std::vector<SwimRow> swim_rows(const Swimmer& swimmer, const Stroke& stroke, int intervals);
 
 }  // namespace viscontact::swimmer

@@ -1,4 +1,5 @@
-// Computes a stroke again with changed fits (swim_errors.hpp).
+// Computes a stroke again with changed fits (swim_errors.hpp). Lengths, masses and times are in the
+// units of the fit.
 #include "viscontact/swimmer/swim_errors.hpp"
 
 #include <cmath>
@@ -11,8 +12,9 @@ SwimErrors swim_errors(const SwimSums& sums, const Stroke& stroke,
   const auto changes = [&](const ResistanceFit& fit) -> SwimErrors {
     const auto changed = swim_sums(Swimmer(fit), stroke);
     const double displacement = changed.displacement - sums.displacement;
-    // To first order the least energy changes by that of the loop, less what the missing
-    // displacement costs, because the loop is stationary.
+    // Because the loop is stationary, the least energy at the wanted displacement changes, to first
+    // order, by the change of the loop's energy minus the multiplier times the change of its
+    // displacement.
     return {displacement, changed.energy - sums.energy - multiplier * displacement};
   };
   SwimErrors errors;

@@ -15,10 +15,10 @@ struct SwimErrors {
 };
 
 /// The errors of the sums of a stroke: for each fit of lower degree the change of the sums, plus
-/// twice the root mean square of their changes by the errors of the table (swimmer/fit/fit_resistance.hpp
-/// makes both kinds of fits). If a fit is of the optimal stroke, `multiplier` is that of the
-/// displacement (OptimalStroke), over the period, and the energy is that of the optimum whose
-/// displacement is right; otherwise it is 0.
+/// twice the root mean square of their changes by the errors of the table
+/// (fitting/fit_resistance.hpp makes both kinds of fits). For the optimal stroke, `multiplier` is
+/// OptimalStroke::multiplier over the period, and the error of the energy is that of an optimum
+/// that has the asked displacement in the changed fit; for any other stroke `multiplier` is 0.
 SwimErrors swim_errors(const SwimSums& sums, const Stroke& stroke,
                        const std::vector<ResistanceFit>& lower_degrees,
                        const std::vector<ResistanceFit>& table_errors, double multiplier = 0);

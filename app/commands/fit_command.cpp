@@ -41,12 +41,14 @@ void read_fix(const std::string& word, fitting::FitSettings& settings) {
                     word));
 }
 
+/// The values of the options of `fit`, which are named after them; add_fit() says what each means.
+/// A path or text is empty if its option was not given.
 struct FitOptions {
   std::string basis{lubrication::default_basis().name};
   std::vector<std::string> tables;
   std::string table, fit, terms, weights = "relative", loss = "none", fix, plot;
   bool compare_bases = false, json = false;
-  /// CLI11's objects of --output, --terms and --fix, which tell whether an option was given.
+  /// CLI11's objects of some options, which tell whether the option was given.
   const CLI::Option *output_option = nullptr, *terms_option = nullptr, *fix_option = nullptr,
                     *basis_option = nullptr, *weights_option = nullptr;
 };

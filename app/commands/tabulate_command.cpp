@@ -32,11 +32,14 @@ namespace viscontact::app {
 
 namespace {
 
+/// The values of the options of `tabulate`; add_tabulate() says what each means.
 struct TabulateOptions {
-  std::vector<std::string> case_files, motions;
-  std::string output, plot;
-  ArrayOptions array;
-  int jobs = default_jobs();
+  std::vector<std::string> case_files,  ///< paths of the cases, at least one
+      motions;                          ///< names; empty: those of the cases
+  std::string output,                   ///< path of the table or folder
+      plot;                             ///< gaps separated by commas; may be empty
+  ArrayOptions array;                   ///< of a job on a cluster
+  int jobs = default_jobs();            ///< number of rows at once, >= 1
   bool dry_run = false, json = false;
   /// CLI11's objects of --jobs and --plot, which tell whether an option was given.
   const CLI::Option *jobs_option = nullptr, *plot_option = nullptr;

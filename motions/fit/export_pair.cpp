@@ -1,4 +1,5 @@
-// The text of each target: a function for each entry, as code or numbers.
+// The text of each target: a function of the gap for each resistance of a pair, as code or numbers.
+// Lengths, masses and times are in the units of the fit.
 #include "viscontact/motions/fit/export_pair.hpp"
 
 #include <array>

@@ -1,4 +1,5 @@
-// Makes a table of each entry from the tables of the motions, and fits it.
+// Makes a table of each resistance of a pair from the tables of the motions, and fits it
+// (fit_pair.hpp). Lengths, masses and times are in the units of the tables.
 #include "viscontact/motions/fit/fit_pair.hpp"
 
 #include <fmt/format.h>
@@ -96,7 +97,8 @@ EntryTable diagonal_entry(const MotionTable& pair, const MotionTable& table) {
   return entry;
 }
 
-/// slide_roll by one motion: the torque of sliding, or the force of rolling, with its error.
+/// slide_roll from the table of one motion, the torque of sliding or the force of rolling, with its
+/// error.
 struct Coupling {
   double value = 0, error = 0, diagonal = 0;
 };

@@ -1,4 +1,5 @@
-// Reads the tables of a pair, fits them, and says how well.
+// Reads the tables of a pair, fits them, and prints the residuals (pair_fit_stage.hpp). Lengths,
+// masses and times are in the units of the tables.
 #include "viscontact/motions/job/pair_fit_stage.hpp"
 
 #include <fmt/format.h>
@@ -46,7 +47,8 @@ bool is_where_made(const fs::path& file) {
          fs::weakly_canonical(file);
 }
 
-/// Why a table of the tabulation that made `file` may be missing, and what completes the folder.
+/// For a message: why a table of the tabulation that made `file` may be missing, and what completes
+/// the folder.
 std::string reason_and_remedy(const fs::path& folder, const fs::path& file,
                               const std::string& motions) {
   const auto name = file.filename().string();

@@ -1,5 +1,6 @@
 // Reads and checks rigid bodies, hinges, springs and arms (particles_sections.hpp). Lengths, masses
-// and times are in the units of the case.
+// and times are in the units of the case. A change must keep the keys and their defaults, because
+// users have written cases with them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,8 +16,6 @@
 namespace viscontact::particles {
 namespace {
 
-using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
-using particles::operator*;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 void check_members(const case_file::TomlSection& section, const std::vector<std::int32_t>& members,
                    const ParticlesCase& c) {
@@ -77,8 +76,8 @@ void body_keys(case_file::Keys& keys, RigidBodyRequest& body, const ParticlesCas
 
 /// A table [[hinge]].
 struct HingeTable {
-  int body = -1;                                // its number
-  std::vector<std::int32_t> held;               // particles of which one must hold the hinge
+  int body = -1;                                // number of the body; -1: none is named
+  std::vector<std::int32_t> held;               // the particles to choose from
   Vector at{};                                  // [L]
   std::optional<double> stiffness, rest_angle;  // [M L^2/T^2], [rad]
 };
@@ -146,7 +145,7 @@ Hinge read_hinge(const case_file::TomlSection& section, const ParticlesCase& c,
   const Vector arm = nearest_image(
       cell_of(c.setting.domain), hinge.at - (is_body ? p.bodies.bodies[index_of(hinge.body)].centre
                                                      : p.position(index_of(*holder))));
-  // The offset is that of the particle at the angle 0.
+  // The offset is turned back to the orientation in which the angle of the particle is 0.
   hinge.point.offset = p.dimension == 3 ? arm : displacement_at(arm, {0, 0, -angle}, arm, 2);
   hinge.stiffness = table.stiffness.value_or(0);
   hinge.rest_angle = table.rest_angle.value_or(angle);
@@ -218,7 +217,7 @@ void pieces_of_length_keys(case_file::Keys& keys, PiecewiseLinearLength& pieces)
                "is {}; it must be at least the last time of the pieces, {}", pieces.period,
                last[0]);
   if (last[0] != pieces.period) return;
-  // The next period begins there.
+  // The end of the last piece is the beginning of the next period.
   keys.require(last[1] == pieces.points.front()[1], "pieces",
                "ends with the length {} at the end of the period; it must be {}, with which the "
                "next period begins",
@@ -272,7 +271,7 @@ std::string arm_in_words(const ParticlesCase& c, const Arm& arm) {
                      c.particles.id(index_of(arm.second)));
 }
 
-/// Times that decide about several arms.
+/// The decisive_times() of several arms together [T], at which conditions between them are checked.
 std::vector<double> times_of(std::span<const Arm* const> arms, double end) {
   std::vector<double> times;
   for (const auto* arm : arms) {
@@ -310,7 +309,7 @@ void check_triangle(std::span<const case_file::TomlSection> sections, const Part
                     std::array<std::size_t, 3> sides) {
   const auto& arms = c.setting.links.arms;
   const std::array of = {&arms[sides[0]], &arms[sides[1]], &arms[sides[2]]};
-  // Equality, where all three are on a line, is lost in rounding.
+  // The bound is exceeded by rounding errors if all three particles are on a line.
   constexpr double kRounding = 1e-9;
   for (const double time : times_of(of, c.end_time)) {
     const auto length = [&](std::size_t side) { return length_at(of[side]->length, time); };

@@ -99,7 +99,7 @@ constexpr Allowed kGap = {[](double v) { return v >= 0 && v <= kLargestNumber; }
 // Sides of a box in the order of SideVelocities.
 constexpr std::array kSides = {"left", "right", "bottom", "top"};
 
-/// Axis along which a side is displaced from the opposite side: 0 for left and right, else 1.
+/// Axis of the normal of a side: 0 for left and right, 1 for bottom and top.
 std::size_t axis_of(std::size_t side) { return side / 2; }
 
 void read_side(const case_file::TomlSection& section, std::string_view side, WallVelocity& wall) {
@@ -132,7 +132,7 @@ double influx(const BoxDomain& box, std::size_t side, const WallVelocity& wall) 
   return (is_first ? wall.value[axis] : -wall.value[axis]) * length;
 }
 
-/// The velocity of the walls: a rate, or that of single sides.
+/// What `velocity` gives: a shear rate, a strain rate, or the velocities of single sides.
 struct VelocityKeys {
   std::optional<double> shear_rate, strain_rate;  // [1/T]
   SideVelocities sides;
@@ -184,8 +184,8 @@ void check_sides(const case_file::TomlSection& fluid, const case_file::TomlSecti
 }
 
 /// Throws an error if the velocity that belongs to `key` is not the same on both sides of a period.
-/// A domain that is periodic both ways takes any gradient as its mean, and a shear u = s y has the
-/// period of x.
+/// Allowed are any gradient in a domain that is periodic both ways, where it is the mean gradient,
+/// and a shear u = shear_rate y with a period along x only, which is the same on both sides.
 void check_periods(const case_file::TomlSection& section, const char* key, bool is_shear,
                    const Domain& domain) {
   const auto* box = std::get_if<BoxDomain>(&domain);

@@ -189,14 +189,14 @@ void read_file_of_particles(const case_file::TomlSection& section, ParticlesCase
   if (!in_fluid && p.turn()) add_rotation(p);
 }
 
-/// What [arrangement] says before the discs are placed: their number, or the area of their
-/// fraction.
+/// What [arrangement] says before the discs are placed: their number or their area fraction, and
+/// the mass of each [M].
 struct ArrangementKeys {
   Arrangement asked;
   double area_fraction = 0, mass = 0;
 };
 
-constexpr int kMostDiscs = 1000000;
+constexpr int kMostDiscs = 1000000;  // with which times and memory were measured (bench/README.md)
 
 void arrangement_keys(case_file::Keys& keys, ArrangementKeys& given, bool has_fluid) {
   auto& asked = given.asked;
@@ -223,8 +223,8 @@ void arrangement_keys(case_file::Keys& keys, ArrangementKeys& given, bool has_fl
       {"mass of each disc", "required; in a fluid 0", "from 1e-100 to 1e100, in a fluid also 0"});
 }
 
-/// Reads [arrangement] and adds its discs, which are at rest, to the particles, which keep their
-/// places.
+/// Reads [arrangement] and adds its discs, which are at rest, after the other particles, which keep
+/// their places.
 void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
   auto& p = c.particles;
   const auto& domain = c.setting.domain;

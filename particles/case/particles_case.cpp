@@ -15,14 +15,13 @@ namespace viscontact::particles {
 namespace {
 
 namespace fs = std::filesystem;
-using particles::operator*;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 constexpr Allowed kNotPositive = {[](double v) { return v <= 0; }, "<= 0"};
 constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
                                 "between 1e-12 and 0.1"};
 constexpr Allowed kShare = {[](double v) { return v >= 0 && v <= 1; }, "from 0 to 1"};
 
-/// 1 stands for "axisymmetric".
+/// Reads the dimension: 2, 3, or "axisymmetric", which becomes 1.
 void read_dimension(const case_file::TomlSection& space, std::string_view key, int& dimension) {
   if (!space.is_text(key)) {
     dimension = space.count(key, 2, 3);
@@ -80,7 +79,7 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.required("time_step", case_file::number(step, kModeratelyPositive), {"at most `end_time`"});
   keys.require(step <= c.end_time, "time_step", "is {}; it must be at most end_time, {}", step,
                c.end_time);
-  constexpr double kMostSteps = 1e9;
+  constexpr double kMostSteps = 1e9;  // more steps are taken for a slip in the unit of time
   keys.require(c.end_time / step <= kMostSteps, "time_step",
                "is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed", step,
                c.end_time / step, kMostSteps);

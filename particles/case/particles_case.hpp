@@ -1,5 +1,6 @@
 // The case file of many particles (docs/case-file.md, "Many particles"). Lengths, masses and times
-// are in any one consistent system of units.
+// are in any one consistent system of units. The stage of particles and sweeps of particles read
+// it. A change must keep accepting the cases that users have written.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +20,15 @@ namespace viscontact::particles {
 struct ParticlesCase {
   std::filesystem::path path;  ///< the case file
   std::string text;            ///< content of the file
-  std::string title;           ///< a title for pages and pictures
+  std::string title;           ///< a title for pages and pictures; may be empty
   /// Everything that the simulation needs besides the particles.
   Setting setting;
   /// The particles of the CSV file, followed by those of the tables [[particle]] and by the random
   /// discs of [arrangement].
   Particles particles;
   std::filesystem::path particles_file;  ///< the CSV file; empty if there is none
-  double end_time = 0;                   ///< [T], > 0
-  double frame_interval = 0;             ///< [T], > 0
+  double end_time = 0;                   ///< time at which the run ends [T], > 0
+  double frame_interval = 0;             ///< time between two frames [T], > 0
   /// What [arrangement] asks for; its discs are the last particles.
   std::optional<Arrangement> arrangement;
   /// What the section [sweep] asks for; nothing if the case has no such section.

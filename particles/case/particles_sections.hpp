@@ -1,6 +1,7 @@
 // The parts of the reader of a case of many particles (particles_case.hpp), for its sources only.
 // Each function reads sections of docs/case-file.md, "Many particles", and throws Error(kBadInput)
 // with file, line, key and what is allowed. Lengths, masses and times are in the units of the case.
+// particles_case.cpp calls the functions in the order of their needs, which their comments say.
 #pragma once
 
 #include <cstdint>
@@ -68,8 +69,8 @@ class ParticleIds {
   /// `c` must outlive this object, and its particles must have been read.
   explicit ParticleIds(const ParticlesCase& c);
 
-  /// The number of the particle with an id that is the value of `key` or, as `verb` says, in it.
-  /// Throws for an id that does not exist.
+  /// The number of the particle with the id `id`, which the user gave at `key`. Throws for an id
+  /// that does not exist; the message is "KEY VERB ID ...", with a verb such as "is" or "contains".
   std::int32_t number(const case_file::TomlSection& section, std::string_view key, double id,
                       std::string_view verb) const;
 
@@ -78,7 +79,8 @@ class ParticleIds {
   std::unordered_map<std::int32_t, std::int32_t> places_;  // number of each id
 };
 
-/// Reads a list of ids as numbers of particles.
+/// Reads a list of ids, and puts the numbers of their particles into `place`. Throws for an id that
+/// does not exist.
 void read_ids(const case_file::TomlSection& section, std::string_view key,
               std::vector<std::int32_t>& place, const ParticleIds& ids);
 

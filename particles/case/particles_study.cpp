@@ -21,7 +21,7 @@ namespace viscontact::particles {
 namespace {
 
 /// Throws Error(kWrongUsage) for keys that a sweep cannot vary.
-void check_keys(const sweep::Points& points) {
+void check_varied_keys(const sweep::Points& points) {
   for (const auto& variation : points.variations) {
     const auto& key = variation.key;
     if (key == sweep::kDrawKey && points.draws > 0)
@@ -106,7 +106,7 @@ ParticlesSweep::ParticlesSweep(const std::filesystem::path& case_path, sweep::Po
   if (points_.variations.empty() && points_.samples > 0)
     throw Error(ErrorKind::kWrongUsage,
                 "random samples need a varied key, which gives their range");
-  check_keys(points_);
+  check_varied_keys(points_);
   sweep::refuse_doubles(points_.keys(), "the key");
   constexpr std::uint64_t kMostRows = 1000000000000;
   if (points_.draws > kMostRows / points_.count())

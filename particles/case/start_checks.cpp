@@ -1,6 +1,6 @@
 // Checks the state at the start of a case of many particles, and what a fluid needs of it
 // (particles_sections.hpp). Lengths are in the unit of the case. Messages must name the line of the
-// CSV file, because it can be long.
+// CSV file, because the file can be long.
 #include <algorithm>
 #include <array>
 #include <variant>
@@ -13,8 +13,6 @@
 namespace viscontact::particles {
 namespace {
 
-using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
-using particles::operator+;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 /// Smallest gap that the fitted mesh resolves, divided by the radius of the smaller particle.
 constexpr double kLeastGapOfMesh = 1e-3;
@@ -124,7 +122,7 @@ void check_radii_and_distances(const ParticlesCase& c, const ParticleNames& name
                                     names(k), farthest));
 }
 
-/// Says what is wrong with the place of a particle in the domain, or nothing.
+/// Says what is wrong with the place of a particle in the domain: a part of a sentence, or nothing.
 struct PlaceInDomain {
   Vector x;
   double radius;
@@ -155,8 +153,9 @@ struct PlaceInDomain {
 void check_domain(const ParticlesCase& c, const ParticleNames& names) {
   const auto& p = c.particles;
   const auto periods = periods_of(c.setting.domain);
-  // The gap to an image never changes. Therefore it must be at least the threshold gap in a fluid,
-  // and wide enough for a mesh; without a fluid the neighbour list needs a little room in it.
+  // The gap to an image of the particle itself never changes. Therefore it must be at least the
+  // threshold gap in a fluid, and wide enough for a mesh. Without a fluid it must leave room for
+  // the skin of the neighbour list.
   constexpr double kLeastGapInRadii = 0.01;
   for (std::size_t k = 0; k < p.count(); ++k) {
     const auto wrong = std::visit(PlaceInDomain{p.position(k), p.radii[k]}, c.setting.domain);
@@ -193,7 +192,8 @@ bool has_only_open_sides(const ParticlesCase& c) {
   return any_open;
 }
 
-/// True if the body is an obstacle or a particle whose motion is given, which no impulse moves.
+/// True for an obstacle (`body` < 0) and for a particle whose motion is given, which no impulse
+/// moves.
 bool is_driven(const ParticlesCase& c, std::int32_t body) {
   return body < 0 || c.setting.given_motions.contains(body);
 }
@@ -275,7 +275,8 @@ void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) 
   }
 }
 
-/// A mean flow deforms the lattice of images, but the cell of this version keeps its shape.
+/// Throws an error for a mean flow in a run of more than one step: the flow deforms the lattice of
+/// images, but the cell of this version keeps its shape.
 void check_mean_flow(const case_file::TomlSection& root, const ParticlesCase& c) {
   const auto* box = std::get_if<BoxDomain>(&c.setting.domain);
   const auto* flow = std::get_if<LinearFlow>(&c.setting.fluid->boundary);
@@ -296,7 +297,8 @@ void check_mean_flow(const case_file::TomlSection& root, const ParticlesCase& c)
                c.end_time, c.setting.time_step);
 }
 
-/// An arrangement must be accepted or refused whatever its seed.
+/// Checks an arrangement in a fluid by its smallest gap that is asked for, and not by the gaps of
+/// its discs, so that it is accepted or refused whatever its seed is.
 void check_arrangement(const case_file::TomlSection& root, const ParticlesCase& c) {
   if (!c.arrangement) return;
   const auto& fluid = *c.setting.fluid;
@@ -347,7 +349,7 @@ void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGa
 /// Largest limit up to `asked` [L] for which gaps_at_start() can find all gaps.
 double limit_within_periods(const ParticlesCase& c, double asked) {
   const double diameter = 2 * std::ranges::max(c.particles.radii);
-  // A little less, because close_pairs_in_period() needs sums of extents below the period.
+  // close_pairs_in_period() needs sums of extents below the period; the factor leaves a margin.
   constexpr double kLess = 0.999;
   for (const double period : periods_of(c.setting.domain))
     if (period > 0) asked = std::min(asked, kLess * (period - diameter));

@@ -1,4 +1,5 @@
-// Reads vectors and piecewise constant vectors (vector_values.hpp). Units are those of the case.
+// Reads vectors and piecewise constant vectors (vector_values.hpp). Vectors have the unit that the
+// key says; times [T] are in the unit of the case.
 #include "viscontact/particles/case/vector_values.hpp"
 
 #include <fmt/format.h>

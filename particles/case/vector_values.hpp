@@ -11,16 +11,17 @@
 
 namespace viscontact::particles {
 
-/// Squares and cubes of numbers within this bound, and of their inverses, are finite and not 0.
+/// Bound of the magnitude of all numbers. Squares and cubes of numbers within it, and of their
+/// inverses, are finite and not 0 in double precision (largest 1.8e308).
 inline constexpr double kLargestNumber = 1e100;
 /// A number whose magnitude is within the bound.
 inline constexpr Allowed kModerate = {[](double v) { return std::abs(v) <= kLargestNumber; },
                                       "at most 1e100 in magnitude"};
-/// A number > 0 that is within the bound, and its inverse, too.
+/// A number > 0 for which the number and its inverse are within the bound.
 inline constexpr Allowed kModeratelyPositive = {
     [](double v) { return v >= 1 / kLargestNumber && v <= kLargestNumber; },
     "from 1e-100 to 1e100"};
-/// The same, or 0.
+/// 0, or a number that kModeratelyPositive allows.
 inline constexpr Allowed kModeratelyPositiveOr0 = {
     [](double v) { return v == 0 || (v >= 1 / kLargestNumber && v <= kLargestNumber); },
     "0, or from 1e-100 to 1e100"};
@@ -36,9 +37,11 @@ void read_vector(const case_file::TomlSection& section, std::string_view key, Ve
 case_file::KeyValue vector(Vector& place, const int& dimension);
 /// A constant vector, or pieces { until, value } that must last until `end_time` [T].
 case_file::KeyValue pieces(PiecewiseConstant& place, const int& dimension, const double& end_time);
-/// What turns: for discs a number, which becomes component 2, for spheres a vector.
+/// A torque or an angular velocity: for discs a number, which becomes component 2, for spheres a
+/// vector.
 case_file::KeyValue turn(Vector& place, const int& dimension);
-/// The same, or pieces of it.
+/// A constant torque or angular velocity, or pieces { until, value } that must last until
+/// `end_time` [T].
 case_file::KeyValue pieces_of_turn(PiecewiseConstant& place, const int& dimension,
                                    const double& end_time);
 

@@ -16,9 +16,6 @@
 namespace viscontact::particles {
 namespace {
 
-using particles::operator+;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
-using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
-using particles::operator*;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 /// Calls visit(k, place) for each drawn particle k and for those of its images that may be seen.
 template <class Visit>

@@ -1,4 +1,6 @@
 // One frame of a motion as SVG: particles, planes and contacts in a panel of the still picture.
+// Lengths [L] are in the unit of the case. particles_picture.cpp calls it; the scripts in
+// report/particles/page draw the same, and a change must keep both alike.
 #pragma once
 
 #include <algorithm>
@@ -27,13 +29,14 @@ Projection view_of(int dimension);
 
 /// Settings that all panels of a picture share.
 struct PanelSettings {
-  const Scene& scene;
-  Projection view;
-  double width = 0, height = 0;  ///< size of a panel in page units
-  std::size_t every = 1;         ///< one particle in `every` is drawn
+  const Scene& scene;            ///< the motion and what is seen of it
+  Projection view;               ///< from points of the motion to the panel
+  double width = 0, height = 0;  ///< size of a panel in page units, > 0
+  std::size_t every = 1;         ///< one particle in `every` is drawn, >= 1; 1: all
 };
 
-inline constexpr int kContactColours = 20;  ///< for gamma < 0
+/// Number of colours of contacts with gamma < 0.
+inline constexpr int kContactColours = 20;
 
 /// The elements of a panel that shows the frame. `behind` is drawn behind everything else. Across
 /// the sides of a period, the images of particles and contacts are drawn, of which the panel shows

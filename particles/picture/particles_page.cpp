@@ -26,7 +26,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// The size of so many bytes in base64.
+/// The number of characters that `bytes` bytes have in base64.
 constexpr std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
 
 using Bytes = std::vector<unsigned char>;
@@ -102,7 +102,7 @@ struct Contacts {
   Bytes pairs;    ///< int32, int32: as in CurrentContact, by number of the drawn particle
   Bytes images;   ///< int8: CurrentContact::image of each pair
   Bytes offsets;  ///< uint32: begin of each frame in `frames`, then the end
-  Bytes frames;   ///< as said above
+  Bytes frames;   ///< the contacts of the frames, in the form that the comment of Contacts says
 };
 
 using Pair = std::array<std::int32_t, 3>;  // both particles and the image of the second
@@ -259,7 +259,7 @@ std::string base64(const Bytes& bytes) {
   return text;
 }
 
-constexpr int kScaleColours = 64;          // between which the page interpolates
+constexpr int kScaleColours = 64;          // of a scale; the page interpolates between them
 constexpr double kLevels = 254;            // highest level of a byte
 constexpr unsigned char kNothing = 255;    // level of a point without flow
 constexpr std::uint16_t kNoArrow = 65535;  // place of the arrow of a line without one
@@ -296,7 +296,8 @@ void append_lines(Bytes& bytes, const FlowFrame& frame, const report::Window& wi
   const auto step = [](double share) {
     return static_cast<std::size_t>(std::lround(kLineSteps * std::clamp(share, 0.0, 1.0)));
   };
-  // A line with more points than a 16-bit number can count is left out; so would be many lines.
+  // A line with more points than a 16-bit number can count is left out, and so are lines beyond
+  // that number.
   constexpr std::size_t kMost = 65000;
   const auto is_short = [&](const report::StreamLine& line) { return line.points.size() < kMost; };
   const auto count = static_cast<std::size_t>(std::ranges::count_if(frame.lines, is_short));

@@ -8,11 +8,11 @@
 
 namespace viscontact::particles {
 
-/// One HTML page that loads nothing from elsewhere. Lengths, times and gamma (the unit is that
-/// of Pair::gamma) are in the units of the case. The size of the page is limited to about 24 MB. If
-/// a motion is too long for that, only every 2nd, 4th, ... frame is shown, and always the first and
-/// the last one. If there are too many particles, only every n-th particle is shown. The page says
-/// what it leaves out.
+/// One HTML page that loads nothing from elsewhere. Lengths [L], times [T] and gamma ([M L/T], of
+/// discs in a fluid [M/T]) are in the units of the case. The size of the page is limited to about
+/// 24 MB. If a motion is too long for that, only every 2nd, 4th, ... frame is shown, and always the
+/// first and the last one. If there are too many particles, only every n-th particle is shown. The
+/// page says what it leaves out.
 std::string particles_page(const Playback& original, const std::string& title);
 
 }  // namespace viscontact::particles

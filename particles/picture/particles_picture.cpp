@@ -1,5 +1,6 @@
-// Arranges frames of a motion side by side in an SVG, with the scale of gamma below. Sizes
-// are in units of the page.
+// Arranges frames of a motion side by side in an SVG, with the scale of gamma below
+// (particles_picture.hpp). Sizes are in units of the page, lengths of the motion in those of the
+// case.
 #include "viscontact/particles/picture/particles_picture.hpp"
 
 #include <fmt/format.h>
@@ -122,7 +123,7 @@ void append_path(std::string& path, const report::Polyline& line, const Projecti
   }
 }
 
-/// A head at point `at` of the line, in its direction.
+/// An arrowhead at point number `at` of the line, in the direction of the line.
 std::string arrow_head(const report::Polyline& line, std::size_t at, const Projection& view) {
   constexpr double kLength = 5, kHalfWidth = 2.2;  // [page units]
   const Vector tip = {line[at].first, line[at].second, 0};

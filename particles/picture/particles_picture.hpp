@@ -1,5 +1,5 @@
-// A still picture of a motion of particles; the page of particles/picture/particles_page.hpp plays
-// the motion.
+// A still picture of a motion of particles; the page of report/particles/particles_page.hpp plays
+// the motion. Lengths, masses and times are in the units of the case.
 #pragma once
 
 #include <string>

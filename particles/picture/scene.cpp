@@ -1,5 +1,5 @@
 // Finds the box that is seen, reads the flows in it, and chooses the scales of their colours
-// (scene.hpp).
+// (scene.hpp). Lengths, masses and times are in the units of the case.
 #include "viscontact/particles/picture/scene.hpp"
 
 #include <algorithm>
@@ -13,9 +13,6 @@
 namespace viscontact::particles {
 namespace {
 
-using particles::operator+;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
-using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
-using particles::operator*;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 /// The extent of the particles of a frame along an axis, without the `cut` outermost particles at
 /// either end.
@@ -182,7 +179,8 @@ PlanePosition in_half_plane(const PlanePosition& plane, double side) {
           plane.radius};
 }
 
-/// A motion in the plane that looks like the given one.
+/// The motion as it is drawn: spheres on an axis become discs on the line x = 0 of the plane (x,
+/// z), and the side of their cylinder two lines. Other motions are returned unchanged.
 Playback in_plane(const Playback& playback) {
   if (playback.dimension != 1) return playback;
   auto plane = playback;

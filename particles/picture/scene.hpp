@@ -1,6 +1,6 @@
 // What the still picture and the page show of a motion of particles: its frames in the plane, the
 // part of space that is seen, the flow, and the scales of colours. Lengths, masses and times are in
-// the units of the case.
+// the units of the case. A change of SceneStyle must keep the names, by which the page reads it.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Interval {
   }
 };
 
-/// A box [L].
+/// A box [L], whose sides are parallel to the axes, by two opposite corners.
 struct ViewBox {
   Vector low{}, high{};
 };
@@ -35,34 +35,35 @@ struct ViewBox {
 /// The flow around the particles of a frame, at the points of FlowFrames::grid.
 struct FlowFrame {
   std::size_t frame = 0;  ///< its number in the playback
-  /// [L/T], [M/(L T^2)]; NaN where there is no flow. Single precision is enough for a picture. The
-  /// mean of the pressure over the points outside the particles is 0, because the pressure in a
-  /// closed domain is known up to a constant.
+  /// Speed [L/T] and pressure [M/(L T^2)]; NaN where there is no flow. Single precision is enough
+  /// for a picture. The mean of the pressure over the points outside the particles is 0, because
+  /// the pressure in a closed domain is known up to a constant.
   std::vector<float> speed, pressure;
-  std::vector<report::StreamLine> lines;
+  std::vector<report::StreamLine> lines;  ///< streamlines
 };
 
+/// The flows that are drawn, all on one grid.
 struct FlowFrames {
   /// With an axis, the grid is in the half-plane x >= 0, and the flow has a mirror image.
   report::Grid grid;
-  bool has_axis = false;
+  bool has_axis = false;          ///< whether the flow is symmetric about the line x = 0
   std::vector<FlowFrame> frames;  ///< in order of time; empty: there is no flow to draw
   /// Upper end of the scale of speeds [L/T]: the speed that one in a thousand points outside the
   /// particles exceeds.
   double top_speed = 0;
-  report::PressureColours pressure_colours;
+  report::PressureColours pressure_colours;  ///< scale of the pressure
 };
 
-/// The largest size of the flow in a page, before it is written in base64 [bytes], about: the
-/// points of all flows together, at one byte for the speed and one for the pressure. The
-/// streamlines add about a tenth.
+/// The largest size of the flow in a page, before it is written in base64 [bytes]: two bytes for
+/// each point of all flows, one for the speed and one for the pressure. The streamlines add about a
+/// tenth. In base64 this is half of the 24 MB that a page may have (particles_page.hpp).
 inline constexpr std::size_t kFlowBytesOfPage = 9'000'000;
 
 /// The frames whose flow the page shows: all that have one, or evenly chosen ones if there are
 /// many, and the number of points of the grid of each.
 struct ShownFlows {
-  std::vector<std::size_t> frames;
-  std::size_t points = 0;
+  std::vector<std::size_t> frames;  ///< numbers of the frames in the playback
+  std::size_t points = 0;           ///< for each of them
 };
 ShownFlows shown_flows(const Playback& playback);
 
@@ -73,21 +74,23 @@ struct SceneStyle {
   /// Fill and edge of a disc: outside a fluid, in a fluid, and of a rigid body.
   std::array<Colour, 2> disc{"#a9c3da", "#4f728f"}, disc_in_fluid{"#f1ece0", "#3c3a34"},
       disc_of_body{"#e0cda6", "#8a713b"};
-  /// Of a sphere from its brightest point to its rim, then of its edge; and of a rigid body's.
+  /// Colours of a sphere from its brightest point to its rim, then of its edge; and the same of a
+  /// sphere of a rigid body.
   std::array<Colour, 4> ball{"#e3eef7", "#a3bfd8", "#5b7f9f", "#34536e"},
       ball_of_body{"#f6ead0", "#dcc79c", "#a98d55", "#7a6231"};
   Colour mark = "#4a4a44", spring = "#2b6e3f";
-  /// The dot that shows the angle of a disc: its distance from the centre and its radius, over the
-  /// radius of the disc; the radius of the dots at the axes of a sphere, over that of the sphere.
+  /// The dot that shows the angle of a disc: its distance from the centre and its radius, divided
+  /// by the radius of the disc; the radius of the dots at the axes of a sphere, divided by that of
+  /// the sphere.
   double mark_distance = 0.66, mark_radius = 0.13, axis_radius = 0.12;
-  /// An axis is marked if its component towards the reader is larger; at the rim it is seen from
-  /// the side.
+  /// An axis of a sphere is marked if its component towards the reader is larger than this. A dot
+  /// nearer to the rim would be seen from the side.
   double least_toward = 0.15;
   /// Widths of the lines that join the particles of a body, of arms, and half the width of springs,
-  /// over the smaller radius of both ends.
+  /// divided by the smaller radius of both ends.
   double body_line = 0.18, arm = 0.25, spring_width = 0.35;
   int spring_turns = 12;     ///< corners of the zigzag line of a spring
-  double spring_end = 0.12;  ///< length of its straight ends over the whole length
+  double spring_end = 0.12;  ///< length of each straight end divided by that of the spring
 };
 inline constexpr SceneStyle kStyle;
 

@@ -1,5 +1,5 @@
-// A simulation of many particles, with or without a fluid, as a run sees it. Lengths, masses and
-// times are in the units of the case.
+// One interface to the simulations of many particles with and without a fluid, for runs and sweeps.
+// Lengths, masses and times are in the units of the case.
 #pragma once
 
 #include <memory>
@@ -19,9 +19,10 @@ class ParticleSimulation {
   ParticleSimulation(const Setting& setting, State state, int threads,
                      const StartFluidSolver& start_solver, const StopToken& stop);
 
-  /// See Simulation::step and FluidSimulation::step.
+  /// Computes a step that ends at the time `end` [T] at the latest; see Simulation::step and
+  /// FluidSimulation::step, which say what is thrown.
   StepReport step(double end);
-  const State& state() const;
+  const State& state() const;  ///< after the last step
   /// The particles with their velocities at the present time; see Simulation::reported_particles
   /// and FluidSimulation::reported_particles.
   Particles reported_particles() const {
@@ -33,7 +34,7 @@ class ParticleSimulation {
 
   /// True if there is a fluid. The functions below need one.
   bool has_fluid() const { return in_fluid_ != nullptr; }
-  FluidSimulation& fluid() { return *in_fluid_; }
+  FluidSimulation& fluid() { return *in_fluid_; }  ///< the simulation with a fluid
 
  private:
   std::unique_ptr<Simulation> dry_;

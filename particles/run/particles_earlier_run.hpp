@@ -1,5 +1,6 @@
 // The run that an earlier call of `particles` left in its folder: whether it can be continued, and
-// from which state. A continued run must give the same files as a run that was never interrupted.
+// from which state. Lengths, masses and times are in the units of the case. A continued run must
+// give the same files as a run that was never interrupted.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +16,8 @@ namespace viscontact::particles {
 
 /// An interrupted or finished run: its last state, from which it can continue, and its files.
 struct EarlierRun {
-  State state;
-  StepRecord record;
+  State state;            ///< after its last saved step
+  StepRecord record;      ///< of its steps up to this state
   ParticleFrames frames;  ///< keeps a reference to the provenance given to find_earlier_run
 };
 

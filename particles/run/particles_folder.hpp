@@ -16,11 +16,11 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
     {"particles.pvd", "particles.html", "particles.svg", "final_particles.csv",
      "final_contacts.csv", "steps.csv", "restart.bin", "run.json"});
 
-/// Those that only a run with a fluid has.
+/// The names of further files of a run with a fluid.
 inline constexpr auto kFluidResults =
     std::to_array<const char*>({"motion.csv", "contacts.csv", "flow.pvd"});
 
-/// Those that only a run with rigid bodies, links or restitution has.
+/// The names of further files of a run with rigid bodies, links or restitution.
 inline constexpr auto kLinkResults = std::to_array<const char*>(
     {"bodies.csv", "hinges.csv", "springs.csv", "arms.csv", "links.pvd", "rebounds.csv"});
 

@@ -24,7 +24,7 @@ namespace viscontact::particles {
 struct FrameTimes {
   double first = 0;     ///< time of the first frame [T]
   double interval = 0;  ///< [T], at least a time step
-  double tiny = 0;      ///< times that differ by less count as equal [T]
+  double tiny = 0;      ///< times that differ by less than this count as equal [T], > 0
 
   /// The time of the frame after the one at `time` [T].
   double after(double time) const;
@@ -51,7 +51,7 @@ class ParticleFrames {
   /// `link_force_errors` are those of State::link_forces, empty if they are not known.
   void add(const Setting& setting, const State& state, std::span<const double> link_force_errors);
 
-  /// Adds rows to the table of rebounds, which has at most a million, because they are 80 MB long.
+  /// Adds rows to the table of rebounds. Rows beyond a million, which are about 80 MB, are dropped.
   void add_rebounds(const Particles& particles, std::span<const Rebound> rebounds);
 
   /// True if the flow of the last frame has not been written. The flow around the particles of a

@@ -1,5 +1,6 @@
 // The record of the steps of a simulation of many particles, for steps.csv and run.json
-// (docs/file-formats.md).
+// (docs/file-formats.md). Times [T] are in the unit of the case, computing times in seconds. A
+// change must keep earlier files readable.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@ struct StepTotals {
   std::int64_t last_step = 0;
   /// Number of steps, of steps that did not converge, and of the iterations of all steps.
   std::int64_t steps = 0, unconverged = 0, iterations = 0;
-  int most_iterations = 0;                           ///< of one step
-  double first_time = 0, last_time = 0;              ///< [T]
+  int most_iterations = 0;                           ///< largest number of iterations in one step
+  double first_time = 0, last_time = 0;              ///< at the start and after the last step [T]
   double largest_residual = 0, largest_overlap = 0;  ///< divided by the mean radius
   double largest_impulse_residual = 0;               ///< divided by the impulses at work
   std::int64_t divided = 0;                          ///< steps that were divided into parts
@@ -39,8 +40,7 @@ struct StepTotals {
 struct StepRecord : StepTotals {
   /// `has_fluid`: whether the rows have the columns of a fluid.
   explicit StepRecord(bool has_fluid = false);
-
-  std::string rows;
+  std::string rows;  ///< the header of steps.csv, and the rows so far
 
   /// Adds a step to the sums and, if steps.csv lists it, to the rows. After a million steps, only
   /// every thousandth step and the steps that did not converge are listed.

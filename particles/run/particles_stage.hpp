@@ -1,4 +1,5 @@
-// The command `particles`: simulates many particles from a case and writes the files of the run.
+// The command `particles`: simulates many particles from a case and writes the files of the run, in
+// the units of the case. Sweeps of particles call run_particles(), too.
 #pragma once
 
 #include <filesystem>
@@ -13,10 +14,10 @@ namespace viscontact::particles {
 struct ParticlesRequest {
   /// Paths; `restart` is empty if the run starts from the particles of the case.
   std::string case_file, folder, restart;
-  int threads = 1;
+  int threads = 1;                ///< number of threads, >= 1; results do not depend on it
   StartFluidSolver start_solver;  ///< used if the case has a fluid
   bool json = false;              ///< true: print run.json to standard output
-  StopToken stop{};
+  StopToken stop{};               ///< a stop ends the run after its state is saved
 };
 
 /// Reads the case, simulates, and writes the files of docs/file-formats.md into the folder. If the

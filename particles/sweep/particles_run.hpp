@@ -1,5 +1,5 @@
 // A run of a sweep of particles, in a folder of its own: the case of the row, the run itself and
-// its results. A row that is finished is not computed again.
+// its results, in the units of the case. A row that is finished is not computed again.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,9 @@ std::filesystem::path runs_folder(const std::filesystem::path& output);
 ///     run/          the run: of a finished one only run.json and steps.csv, unless all is kept
 class ParticlesRuns {
  public:
-  /// The sweep must outlive this object. `threads` >= 1 is the number of threads of each run.
-  /// `start_solver` is used if the case has a fluid.
+  /// The sweep must outlive this object. `output` is the file of the rows, `version` that of
+  /// Viscontact. `threads` >= 1 is the number of threads of each run. `keep_all`: all files of
+  /// finished runs are kept.
   ParticlesRuns(const ParticlesSweep& sweep, const std::filesystem::path& output,
                 std::string version, int threads, bool keep_all, StartFluidSolver start_solver);
 
@@ -44,7 +45,7 @@ class ParticlesRuns {
   /// The computing time of the run of row `index` [s]; 0 if it has not ended.
   double seconds(std::uint64_t index) const;
 
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_; }  ///< runs_folder() of the output
 
  private:
   std::filesystem::path folder_of(std::uint64_t index) const;

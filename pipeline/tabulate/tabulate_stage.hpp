@@ -1,5 +1,6 @@
 // The stage tabulate: the tables of one or several cases. This process computes the rows, or each
 // task of a job on a cluster computes a share of them; then gather_stage puts the tables together.
+// Numbers are in the units of each case. A change must keep finished rows: they can take hours.
 #pragma once
 
 #include <filesystem>
@@ -18,10 +19,10 @@ namespace viscontact::pipeline {
 
 /// A case, the file for its table, and how the table is computed.
 struct CaseTable {
-  std::filesystem::path case_path;
-  std::string case_text;  ///< content of the case file
-  std::filesystem::path table;
-  freefem_axi::TablePlan plan;
+  std::filesystem::path case_path;  ///< the case file
+  std::string case_text;            ///< content of the case file
+  std::filesystem::path table;      ///< the file for the table
+  freefem_axi::TablePlan plan;      ///< the rows, and how they are computed, written and read
   /// What the table of forces on one sphere is made from; nothing for a swimmer.
   std::optional<freefem_axi::Tabulation> tabulation;
   /// The motions of the table and of its companion, with their files; none for a swimmer.
@@ -49,8 +50,9 @@ std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<Case
 /// throws it when everything that can be made from the other rows is made.
 using RowFailure = std::optional<Error>;
 
-/// Calls `call`. If rows have failed, an Error that it throws is thrown with the kind and the
-/// message of their failure first, because they may be its cause. kInterrupted is left as it is.
+/// Calls `call`. If `call` throws an Error although rows have failed before, the Error is thrown
+/// with the kind of that failure and its message first, because the failed rows may be the cause.
+/// Error(kInterrupted) is thrown unchanged.
 template <class Call>
 void with_failure(const RowFailure& failure, const Call& call) {
   try {

@@ -1,6 +1,7 @@
 // Interpolates a flow at the points of a grid (flow_grid.hpp). A quadratic triangle is found by the
 // four straight triangles between its six nodes; the value at the point is that of the quadratic
-// shape functions. The numbering of the nodes is that of FlowField.
+// shape functions. The numbering of the nodes is that of FlowField. Lengths, masses and times are
+// in the units of the case.
 #include "viscontact/report/flow/flow_grid.hpp"
 
 #include <algorithm>

@@ -36,7 +36,8 @@ struct Grid {
   }
 };
 
-/// A grid with about `points` points, which are about as far apart along x as along y.
+/// A grid of the window with about `points` points, which are about as far apart along x as along
+/// y.
 Grid grid_of(const Window& window, std::size_t points);
 
 /// Velocity [L/T] and pressure [M/(L T^2)] at the points of a grid, row by row from the bottom,
@@ -48,8 +49,8 @@ struct FlowOnGrid {
 /// How a flow is repeated in the plane.
 struct FlowPeriods {
   std::array<double, 2> lengths{};  ///< periods along x and y [L]; 0 where there is no period
-  /// Mean velocity gradient du/dx, du/dy, dv/dx, dv/dy [1/T]: a repeated flow is faster by the
-  /// gradient times its shift.
+  /// Mean velocity gradient du/dx, du/dy, dv/dx, dv/dy [1/T]: the velocity of a repeated flow
+  /// differs by the gradient times the period.
   std::array<double, 4> gradient{};
 };
 
@@ -57,7 +58,7 @@ struct FlowPeriods {
 /// `periods`, so that its triangles need not lie in the grid (docs/fluid-solver.md).
 FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPeriods& periods = {});
 
-/// Interpolates a field with these values at the nodes in the same way.
+/// Interpolates a field with these values at the nodes, as flow_on_grid() does without periods.
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
                                   const Grid& grid);
 

@@ -1,4 +1,6 @@
-// Reads the sections of a case of a rolling sphere, and applies the defaults.
+// Reads the sections of a case of a rolling sphere, and applies the defaults. Lengths, masses and
+// times are in the units of the case. A change must keep the keys and their defaults, because users
+// have written cases with them.
 #include "viscontact/rolling/case/rolling_case.hpp"
 
 #include <algorithm>
@@ -15,8 +17,8 @@ namespace {
 
 using lubrication::MotionKind;
 
-/// What is read before it becomes a motion and a case: a force as two components, or the weight
-/// less the buoyancy and the angle of the plane, which falls towards +x.
+/// What is read before it becomes the force of the motion: two components of a force [M L/T^2], or
+/// the weight less the buoyancy [M L/T^2] and the angle of the plane, which falls towards +x.
 struct WeightKeys {
   std::vector<double> force;
   double weight = 0, incline = 0;

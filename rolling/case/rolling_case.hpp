@@ -1,6 +1,7 @@
 // The case of a sphere that moves along a plane and turns (TOML, docs/case-file.md). Lengths,
-// masses and times are in any one consistent system of units. Keys are
-// declared in rolling_case.cpp (keys.hpp).
+// masses and times are in any one consistent system of units. Keys are declared in rolling_case.cpp
+// (keys.hpp). The stage of a rolling sphere and its sweeps read it. A change must keep accepting
+// the cases that users have written.
 #pragma once
 
 #include <filesystem>
@@ -24,9 +25,10 @@ struct RollingCase {
   /// The motion that the models compute.
   RollingMotion motion;
   std::vector<std::string> models;  ///< names of rolling_models()
-  /// Exactly one of these: the tables that are made, or the fit of a pair that is there.
+  // Exactly one of the next two exists.
+  /// The tables of the pair to be made, which are then fitted.
   std::optional<freefem_axi::Tabulation> tabulation;
-  /// File of the fit of a pair; nothing if the tables are made.
+  /// File with a fit of the pair that was made before.
   std::optional<std::filesystem::path> fit;
   /// What the section [sweep] asks for; nothing if the case has no such section.
   std::optional<case_file::SweepRequest> sweep;
@@ -38,9 +40,9 @@ struct RollingCase {
 /// value and what is allowed.
 RollingCase read_rolling_case(const std::filesystem::path& path);
 
-/// The fit for the viscosity of the case. `file`, from which it was read, is named in messages.
-/// Throws Error(kBadInput) if the fit is that of another radius, or not that of a sphere above a
-/// plane.
+/// `fit`, converted to the viscosity of the case. `file`, from which it was read, is named in
+/// messages. Throws Error(kBadInput) if the fit is that of another radius, or not that of a sphere
+/// above a plane.
 motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
                          const std::filesystem::path& file);
 

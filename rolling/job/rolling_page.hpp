@@ -1,4 +1,5 @@
 // The report of a sphere that moves along a plane and turns: a page with pictures and tables.
+// Lengths, masses and times are in the units of the case.
 #pragma once
 
 #include <filesystem>
@@ -14,17 +15,17 @@
 
 namespace viscontact::rolling {
 
-/// What a run has computed. Units are those of the case.
+/// What a run has computed.
 struct RollingResults {
-  RollingCase c;
-  motions::PairFit fit;
+  RollingCase c;         ///< the case
+  motions::PairFit fit;  ///< the fit for its viscosity
   /// Name of the model, and its trajectory.
   std::vector<std::pair<std::string, RollingTrajectory>> trajectories;
-  std::vector<results::FailedModel> failed;
+  std::vector<results::FailedModel> failed;  ///< models without a trajectory
 };
 
-/// A sentence for each model that gets below the smallest gap of the fit, where the formula of the
-/// fit is continued.
+/// A sentence for each model whose gap gets below the smallest gap of the fit, where the formula of
+/// the fit is continued although no row of a table supports it.
 std::vector<std::string> rolling_warnings(const RollingResults& results);
 
 /// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not

@@ -1,5 +1,6 @@
-// Strings the stages of a rolling sphere together (rolling_stage.hpp). The keys of rolling.json and
-// the columns of the trajectories are in docs/file-formats.md.
+// Runs the stages of a rolling sphere one after the other (rolling_stage.hpp). Numbers are in the
+// units of the case. The keys of rolling.json and the columns of the trajectories are in
+// docs/file-formats.md.
 #include "viscontact/rolling/job/rolling_stage.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,6 @@
 // The command `rolling`: tables, fit, trajectories and report of a sphere that moves along a plane.
+// Results are in the units of the case. A change must keep the names of the files, keys and
+// columns, which scripts of users read.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +10,12 @@
 
 namespace viscontact::rolling {
 
+/// The options of the command `rolling`.
 struct RollingRequest {
-  std::string case_file, folder;  ///< paths
-  int jobs = 1;                   ///< FreeFEM processes at once
+  std::string case_file, folder;  ///< path of the case, and of the folder for the results
+  int jobs = 1;                   ///< FreeFEM processes at once, >= 1
   bool json = false;              ///< true: print rolling.json to standard output
-  StopToken stop{};
+  StopToken stop{};               ///< a stop throws Error(kInterrupted); finished files are kept
 };
 
 /// Writes the tables (tables/MOTION.csv) and their fit (fit.json) unless the case names a fit, then

@@ -20,7 +20,8 @@ void read_radii(const case_file::TomlSection& section, std::string_view key,
   section.require(radii.size() >= kFewestSpheres && radii.size() <= kMostSpheres, key,
                   "has {} numbers; it must have {} to {}", radii.size(), kFewestSpheres,
                   kMostSpheres);
-  // With a larger ratio the mesh around the small sphere would be too fine for FreeFEM's indices.
+  // With a larger ratio the mesh around the small sphere would have more elements than FreeFEM can
+  // number.
   constexpr double kLargestRatio = 100;
   const auto [smallest, largest] = std::ranges::minmax(radii);
   section.require(largest <= kLargestRatio * smallest, key,
@@ -54,7 +55,7 @@ std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
                   "is {}; it must be greater than {}, the sum of the radii of spheres {} and {}, "
                   "which touch there",
                   from, both_radii, k + 1, k + 2);
-  constexpr double kLeastGap = 1e-6;  // over the smaller radius; as far as tests go
+  constexpr double kLeastGap = 1e-6;  // divided by the smaller radius; the tests go down to it
   const double least = kLeastGap * std::min(radii[k], radii[k + 1]);
   section.require(
       from - both_radii >= least, "from",
@@ -62,7 +63,7 @@ std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
       "must be at least {}",
       from, from - both_radii, kLeastGap, both_radii + least);
   section.require(to > from, "to", "is {}; it must be greater than from, {}", to, from);
-  constexpr double kLargestArm = 1e4;  // over both radii
+  constexpr double kLargestArm = 1e4;  // divided by the sum of both radii
   section.require(to <= kLargestArm * both_radii, "to",
                   "is {}; it must be at most {} times the sum of both radii, {}", to, kLargestArm,
                   kLargestArm * both_radii);
@@ -114,7 +115,7 @@ void read_tube(const case_file::TomlSection& section, std::string_view key, Swim
   auto& tube = c.spheres.tube.emplace();
   case_file::read_keys(table, tube_keys, tube);
   const auto& radii = c.spheres.radii;
-  constexpr double kNarrowest = 1.01, kWidest = 1e3;  // over the largest radius
+  constexpr double kNarrowest = 1.01, kWidest = 1e3;  // divided by the largest radius
   const double largest = std::ranges::max(radii);
   table.require(tube.radius >= kNarrowest * largest && tube.radius <= kWidest * largest, "radius",
                 "is {}; it must be {} to {} times the largest radius of the spheres, {}, or the "
@@ -241,7 +242,8 @@ void read_corners(const case_file::TomlSection& section, std::string_view key, d
   c.stroke = polygon_stroke(corners, period);
 }
 
-/// Arms centre + semi_axes cos(t + phases), t from 0 to 2 pi.
+/// The loop of the arms centre + semi_axes cos(t + phases), with t from 0 to 2 pi; one number for
+/// each arm, [L] but for the phases [rad].
 struct Ellipse {
   Eigen::VectorXd centre, semi_axes, phases;
 };

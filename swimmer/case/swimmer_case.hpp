@@ -1,6 +1,7 @@
 // The case of a swimmer (TOML, docs/case-file.md): spheres on a line, the table of their resistance
 // matrices, and the strokes that are computed with it. Lengths, masses and times are in any one
-// consistent system of units. Keys are declared in swimmer_case.cpp (keys.hpp).
+// consistent system of units. Keys are declared in swimmer_case.cpp (keys.hpp). The stage of a
+// swimmer and its sweeps read it. A change must keep accepting the cases that users have written.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,12 +23,11 @@ struct SwimmerCase {
   std::string title;  ///< a title for pages; may be empty
   /// The spheres, and the fluid and container for which their resistances are tabulated.
   CollinearSpheres spheres;
-  /// The gaps of the table between each two neighbours [L], rising.
+  /// For each arm, the gaps of the table between its two spheres [L], > 0, rising.
   std::vector<std::vector<double>> gaps;
-  // Each of these exists only if the file has its section.
-  /// The stroke that the swimmer makes; nothing without its section.
+  /// The stroke that the swimmer makes; nothing if the file has no section [stroke].
   std::optional<Stroke> stroke;
-  /// What the optimal stroke must achieve; nothing without its section.
+  /// What the optimal stroke must achieve; nothing if the file has no section [optimal].
   std::optional<OptimalStrokeRequest> optimal;
   double optimal_period = 1;                        ///< of the optimal stroke [T], > 0
   std::string text;                                 ///< content of the file

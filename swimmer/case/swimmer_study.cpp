@@ -1,4 +1,5 @@
-// Computes the strokes of a sweep (swimmer_study.hpp).
+// Computes the strokes of a sweep (swimmer_study.hpp). Lengths, masses and times are in the units
+// of the case. A change must keep the names of the columns, which scripts of users read.
 #include "viscontact/swimmer/case/swimmer_study.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ void check_swimmer_key(const std::string& key) {
 
 sweep::RowResults swim_strokes(const SwimmerCase& c, ResistanceFit fit, const StopToken& stop) {
   sweep::RowResults results;
-  fit.viscosity = c.spheres.viscosity;  // R is proportional to it
+  fit.viscosity = c.spheres.viscosity;  // the resistances of the fit are proportional to it
   const Swimmer swimmer(fit);
   if (c.stroke)
     sweep::add_part(results, [&] { add_sums("", swim_sums(swimmer, *c.stroke), results); });

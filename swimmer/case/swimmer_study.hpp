@@ -12,9 +12,9 @@
 namespace viscontact::swimmer {
 
 /// The study of the case at `case_path`. Its results are displacement [L], energy [M L^2/T^2],
-/// energy_at_constant_power and efficiency if the case has [stroke], and the same with the prefix
-/// "optimal." if it has [optimal]. Each point uses `fit` with its own viscosity. `version` is that
-/// of Viscontact.
+/// energy_at_constant_power [M L^2/T^2] and efficiency [1] if the case has [stroke], and the same
+/// with the prefix "optimal." if it has [optimal]. Each point uses `fit` with its own viscosity.
+/// `version` is that of Viscontact.
 ///
 /// Reads the case. Throws Error(kBadInput) if the first or the last point gives no valid case, or
 /// if the radii of the case are not those of the fit. Throws Error(kWrongUsage) if nothing is

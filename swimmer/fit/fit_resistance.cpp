@@ -1,4 +1,6 @@
-// Takes the lubrication out of each matrix, and the logarithm of the rest (fit_resistance.hpp).
+// Subtracts the lubrication from each resistance matrix R, and takes the logarithm S of the rest:
+// R = mu (R_lub + l exp S), with the viscosity mu and the largest radius l (resistance_fit.hpp).
+// Lengths, masses and times are in the units of the table.
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 
 #include <fmt/format.h>
@@ -58,7 +60,7 @@ std::vector<ResistanceRow> sorted_rows(const ResistanceTable& table,
   return sorted;
 }
 
-/// The logarithm of R/(mu l) - L/l. Nothing if this is not positive definite.
+/// S, the logarithm of R/(mu l) - R_lub/l. Nothing if this matrix is not positive definite.
 std::optional<MatrixXd> logarithm_of(const ResistanceRow& row, const ResistanceTable& table,
                                      int terms) {
   const double unit_length = std::ranges::max(table.radii);
@@ -82,7 +84,7 @@ MatrixXd matrix_from(const MatrixXd& logarithm, const std::vector<double>& gaps,
                   .eval());
 }
 
-/// What the relative error of R_ij refers to (ResistanceRow::relative_error_estimates).
+/// The value to which the relative error of R_ij refers (ResistanceRow::relative_error_estimates).
 double entry_scale(const MatrixXd& matrix, Index i, Index j) {
   constexpr double kLeastShare = 1e-3;
   return std::max(std::abs(matrix(i, j)), kLeastShare * std::sqrt(matrix(i, i) * matrix(j, j)));
@@ -97,7 +99,7 @@ double relative_difference(const MatrixXd& fitted, const MatrixXd& exact) {
   return largest;
 }
 
-/// Adds its error estimate to each entry, with a random sign.
+/// Adds to each entry of the matrices its error estimate with a random sign.
 void change_by_estimates(ResistanceRow& row, SplitMix64& random) {
   const std::size_t spheres = row.gaps.size() + 1;
   const MatrixXd matrix = matrix_of(row, spheres);
@@ -110,7 +112,8 @@ void change_by_estimates(ResistanceRow& row, SplitMix64& random) {
     }
 }
 
-/// Barycentric weights of the nodes 1/(gap + a + b).
+/// Barycentric weights of the nodes 1/(gap + a + b), where a and b are the radii of the two
+/// spheres.
 Eigen::VectorXd weights_of(const ResistanceFit& fit, std::size_t k) {
   Eigen::VectorXd inverse(static_cast<Index>(fit.gaps[k].size()));
   for (std::size_t i = 0; i < fit.gaps[k].size(); ++i)
@@ -141,8 +144,8 @@ MatrixXd weighted_sum(const ResistanceFit& fit, const Eigen::VectorXd& weights,
   return sum;
 }
 
-/// Sets the residual and the left-one-out errors. The polynomial through the nodes of a line other
-/// than i has at i the value S_i - sum_j w_j S_j / w_i.
+/// Sets the residual and the leave-one-out errors. The polynomial through all nodes of a line but i
+/// has at node i the value S_i - sum_j w_j S_j / w_i, with the barycentric weights w.
 void measure_errors(ResistanceFit& fit, const ResistanceTable& table,
                     const std::vector<ResistanceRow>& rows) {
   const std::size_t spheres = fit.radii.size();
@@ -173,7 +176,8 @@ void measure_errors(ResistanceFit& fit, const ResistanceTable& table,
   fit.rms_left_one_out_error = std::sqrt(squares / static_cast<double>(count));
 }
 
-/// The fit with so many terms, without its errors. Nothing if the rest is not positive definite.
+/// The fit with `terms` terms of lubrication, without its errors. Nothing if a matrix minus its
+/// lubrication is not positive definite.
 std::optional<ResistanceFit> fit_with(const ResistanceTable& table, int terms,
                                       const std::vector<ResistanceRow>& rows) {
   ResistanceFit fit;
@@ -208,8 +212,8 @@ ResistanceFit fit_resistance(const ResistanceTable& table) {
 
 PerturbedFits perturbed_fits(const ResistanceTable& table, const ResistanceFit& fit) {
   PerturbedFits perturbed;
-  // S - w (w.S)/(w.w) is the least-squares polynomial whose degree is one less, because w is
-  // orthogonal to all of these on the nodes.
+  // With the barycentric weights w, S - w (w.S)/(w.w) is the least-squares polynomial whose degree
+  // is one less, because on the nodes w is orthogonal to all polynomials of that degree.
   for (std::size_t k = 0; k < fit.gaps.size(); ++k) {
     const auto weights = weights_of(fit, k);
     auto lower = fit;
@@ -220,7 +224,7 @@ PerturbedFits perturbed_fits(const ResistanceTable& table, const ResistanceFit& 
     });
     perturbed.lower_degrees.push_back(std::move(lower));
   }
-  // 16 draws give the root mean square of a result's change within a fifth or so.
+  // 16 draws give the root mean square of a result's change to about a fifth (1/sqrt(32)).
   constexpr std::uint64_t kDraws = 16;
   const auto rows = sorted_rows(table, fit.gaps);
   for (std::uint64_t draw = 0; draw < kDraws; ++draw) {

@@ -24,8 +24,8 @@ constexpr auto kPictureNames = std::to_array<std::string_view>(
 
 using Points = std::vector<std::pair<double, double>>;
 
-// Places of the curves of the page in kCurveColours: the two strokes, the arms, the spheres, and
-// what belongs to none of them. There is one arm less than spheres.
+// Places of the curves of the page in kCurveColours: the two strokes, then the arms, of which there
+// is one less than spheres, the spheres, and other curves.
 constexpr std::size_t kStroke = 0, kOptimalStroke = 1, kFirstArm = 2;
 std::size_t first_sphere(const SwimmerResults& results) {
   return kFirstArm + results.c.spheres.radii.size() - 1;
@@ -111,8 +111,8 @@ report::Plot plot_of_components(const SwimmerResults& results, const std::string
   return plot;
 }
 
-/// What the energies with fewer polynomials exceed the last one by, and Euler and Lagrange's
-/// residuals. `place` is the place of the first curve's colour.
+/// By how much the energy with fewer polynomials exceeds that with most of them, and the residuals
+/// of Euler and Lagrange's equation. `place` is the place of the first curve's colour.
 report::Plot plot_convergence(const std::vector<OptimalStrokeStep>& steps, std::size_t place) {
   report::PlotPanel panel{"Convergence of the optimal stroke",
                           {"polynomials for each arm"},

@@ -19,10 +19,10 @@ namespace viscontact::swimmer {
 
 /// A stroke and what it does.
 struct StrokeResult {
-  double period = 0;  ///< [T]
-  SwimSums sums;
-  SwimErrors errors;
-  std::vector<SwimRow> rows;
+  double period = 0;          ///< [T], > 0
+  SwimSums sums;              ///< displacement, energy and efficiency of a period
+  SwimErrors errors;          ///< estimates of their errors
+  std::vector<SwimRow> rows;  ///< over one period, in order of time
 };
 
 /// What a run of a swimmer has computed.
@@ -30,12 +30,13 @@ struct SwimmerResults {
   SwimmerCase c;
   ResistanceTable table;
   ResistanceFit fit;
-  std::optional<StrokeResult> stroke;   ///< of the case's section [stroke]
-  std::optional<StrokeResult> optimal;  ///< of the case's section [optimal]
+  std::optional<StrokeResult> stroke;   ///< of the section [stroke]; nothing if there is none
+  std::optional<StrokeResult> optimal;  ///< of the section [optimal]; nothing if there is none
   /// How the search for the optimal stroke converged, with the energies of the case's period; empty
   /// without an optimal stroke.
   std::vector<OptimalStrokeStep> convergence;
-  double energy_per_displacement = 0;  ///< derivative of the least energy [M L/T^2]
+  /// Derivative of the least energy by the displacement [M L/T^2]; 0 without an optimal stroke.
+  double energy_per_displacement = 0;
 };
 
 /// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not

@@ -1,5 +1,5 @@
-// Strings the stages of a swimmer together (swimmer_stage.hpp). The keys of swimmer.json and the
-// columns of stroke.csv are in docs/file-formats.md.
+// Runs the stages of a swimmer one after the other (swimmer_stage.hpp). Numbers are in the units of
+// the case. The keys of swimmer.json and the columns of stroke.csv are in docs/file-formats.md.
 #include "viscontact/swimmer/job/swimmer_stage.hpp"
 
 #include <fmt/format.h>
@@ -131,7 +131,7 @@ void compute_strokes(SwimmerResults& results, const StopToken& stop) {
   terminal::show_progress("swimmer: searching for the optimal stroke");
   results.optimal = with_place(place + ": [optimal]", [&] {
     const auto search = find_optimal_stroke(Swimmer(results.fit), *results.c.optimal, stop);
-    // The results of the search are those of a period of 1.
+    // The search has the period 1. With another period an energy is divided by the period.
     const double period = results.c.optimal_period;
     results.energy_per_displacement = search.multiplier / period;
     results.convergence = search.convergence;
@@ -150,7 +150,7 @@ void write_stroke(const fs::path& path, const std::optional<StrokeResult>& strok
     remove_file(path);
 }
 
-/// Reads what json_of and stroke_csv wrote, of a swimmer with so many spheres.
+/// Reads what json_of and stroke_csv wrote for a swimmer with this number of spheres.
 StrokeResult read_stroke(const Json& json, const fs::path& path, std::size_t spheres) {
   StrokeResult stroke{json.at("period"),
                       {json.at("displacement"), json.at("energy"),

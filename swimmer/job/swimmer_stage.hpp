@@ -1,4 +1,6 @@
-// The command `swimmer`: table, fit, strokes and report of a swimmer.
+// The command `swimmer`: table, fit, strokes and report of a swimmer. Results are in the units of
+// the case. A change must keep the names of the files, keys and columns, which scripts of users
+// read.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +17,10 @@ pipeline::CaseTable case_table(const SwimmerCase& c, const std::filesystem::path
 
 /// The options of the command `swimmer`.
 struct SwimmerRequest {
-  std::string case_file, folder;  ///< paths
-  int jobs = 1;                   ///< FreeFEM processes at once
+  std::string case_file, folder;  ///< path of the case, and of the folder for the results
+  int jobs = 1;                   ///< FreeFEM processes at once, >= 1
   bool json = false;              ///< true: print swimmer.json to standard output
-  StopToken stop{};
+  StopToken stop{};               ///< a stop throws Error(kInterrupted); finished files are kept
 };
 
 /// Writes table.csv, fit.json, stroke.csv, optimal_stroke.csv, swimmer.json and the report into the

@@ -1,4 +1,5 @@
-// The distances of two spheres at which a fit of their resistance needs values.
+// The distances of two spheres at which a fit of their resistance (resistance_fit.hpp) needs
+// values. The case of a swimmer tabulates these; other distances make another table and fit.
 #pragma once
 
 #include <cmath>
@@ -7,8 +8,8 @@
 
 namespace viscontact::swimmer {
 
-/// `count` >= 2 rising distances of centres from `from` to `to` [L], 0 < from < to: the extrema of a
-/// Chebyshev polynomial in 1/distance, at which polynomials in 1/distance interpolate well
+/// `count` >= 2 rising distances of centres from `from` to `to` [L], 0 < from < to: the extrema of
+/// a Chebyshev polynomial in 1/distance, at which polynomials in 1/distance interpolate well
 /// (ResistanceFit). Both ends are among them.
 inline std::vector<double> chebyshev_arms(double from, double to, int count) {
   std::vector<double> arms;

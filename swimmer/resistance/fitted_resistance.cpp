@@ -1,4 +1,5 @@
-// Evaluates R = mu (L + l exp(S)) and its derivatives (resistance_fit.hpp).
+// Evaluates R = mu (R_lub + l exp(S)) and its derivatives (resistance_fit.hpp). Lengths, masses and
+// times are in the units of the fit.
 #include "viscontact/swimmer/resistance/fitted_resistance.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +46,7 @@ Eigen::MatrixXd symmetric_matrix(const Eigen::VectorXd& entries, Eigen::Index sp
   return matrix;
 }
 
-/// (exp a - exp b)/(a - b), and exp a for a = b.
+/// The divided difference (exp a - exp b)/(a - b) of exp, which is exp a for a = b.
 double divided_difference_of_exp(double a, double b) {
   const double half = (a - b) / 2;
   const double ratio = std::abs(half) < 1e-4 ? 1 + half * half / 6 : std::sinh(half) / half;
@@ -86,8 +87,9 @@ ResistanceWithSlopes FittedResistance::operator()(std::span<const double> gaps) 
     inverse[k] = 1 / (gaps[k] + radii_[k] + radii_[k + 1]);
   const Eigen::MatrixXd logarithm = logarithm_(inverse);
 
-  // With S = Q diag(s) Q', the derivative of exp(S) is Q (F o (Q' S' Q)) Q', F_ij the divided
-  // difference of exp at s_i and s_j (Daleckii & Krein 1965).
+  // Let S = Q diag(s) Q^T, and dS its derivative by a gap. The derivative of exp(S) is
+  // Q (F o (Q^T dS Q)) Q^T, where o multiplies entry by entry and F_ij is the divided difference of
+  // exp at s_i and s_j (Daleckii & Krein 1965).
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
       symmetric_matrix(logarithm.col(0), spheres));
   const auto& s = eigen.eigenvalues();
@@ -104,7 +106,7 @@ ResistanceWithSlopes FittedResistance::operator()(std::span<const double> gaps) 
        unit_length_ * (q * s.array().exp().matrix().asDiagonal() * q.transpose()).eval());
   for (std::size_t k = 0; k < gaps.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k) + 1;
-    // d/dgap = -t^2 d/dt
+    // The polynomials are in t = 1/(distance of centres), so that d/dgap = -t^2 d/dt.
     const Eigen::MatrixXd slope =
         -inverse[k] * inverse[k] * symmetric_matrix(logarithm.col(column), spheres);
     Eigen::MatrixXd matrix =

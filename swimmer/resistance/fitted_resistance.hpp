@@ -1,5 +1,7 @@
-// The resistance matrix of spheres on a line at any gaps, from a fit. Lengths, masses and times are
-// in the units of the fit.
+// The resistance matrix R of spheres on a line at any gaps between them, from a fit
+// (resistance_fit.hpp), for the mechanics of the swimmer. Lengths, masses and times are in the
+// units of the fit. A change must keep R symmetric and positive definite, and slopes its
+// derivatives.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,7 +35,7 @@ class FittedResistance {
   /// True if each gap is within its interval, up to a relative 1e-12 for rounding.
   bool contains(std::span<const double> gaps) const;
 
-  /// R at these gaps [L], which the fit must contain; otherwise throws Error(kBadInput).
+  /// R at these gaps [L], one less than the spheres. Throws Error(kBadInput) unless contains(gaps).
   ResistanceWithSlopes operator()(std::span<const double> gaps) const;
 
  private:

@@ -1,6 +1,7 @@
 // A fit of the resistance matrix of spheres on a line as a function of the gaps between them
-// (physics.md, section 7). Lengths, masses and times are in the units of the table. A change must
-// keep the keys of the file, which other programs may read.
+// (physics.md, section 7). Lengths, masses and times are in the units of the table.
+// fitting/fit_resistance.hpp makes it, and fitted_resistance.hpp evaluates it. A change must keep
+// the keys of the file, which other programs may read.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,26 +14,29 @@
 
 namespace viscontact::swimmer {
 
-/// R = mu (L + l exp(S)), where l is the largest radius. L is the lubrication between neighbours
-/// (pair_lubrication.hpp): singular, positive semidefinite and known. S is symmetric, and each of its
-/// entries is a polynomial in t_k = 1/(gap_k + a_k + a_{k+1}), the inverse distance of centres. So R
-/// is symmetric and positive definite for whatever polynomials.
+/// R = mu (R_lub + l exp(S)), physics.md (7.2), with the viscosity mu and the largest radius l.
+/// R_lub [L] is the lubrication between neighbours (pair_lubrication.hpp), which is known: singular
+/// at contact and positive semidefinite. S [1] is symmetric, and each of its entries is a
+/// polynomial in t_k = 1/(gap_k + a_k + a_{k+1}), the inverse distance of the centres of spheres k
+/// and k + 1 with radii a_k and a_{k+1}. Therefore R is symmetric and positive definite for any
+/// polynomials.
 struct ResistanceFit {
   double viscosity = 0;       ///< mu [M/(L T)], > 0
   std::vector<double> radii;  ///< of the spheres along the line [L], > 0
   std::string container;      ///< walls around the fluid, in words; may be empty
-  /// Number of terms of the lubrication that are in L, 0 to 3.
+  /// Number of terms of pair_lubrication() that are in R_lub, 0 to 3.
   int lubrication_terms = 0;
   /// gaps[k]: the nodes of the gap between spheres k and k + 1 [L], > 0 and rising, at least 2. The
-  /// polynomial in t_k has one degree less than there are nodes, and takes the values below there.
+  /// degree in t_k is one less than the number of nodes; at the nodes S has the values
+  /// `logarithms`.
   std::vector<std::vector<double>> gaps;
   /// S at all combinations of nodes [1]; the last gap changes fastest.
   std::vector<Eigen::MatrixXd> logarithms;
-  /// Largest |R_ij fitted / R_ij - 1| of the table's rows, >= 0: round-off, as the polynomials
-  /// interpolate. Entries count as in ResistanceRow::relative_error_estimates.
+  /// Largest |R_ij fitted / R_ij - 1| of the table's rows, >= 0. It is round-off, because the
+  /// polynomials interpolate. A small entry counts as in ResistanceRow::relative_error_estimates.
   double largest_relative_residual = 0;
-  /// The same for rows that are predicted from the other rows with the same other gaps, >= 0; the
-  /// largest, and the root mean square.
+  /// The same error of a row that is predicted from the rows that differ from it in one gap only,
+  /// >= 0.
   double largest_left_one_out_error = 0,        ///< the largest
       rms_left_one_out_error = 0;               ///< the root mean square
   std::string table_sha256;                     ///< checksum of the table file; may be empty

@@ -1,4 +1,5 @@
-// The fields of the file of a ResistanceFit (docs/file-formats.md). Units are those of the table.
+// The fields of the file of a ResistanceFit (docs/file-formats.md). Lengths, masses and times
+// are in the units of the table. A change must keep earlier files readable.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 namespace viscontact::swimmer {
 namespace {
 
-/// The matrix that takes values at the nodes to derivatives there (Berrut & Trefethen 2004, section
-/// 9.3). Its rows sum to 0.
+/// The matrix that maps values at the nodes to derivatives at the nodes (Berrut & Trefethen 2004,
+/// section 9.3). Each of its rows has the sum 0.
 Eigen::MatrixXd differentiation_matrix(const Eigen::VectorXd& nodes,
                                        const Eigen::VectorXd& weights) {
   const auto count = nodes.size();
@@ -50,7 +50,7 @@ Eigen::MatrixXd derivative_by(std::size_t k, const std::vector<Eigen::VectorXd>&
 }  // namespace
 
 Eigen::VectorXd barycentric_weights(const Eigen::VectorXd& nodes) {
-  // Logarithms avoid underflow for many nodes.
+  // With logarithms the products do not underflow if there are many nodes.
   Eigen::VectorXd logarithms = Eigen::VectorXd::Zero(nodes.size()), signs = logarithms;
   for (Eigen::Index j = 0; j < nodes.size(); ++j) {
     signs[j] = 1;

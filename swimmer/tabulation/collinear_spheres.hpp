@@ -1,6 +1,6 @@
 // Rigid spheres on a line in a viscous fluid: the inputs of a table of their resistance matrices,
-// and the solution of one row by FreeFEM (physics.md, section 7). Lengths, masses and times are in
-// any one consistent system of units.
+// and the solution of one row by FreeFEM (physics.md, section 7). The commands `tabulate` and
+// `swimmer` use it. Lengths, masses and times are in any one consistent system of units.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ struct CollinearSpheres {
   double viscosity = 0;          ///< mu [M/(L T)], > 0
   std::vector<double> radii;     ///< along the line [L], 2 to 10 of them, > 0
   std::optional<Tube> tube{};    ///< nothing: unbounded fluid
-  double relative_accuracy = 0;  ///< asked of every entry of R [1], in (0, 1)
+  double relative_accuracy = 0;  ///< largest error estimate asked of an entry of R [1], in (0, 1)
 };
 
 /// "unbounded", "tube of radius 3", or "closed cylinder, radius 3, height 40".

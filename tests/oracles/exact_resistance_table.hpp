@@ -9,8 +9,8 @@
 
 namespace viscontact {
 
-/// The table of three spheres in unbounded fluid, viscosity 1, with `count` arms each between `from`
-/// and `to`. Each entry has the same error estimate.
+/// The table of three spheres in unbounded fluid of viscosity 1. Each of the two arms has `count`
+/// lengths between `from` and `to` [L]. All entries have the relative error estimate `estimate`.
 inline swimmer::ResistanceTable exact_table(const std::vector<double>& radii, double from,
                                             double to, int count, double estimate = 1e-6) {
   swimmer::ResistanceTable table;

@@ -1,7 +1,7 @@
-// What pointers do on the canvas: values of the particle at the pointer are read off; one pointer
-// moves or turns the view (view.js), and two pointers or a wheel zoom. Then the time of the motion,
-// and what the controls under the picture and the keys do. This file is the last of the script and
-// starts the page.
+// Pointers, controls and keys. On the canvas, the values of the particle at the pointer are shown;
+// one pointer moves or turns the view (view.js), and two pointers or a wheel zoom. The controls
+// under the picture, and keys, change the time of the motion and what is drawn. This file is the
+// last of the script and starts the page.
 
 const readout = document.getElementById('readout');
 const pointer = {x: 0, y: 0, inside: false};

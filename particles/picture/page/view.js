@@ -1,5 +1,6 @@
-// The view, which part of the motion (motion.js) the canvas shows and from where, in device pixels
-// with y downwards; and the obstacles in it: planes, and circles around the particles.
+// The view: which part of the motion (motion.js) the canvas shows, and from which direction. Places
+// on the canvas are in device pixels with y downwards, lengths of the motion in the unit of the
+// case. The file also draws the obstacles: planes, and circles around the particles.
 
 const canvas = document.getElementById('stage'), pen = canvas.getContext('2d');
 const view = {scale: 1, x: 0, y: 0, turn: Math.PI / 6, above: Math.PI / 9, moved: false};
@@ -15,7 +16,10 @@ function setAxes() {
               : [[c, s, 0], [-s * sa, c * sa, ca], [s * ca, -c * ca, sa]];
 }
 
-/** The magnification by perspective, seen from four diagonals away; 0 behind the reader. */
+/**
+ * The magnification by perspective at a depth towards the reader, who is four diagonals of the box
+ * away; 0 near the reader and behind.
+ */
 function nearness(depth) {
   if (flat) return 1;
   const distance = 4 * diagonal;

@@ -1,4 +1,5 @@
-// Case files of particles in a fluid, with one thing changed.
+// Case files of particles, most of them in a fluid, and functions that change one thing in them,
+// for tests of the reader of cases.
 #pragma once
 
 #include <string>
@@ -14,10 +15,11 @@ extern const std::string_view kDiscsInBox;     ///< two discs in a closed box
 extern const std::string_view kSpheresOnAxis;  ///< two spheres on the axis of a cylinder
 extern const std::string_view kDryDiscs;       ///< two discs without a fluid and a domain
 
-/// The text with `from`, which occurs in it, replaced by `to` at its first place.
+/// The text with the first occurrence of `from` replaced by `to`. The text must contain `from`.
 std::string changed(std::string_view text, std::string_view from, std::string_view to);
 
-/// Reads a case from a file of that text in a folder of its own.
+/// Reads a case from a file with this text in a temporary folder. Throws the errors of
+/// read_particles_case().
 ParticlesCase read_particles_text(const std::string& text);
 
 /// Expects that the case is refused as bad input with a message "FILE:LINE: ..." that has `words`,

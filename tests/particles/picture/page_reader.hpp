@@ -5,10 +5,10 @@
 
 namespace viscontact::particles {
 
-/// What the script, appended to a page of particles, gives to tell() (browser.hpp).
+/// The value with which `script`, appended to the page of particles, calls tell() (browser.hpp).
 inline nlohmann::json read_page(std::string page, std::string_view script, int width) {
   constexpr std::string_view kHead = "<head>";
-  // A browser with virtual time draws no frames of its own accord.
+  // With virtual time the browser calls no requestAnimationFrame, which the page needs to draw.
   constexpr std::string_view kFrames =
       "<script>window.requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), "
       "16);</script>";

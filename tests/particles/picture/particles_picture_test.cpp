@@ -53,7 +53,7 @@ TEST(ParticlesPicture, ShowsBodiesLinksTurnsAndContactsThatSlide) {
     EXPECT_EQ(count_of("stroke=\"#2b6e3f\"", svg), 2U);                // springs
     EXPECT_EQ(count_of("<path stroke=\"#333\"", svg), 2U);             // arms
     EXPECT_EQ(count_of("<g fill=\"#fff\" stroke=\"#111\"", svg), 2U);  // hinges
-    EXPECT_EQ(count_of(fmt::format("<path stroke=\"{}\"", kSlidingColour), svg), 1U);
+    EXPECT_EQ(count_of(fmt::format("<path stroke=\"{}\"", report::kSlidingColour), svg), 1U);
     EXPECT_THAT(svg, HasSubstr("contacts that slide are orange"));
     EXPECT_THAT(svg, Not(HasSubstr("nan")));
     // Five particles and the hinge in each panel; a dot on each disc, or the axes that are seen on

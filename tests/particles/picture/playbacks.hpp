@@ -34,9 +34,9 @@ inline Playback falling_row(int dimension, int count, int frames) {
   return playback;
 }
 
-/// falling_row with friction: the first two particles are one rigid body on a hinge, a spring ties
-/// the second to the third, an arm holds the third and the fourth, all turn, and the last one slides
-/// on the floor in the last frame.
+/// falling_row() of five particles with friction. The first two particles are one rigid body on a
+/// hinge, a spring joins the second and the third, and an arm the third and the fourth. All turn,
+/// and the last one slides on the floor in the last frame.
 inline Playback linked_row(int dimension, int frames) {
   auto playback = falling_row(dimension, 5, frames);
   playback.has_friction = true;

@@ -5,7 +5,8 @@
 
 namespace viscontact {
 
-/// Discs that move through a periodic box and meet, some steps. `more` is added at the end.
+/// The text of a case with a few steps of discs that move through a periodic box and meet. `more`
+/// is added at the end.
 inline std::string small_particles_case(const std::string& more = "") {
   return R"(title = "Discs in a box"
 [space]

@@ -40,7 +40,7 @@ inline FlowField mesh_of(const Window& window, int parts, const FlowAt& at) {
   return flow;
 }
 
-/// Turns about the middle of the box [0, 4] x [0, 2]; the pressure rises along x.
+/// A rotation about (2, 1), the middle of the box [0, 4] x [0, 2]; the pressure rises along x.
 inline std::array<double, 3> turning(double x, double y) { return {1 - y, x - 2, x - 2}; }
 
 }  // namespace viscontact::report
