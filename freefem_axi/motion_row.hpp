@@ -17,23 +17,6 @@ enum class MotionGroup { kAlong = 0, kAcross = 1, kAround = 2 };
 /// The motions of the group, in the order of the solutions of scripts/row.idp.
 std::vector<lubrication::MotionKind> motions_of(MotionGroup group);
 
-/// Factors of force and torque of one motion at one gap [1], which do not depend on viscosity and
-/// velocity.
-struct MotionResult {
-  /// On the sphere.
-  lubrication::ActionFactors sphere;
-  std::optional<lubrication::ActionFactors> neighbour;  ///< if the neighbour is a sphere
-  /// Observed order of convergence in the mesh size [1].
-  double observed_order = 0;
-};
-
-/// The results of a group of motions at one gap.
-struct MotionRow {
-  std::vector<MotionResult> results;  ///< in the order of motions_of()
-  double degrees_of_freedom = 0;      ///< number of unknowns on the finest mesh
-  double seconds = 0;                 ///< wall time of the row [s]
-};
-
 /// True if the neighbour is a sphere, on which there are force and torque, too.
 bool neighbour_is_sphere(const Tabulation& tabulation);
 

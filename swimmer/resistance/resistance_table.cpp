@@ -27,7 +27,7 @@ std::size_t entry_position(std::size_t i, std::size_t j, std::size_t spheres) {
   return row * spheres - row * (row + 1) / 2 + column;
 }
 
-Eigen::MatrixXd matrix_of(const ResistanceRow &row, std::size_t spheres) {
+Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres) {
   const auto size = static_cast<Eigen::Index>(spheres);
   Eigen::MatrixXd matrix(size, size);
   for (std::size_t i = 0; i < spheres; ++i)
@@ -37,7 +37,7 @@ Eigen::MatrixXd matrix_of(const ResistanceRow &row, std::size_t spheres) {
   return matrix;
 }
 
-std::vector<Column> columns_of(const TableHead &head, ResistanceRow &row) {
+std::vector<Column> columns_of(const TableHead& head, ResistanceRow& row) {
   const std::size_t spheres = head.radii.size();
   std::vector<Column> columns, estimates;
   for (std::size_t i = 0; i + 1 < spheres; ++i)
@@ -58,17 +58,17 @@ std::vector<Column> columns_of(const TableHead &head, ResistanceRow &row) {
   return columns;
 }
 
-void prepare(const TableHead &head, ResistanceRow &row) {
+void prepare(const TableHead& head, ResistanceRow& row) {
   row.gaps.resize(head.radii.size() - 1);
   row.entries.resize(entry_count(head.radii.size()));
   row.relative_error_estimates.resize(row.entries.size());
 }
 
-void complete(const TableHead & /*head*/, ResistanceRow &row) {
+void complete(const TableHead& /*head*/, ResistanceRow& row) {
   row.relative_error_estimate = largest_estimate(row);
 }
 
-void check(const TableHead &head, const ResistanceRow &row, const FilePosition &here) {
+void check(const TableHead& head, const ResistanceRow& row, const FilePosition& here) {
   const Eigen::LLT<Eigen::MatrixXd> factor(matrix_of(row, head.radii.size()));
   if (factor.info() != Eigen::Success)
     throw_bad_input(here,
@@ -76,16 +76,16 @@ void check(const TableHead &head, const ResistanceRow &row, const FilePosition &
                     "drive the spheres");
 }
 
-double largest_estimate(const ResistanceRow &row) {
-  const auto &estimates = row.relative_error_estimates;
+double largest_estimate(const ResistanceRow& row) {
+  const auto& estimates = row.relative_error_estimates;
   return estimates.empty() ? 0 : std::ranges::max(estimates);
 }
 
-ResistanceTable read_resistance_table(const std::filesystem::path &path) {
+ResistanceTable read_resistance_table(const std::filesystem::path& path) {
   return lubrication::read_table<ResistanceRow>(path);
 }
 
-std::string write_resistance_table(const ResistanceTable &table) {
+std::string write_resistance_table(const ResistanceTable& table) {
   return lubrication::write_table(table);
 }
 

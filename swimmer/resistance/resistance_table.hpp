@@ -1,6 +1,6 @@
-// The table of resistance matrices of rigid spheres on a line, over the gaps
-// between them (physics.md, section 7). A change must keep the names of the
-// columns, because published tables use them.
+// The table of resistance matrices of rigid spheres on a line, over the gaps between them
+// (physics.md, section 7). A change must keep the names of the columns, because published tables
+// use them.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,22 +13,20 @@
 
 namespace viscontact::swimmer {
 
-/// The matrix at one set of gaps: F_i = sum_j R_ij U_j, with F_i the force of
-/// sphere i on the fluid [M L/T^2] and U_j the velocity of sphere j [L/T], both
-/// along the line.
+/// The matrix at one set of gaps: F_i = sum_j R_ij U_j, with F_i the force of sphere i on the fluid
+/// [M L/T^2] and U_j the velocity of sphere j [L/T], both along the line.
 struct ResistanceRow {
   static constexpr bool kIsOfLine = true;  ///< table_codec.hpp
   std::vector<double> gaps;  ///< gaps[i] [L], > 0: between the surfaces of spheres i and i + 1
-  /// The entries R_ij [M/T] with i <= j: R11, R12, ..., R1N, R22, ..., RNN. R
-  /// is symmetric and positive definite.
+  /// The entries R_ij [M/T] with i <= j: R11, R12, ..., R1N, R22, ..., RNN. R is symmetric and
+  /// positive definite.
   std::vector<double> entries;
-  /// Estimates of the relative errors of the entries [1], >= 0. An entry
-  /// smaller than 1e-3 sqrt(R_ii R_jj) counts as that large.
+  /// Estimates of the errors of the entries, relative to the entry [1], >= 0. Errors of an entry
+  /// smaller than 1e-3 sqrt(R_ii R_jj) are relative to this value instead.
   std::vector<double> relative_error_estimates;
   double degrees_of_freedom = 0;  ///< unknowns on the finest mesh
   double seconds = 0;             ///< wall time of the row [s]
-  /// Observed order of convergence [1] of the entry with the largest estimate,
-  /// as in MotionRow.
+  /// Observed order of convergence [1] of the entry with the largest estimate, as in MotionRow.
   double observed_order = 0;
   double relative_error_estimate = 0;  ///< the largest of them; it follows from the others
 };
@@ -37,38 +35,38 @@ using lubrication::kFewestSpheres;
 using lubrication::kMostSpheres;
 using ResistanceTable = lubrication::Table<ResistanceRow>;
 
-/// Position of R_ij in ResistanceRow::entries of `spheres` spheres; i and j
-/// count from 0, in any order.
+/// Position of R_ij in ResistanceRow::entries of `spheres` spheres; i and j count from 0, in any
+/// order.
 std::size_t entry_position(std::size_t i, std::size_t j, std::size_t spheres);
 
 /// The number of entries on and above the diagonal.
 inline std::size_t entry_count(std::size_t spheres) { return spheres * (spheres + 1) / 2; }
 
 /// The symmetric matrix R [M/T] of a row for so many spheres.
-Eigen::MatrixXd matrix_of(const ResistanceRow &row, std::size_t spheres);
+Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres);
 
-/// The columns of a row: gap12, gap23, ..., R11, R12, ...,
-/// R11_relative_error_estimate, ..., and what a row says of its computation.
-/// Two numbers of spheres are separated by "_" if one of them is 10.
-std::vector<lubrication::Column> columns_of(const lubrication::TableHead &head, ResistanceRow &row);
+/// The columns of a row: gap12, gap23, ..., R11, R12, ..., R11_relative_error_estimate, ..., and
+/// what a row says of its computation. Two numbers of spheres are separated by "_" if one of them
+/// is 10.
+std::vector<lubrication::Column> columns_of(const lubrication::TableHead& head, ResistanceRow& row);
 
 /// Gives the vectors the sizes for the radii of the head.
-void prepare(const lubrication::TableHead &head, ResistanceRow &row);
+void prepare(const lubrication::TableHead& head, ResistanceRow& row);
 
 /// Computes the largest estimate.
-void complete(const lubrication::TableHead &head, ResistanceRow &row);
+void complete(const lubrication::TableHead& head, ResistanceRow& row);
 
 /// Throws Error(kBadInput) if the matrix is not positive definite.
-void check(const lubrication::TableHead &head, const ResistanceRow &row, const FilePosition &here);
+void check(const lubrication::TableHead& head, const ResistanceRow& row, const FilePosition& here);
 
 /// The largest of the error estimates of the entries [1], 0 if there are none.
-double largest_estimate(const ResistanceRow &row);
+double largest_estimate(const ResistanceRow& row);
 
-/// Reads a table, of which gaps and entries are required. Throws as
-/// read_table() (table_codec.hpp) and check() do.
-ResistanceTable read_resistance_table(const std::filesystem::path &path);
+/// Reads a table, of which gaps and entries are required. Throws as read_table() (table_codec.hpp)
+/// and check() do.
+ResistanceTable read_resistance_table(const std::filesystem::path& path);
 
 /// The text of the file.
-std::string write_resistance_table(const ResistanceTable &table);
+std::string write_resistance_table(const ResistanceTable& table);
 
 }  // namespace viscontact::swimmer
