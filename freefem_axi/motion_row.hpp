@@ -22,11 +22,11 @@ bool neighbour_is_sphere(const Tabulation& tabulation);
 
 /// Solves the motions of a group, kAcross or kAround, at one gap and the velocity 1 in a FreeFEM
 /// process. The rows are in the order of motions_of(). Throws Error(kExternalProgram) with the last
-/// lines of FreeFEM if it fails or exceeds its time limit, or if the torque of sliding and the force
-/// of rolling differ by more than their error estimates allow: the resistance matrix is symmetric
-/// (Lorentz 1896), also if the neighbour moves in proportion to the sphere. `further_arguments` are
-/// added to the command line of FreeFEM. If `output` is not null, it is set to everything that
-/// FreeFEM printed.
+/// lines of FreeFEM if it fails or exceeds its time limit, or if the torque of sliding and the
+/// force of rolling differ by more than their error estimates allow: the resistance matrix is
+/// symmetric (Lorentz 1896), also if the neighbour moves in proportion to the sphere.
+/// `further_arguments` are added to the command line of FreeFEM. If `output` is not null, it is set
+/// to everything that FreeFEM printed.
 std::vector<lubrication::MotionRow> solve_motions(
     const FreeFem& freefem, const Tabulation& tabulation, MotionGroup group, double gap,
     const std::vector<std::string>& further_arguments = {}, std::string* output = nullptr);

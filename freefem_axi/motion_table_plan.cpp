@@ -18,8 +18,8 @@ namespace {
 using lubrication::MotionKind;
 using lubrication::MotionRow;
 
-// Revisions of the scripts. Raise one when a change of the scripts alters results by more than their
-// error estimates: tables of another revision are then computed again.
+// Revisions of the scripts. Raise one when a change of the scripts alters results by more than
+// their error estimates: tables of another revision are then computed again.
 constexpr int kDragMethod = 3, kMotionMethod = 2;
 
 std::string inputs_of(const Tabulation& tabulation, MotionGroup group) {

@@ -26,10 +26,10 @@ struct Action {
 };
 
 /// The result of one motion at one gap and one velocity. Its own members are the action on the
-/// sphere: the force is along z in the approach and along x in sliding and rolling, the torque about
-/// y and the centre of the sphere, or about z for spinning. The neighbour is below. In the approach
-/// the torque is 0. The force (torque) of a sphere that moves (turns) is opposed to its velocity,
-/// unless the neighbour moves and pulls it along.
+/// sphere: the force is along z in the approach and along x in sliding and rolling, the torque
+/// about y and the centre of the sphere, or about z for spinning. The neighbour is below. In the
+/// approach the torque is 0. The force (torque) of a sphere that moves (turns) is opposed to its
+/// velocity, unless the neighbour moves and pulls it along.
 struct MotionRow : Action {
   static constexpr bool kIsOfLine = false;  ///< table_codec.hpp
   double gap = 0;                           ///< q [L], > 0
@@ -64,8 +64,8 @@ void check(const TableHead& head, const MotionRow& row, const FilePosition& here
 double largest_estimate(const MotionRow& row);
 
 /// The units of force and torque of a motion: F = -force * v * (force factor) and T = -torque * v *
-/// (torque factor), with the velocity v [L/T] of a sphere that moves or the angular velocity v [1/T]
-/// of one that turns.
+/// (torque factor), with the velocity v [L/T] of a sphere that moves or the angular velocity v
+/// [1/T] of one that turns.
 struct ActionUnits {
   double force = 0;   ///< 6 pi mu r [M/T] or 6 pi mu r^2 [M L/T]
   double torque = 0;  ///< 8 pi mu r^2 [M L/T] or 8 pi mu r^3 [M L^2/T]

@@ -1,6 +1,6 @@
-// What all tables have in common that FreeFEM computes and the fits read: a head, and rows with named
-// columns of values and error estimates. Lengths, masses and times are in any one consistent system
-// of units. A change must keep the keys of the head, because published tables use them.
+// What all tables have in common that FreeFEM computes and the fits read: a head, and rows with
+// named columns of values and error estimates. Lengths, masses and times are in any one consistent
+// system of units. A change must keep the keys of the head, because published tables use them.
 //
 // A kind of table is a struct Row and four functions beside it: columns_of(), prepare(), complete()
 // and check() (table_codec.hpp). A new column is a member of the row and a line of columns_of();
@@ -58,8 +58,8 @@ struct Table : TableHead {
   std::vector<Row> rows;  ///< at least one in a file
 };
 
-/// What a number is if the file lacks it: an error, 0, or not a number until complete() computes it;
-/// or complete() computes it in any case, so that journals need not contain it.
+/// What a number is if the file lacks it: an error, 0, or not a number until complete() computes
+/// it; or complete() computes it in any case, so that journals need not contain it.
 enum class IfAbsent { kRefused, kZero, kComputed, kAlwaysComputed };
 
 /// A column of a table, and its number in one row.

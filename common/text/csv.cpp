@@ -78,8 +78,8 @@ void check_not_truncated(const CsvComments& comments, std::size_t rows, const st
 
 using Fields = std::span<const std::optional<double>>;
 
-/// Number of columns that the library reads at once. It is one number, because each costs seconds to
-/// compile.
+/// Number of columns that the library reads at once. It is one number, because each costs seconds
+/// to compile.
 constexpr std::size_t kColumnsAtOnce = 16;
 
 /// Calls `add_row` with the fields of each row and its line. There are at most kColumnsAtOnce

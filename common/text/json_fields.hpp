@@ -30,8 +30,8 @@ namespace viscontact {
 /// value is empty, nothing or 0.
 enum class Absence { kRefused, kAllowed, kLeftOutIfEmpty };
 
-/// The fields of a JSON object: writes them, or reads them. An instance for reading must not outlive
-/// its document.
+/// The fields of a JSON object: writes them, or reads them. An instance for reading must not
+/// outlive its document.
 class JsonFields {
  public:
   /// The struct in the text of a file, which messages call `file`. Throws Error(kBadInput) with the
@@ -125,7 +125,8 @@ class JsonFields {
   }
 
   /// A word for a value that to_string() and `parse` translate. `parse` throws Error("...; what is
-  /// allowed") for other words; the part of that text from the semicolon on is added to the message.
+  /// allowed") for other words; the part of that text from the semicolon on is added to the
+  /// message.
   template <class Value, class Parse>
   void word(const std::string& key, Value& value, const Parse& parse,
             Absence absence = Absence::kRefused) {

@@ -1,5 +1,5 @@
-// The fields of the fit file. Keys, types and ranges are those of docs/fit.schema.json, and a change
-// of one must be made in the other. Lengths, masses and times are in the units of the table.
+// The fields of the fit file. Keys, types and ranges are those of docs/fit.schema.json, and a
+// change of one must be made in the other. Lengths, masses and times are in the units of the table.
 #include <fmt/format.h>
 
 #include <algorithm>

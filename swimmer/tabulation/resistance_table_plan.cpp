@@ -72,8 +72,8 @@ std::string inputs_of(const CollinearSpheres& spheres, const Grid& grid) {
 }
 
 /// The time of a row on one core [s], from measurements at an accuracy of 1e-5: 2 to 6 s for three
-/// spheres, 12 to 37 s for ten. It grows as for one sphere (freefem_axi/motion_table_plan.cpp) if more accuracy
-/// is asked.
+/// spheres, 12 to 37 s for ten. It grows as for one sphere (freefem_axi/motion_table_plan.cpp) if
+/// more accuracy is asked.
 double typical_seconds_of(const CollinearSpheres& spheres) {
   constexpr double kSecondsPerSphere = 1.5, kKnee = 1e-5, kPower = 0.45;
   return kSecondsPerSphere * static_cast<double>(spheres.radii.size()) *
