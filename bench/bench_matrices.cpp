@@ -19,7 +19,7 @@
 #include "bench/statistics.hpp"
 #include "tests/oracles/collinear_spheres.hpp"
 #include "viscontact/common/splitmix.hpp"
-#include "viscontact/swimmer/resistance/resistance_matrix.hpp"
+#include "viscontact/swimmer/resistance/resistance_table.hpp"
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 namespace viscontact {
@@ -78,7 +78,7 @@ void measure_ten() {
     fmt::print(
         "ten spheres, gaps {}: {:.1f} s, {:.0f} unknowns, largest estimate {:.2g}, peak memory "
         "{:.0f} MB\n",
-        gap, row.seconds, row.degrees_of_freedom, row.largest_error_estimate(),
+        gap, row.seconds, row.degrees_of_freedom, row.relative_error_estimate,
         static_cast<double>(usage.ru_maxrss) / 1024);
   }
 }

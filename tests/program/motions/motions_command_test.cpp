@@ -13,8 +13,8 @@
 #include "tests/program/undisturbed.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
-#include "viscontact/lubrication/force_table.hpp"
-#include "viscontact/motions/motion_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact {
 namespace {
@@ -68,7 +68,7 @@ TEST_F(MotionsCommand, TabulateWritesATableForEachMotionAndKeepsThem) {
     ASSERT_EQ(table.rows.size(), 6U);
     EXPECT_EQ(table.rows[3].gap, 0.05);
     EXPECT_EQ(table.rows[3].reference_velocity, -3);
-    EXPECT_EQ(table.rows[3].sphere.torque, table.rows[0].sphere.torque);
+    EXPECT_EQ(table.rows[3].torque_factor, table.rows[0].torque_factor);
     EXPECT_FALSE(fs::exists(path("out/") + motion + ".csv.rows"));
   }
   EXPECT_TRUE(fs::exists(path("out/approach.csv")));

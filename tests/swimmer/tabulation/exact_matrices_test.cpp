@@ -6,7 +6,7 @@
 
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/collinear_spheres.hpp"
-#include "viscontact/swimmer/resistance/resistance_matrix.hpp"
+#include "viscontact/swimmer/resistance/resistance_table.hpp"
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 namespace viscontact::swimmer {

@@ -11,16 +11,16 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/freefem_axi/motion_row.hpp"
 
-namespace viscontact::motions {
+namespace viscontact::freefem_axi {
 namespace {
 
 using lubrication::MotionKind;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-freefem_axi::Tabulation in_unbounded_fluid(const std::string& geometry,
+Tabulation in_unbounded_fluid(const std::string& geometry,
                                            std::vector<double> parameters, double accuracy) {
-  freefem_axi::Tabulation tabulation = freefem_axi::unit_tabulation({1}, 1, accuracy);
+  Tabulation tabulation = unit_tabulation({1}, 1, accuracy);
   tabulation.container.reset();
   tabulation.geometry = geometry;
   tabulation.geometry_parameters = std::move(parameters);
@@ -57,24 +57,22 @@ TEST(MotionsAboveAPlane, AreWithinTheirEstimatesAndTheAccuracyThatWasAsked) {
   ASSERT_EQ(rows.size(), 5U);
   for (const auto& exact : {rows[0], rows[2], rows[4]}) {
     SCOPED_TRACE(exact.gap);
-    const auto across = freefem_axi::solve_motions(freefem_axi::default_freefem(), plane,
-                                                   freefem_axi::MotionGroup::kAcross, exact.gap);
-    const auto& slide = across.results.at(0).sphere;
-    const auto& roll = across.results.at(1).sphere;
+    const auto across = solve_motions(default_freefem(), plane, MotionGroup::kAcross, exact.gap);
+    const auto& slide = across.at(0);
+    const auto& roll = across.at(1);
     // T_y = +8 pi mu r^2 U T_t and F_x = +6 pi mu r^2 w F_r.
-    expect_factor(slide.force, exact.slide_force, exact.slide_force, slide.force_error_estimate,
+    expect_factor(slide.force_factor, exact.slide_force, exact.slide_force, slide.relative_error_estimate,
                   kAccuracy);
-    expect_factor(slide.torque, -exact.slide_torque, exact.slide_force, slide.torque_error_estimate,
+    expect_factor(slide.torque_factor, -exact.slide_torque, exact.slide_force, slide.torque_error_estimate,
                   kAccuracy);
-    expect_factor(roll.force, -exact.roll_force, exact.roll_torque, roll.force_error_estimate,
+    expect_factor(roll.force_factor, -exact.roll_force, exact.roll_torque, roll.relative_error_estimate,
                   kAccuracy);
-    expect_factor(roll.torque, exact.roll_torque, exact.roll_torque, roll.torque_error_estimate,
+    expect_factor(roll.torque_factor, exact.roll_torque, exact.roll_torque, roll.torque_error_estimate,
                   kAccuracy);
-    const auto around = freefem_axi::solve_motions(freefem_axi::default_freefem(), plane,
-                                                   freefem_axi::MotionGroup::kAround, exact.gap);
-    const auto& spin = around.results.at(0).sphere;
-    EXPECT_EQ(spin.force, 0);
-    expect_factor(spin.torque, exact.spin_torque, exact.spin_torque, spin.torque_error_estimate,
+    const auto around = solve_motions(default_freefem(), plane, MotionGroup::kAround, exact.gap);
+    const auto& spin = around.at(0);
+    EXPECT_EQ(spin.force_factor, 0);
+    expect_factor(spin.torque_factor, exact.spin_torque, exact.spin_torque, spin.torque_error_estimate,
                   kAccuracy);
   }
 }
@@ -83,19 +81,19 @@ TEST(MotionsInACavity, AreThoseOfConcentricSpheres) {
   constexpr double kRadius = 2.5, kAccuracy = 1e-5;
   const auto cavity = in_unbounded_fluid("cavity", {kRadius}, kAccuracy);
   const double gap = kRadius - 1;
-  const auto across = freefem_axi::solve_motions(freefem_axi::default_freefem(), cavity,
-                                                 freefem_axi::MotionGroup::kAcross, gap);
-  const auto around = freefem_axi::solve_motions(freefem_axi::default_freefem(), cavity,
-                                                 freefem_axi::MotionGroup::kAround, gap);
+  const auto across = solve_motions(default_freefem(), cavity,
+                                                 MotionGroup::kAcross, gap);
+  const auto around = solve_motions(default_freefem(), cavity,
+                                                 MotionGroup::kAround, gap);
   // Haberman & Sayre 1958; Happel & Brenner 1983, (4-22.11).
   const double l = 1 / kRadius;
   const double drag = (1 - std::pow(l, 5)) / (1 - 9. / 4 * l + 5. / 2 * std::pow(l, 3) -
                                               9. / 4 * std::pow(l, 5) + std::pow(l, 6));
   const double torque = 1 / (1 - std::pow(l, 3));
-  EXPECT_NEAR(across.results.at(0).sphere.force / drag, 1, kAccuracy);
-  EXPECT_NEAR(across.results.at(1).sphere.torque / torque, 1, kAccuracy);
-  EXPECT_NEAR(around.results.at(0).sphere.torque / torque, 1, kAccuracy);
-  EXPECT_NEAR(across.results.at(0).sphere.torque, 0, 1e-6);
+  EXPECT_NEAR(across.at(0).force_factor / drag, 1, kAccuracy);
+  EXPECT_NEAR(across.at(1).torque_factor / torque, 1, kAccuracy);
+  EXPECT_NEAR(around.at(0).torque_factor / torque, 1, kAccuracy);
+  EXPECT_NEAR(across.at(0).torque_factor, 0, 1e-6);
 }
 
 TEST(MotionsOfAPair, AreThoseBesideAFreeSurfaceIfTheFlowIsSymmetric) {
@@ -105,28 +103,22 @@ TEST(MotionsOfAPair, AreThoseBesideAFreeSurfaceIfTheFlowIsSymmetric) {
   // normal.
   const auto surface = in_unbounded_fluid("free_surface", {}, kAccuracy);
   const auto mirrored = in_unbounded_fluid("sphere", {1, 1, -1}, kAccuracy);
-  const auto one = freefem_axi::solve_motions(freefem_axi::default_freefem(), surface,
-                                              freefem_axi::MotionGroup::kAcross, 0.2);
-  const auto pair = freefem_axi::solve_motions(freefem_axi::default_freefem(), mirrored,
-                                               freefem_axi::MotionGroup::kAcross, 0.4);
+  const auto one = solve_motions(default_freefem(), surface,
+                                              MotionGroup::kAcross, 0.2);
+  const auto pair = solve_motions(default_freefem(), mirrored,
+                                               MotionGroup::kAcross, 0.4);
   for (std::size_t motion : {0, 1}) {
-    const auto& both = pair.results.at(motion);
-    const auto& alone = one.results.at(motion).sphere;
-    EXPECT_NEAR(both.sphere.force, alone.force, 2 * kAccuracy);
-    EXPECT_NEAR(both.sphere.torque, alone.torque, 2 * kAccuracy);
+    const auto& both = pair.at(motion);
+    const auto& alone = one.at(motion);
+    EXPECT_NEAR(both.force_factor, alone.force_factor, 2 * kAccuracy);
+    EXPECT_NEAR(both.torque_factor, alone.torque_factor, 2 * kAccuracy);
     ASSERT_TRUE(both.neighbour);
-    EXPECT_NEAR(both.neighbour->force, both.sphere.force, 2 * kAccuracy);
-    EXPECT_NEAR(both.neighbour->torque, -both.sphere.torque, 2 * kAccuracy);
+    EXPECT_NEAR(both.neighbour->force_factor, both.force_factor, 2 * kAccuracy);
+    EXPECT_NEAR(both.neighbour->torque_factor, -both.torque_factor, 2 * kAccuracy);
   }
   const auto spinning = in_unbounded_fluid("sphere", {1, 0, 1}, kAccuracy);
-  EXPECT_NEAR(freefem_axi::solve_motions(freefem_axi::default_freefem(), spinning,
-                                         freefem_axi::MotionGroup::kAround, 0.4)
-                  .results.at(0)
-                  .sphere.torque,
-              freefem_axi::solve_motions(freefem_axi::default_freefem(), surface,
-                                         freefem_axi::MotionGroup::kAround, 0.2)
-                  .results.at(0)
-                  .sphere.torque,
+  EXPECT_NEAR(solve_motions(default_freefem(), spinning, MotionGroup::kAround, 0.4).at(0).torque_factor,
+              solve_motions(default_freefem(), surface, MotionGroup::kAround, 0.2).at(0).torque_factor,
               2 * kAccuracy);
 }
 
@@ -134,20 +126,18 @@ TEST(MotionsOfAPair, AreThoseOfARigidBodyIfItTurnsAsAWhole) {
   // Two spheres that turn about the axis as one body have no flow between them. Each has nearly its
   // torque alone, 1 and 2^3, less what the other one's flow takes off.
   const auto alike = in_unbounded_fluid("sphere", {2, 0, 1}, 1e-4);
-  const auto row = freefem_axi::solve_motions(freefem_axi::default_freefem(), alike,
-                                              freefem_axi::MotionGroup::kAround, 0.01);
-  EXPECT_LT(row.results.at(0).sphere.torque, 1);
-  EXPECT_LT(row.results.at(0).neighbour->torque, 8);
-  EXPECT_GT(row.results.at(0).neighbour->torque, 7);
+  const auto row = solve_motions(default_freefem(), alike, MotionGroup::kAround, 0.01);
+  EXPECT_LT(row.at(0).torque_factor, 1);
+  EXPECT_LT(row.at(0).neighbour->torque_factor, 8);
+  EXPECT_GT(row.at(0).neighbour->torque_factor, 7);
 }
 
 TEST(MotionsOfAPair, AddUpFromThoseOfEachSphere) {
   constexpr double kAccuracy = 1e-5, kGap = 0.3, kMoves = 0.7, kTurns = -1.3;
   const auto solved = [](double moves, double turns) {
-    return freefem_axi::solve_motions(freefem_axi::default_freefem(),
-                                      in_unbounded_fluid("sphere", {2, moves, turns}, kAccuracy),
-                                      freefem_axi::MotionGroup::kAcross, kGap)
-        .results;
+    return solve_motions(default_freefem(),
+                         in_unbounded_fluid("sphere", {2, moves, turns}, kAccuracy),
+                         MotionGroup::kAcross, kGap);
   };
   const auto alone = solved(0, 0), both = solved(1, 1), any = solved(kMoves, kTurns);
   for (std::size_t motion : {0, 1}) {
@@ -157,30 +147,30 @@ TEST(MotionsOfAPair, AddUpFromThoseOfEachSphere) {
       // Each row may be wrong by the accuracy of its largest entry.
       EXPECT_NEAR(entry(any.at(motion)), one + ratio * (sum - one), 50 * kAccuracy);
     };
-    expect_sum([](const freefem_axi::MotionResult& row) { return row.sphere.force; });
-    expect_sum([](const freefem_axi::MotionResult& row) { return row.sphere.torque; });
-    expect_sum([](const freefem_axi::MotionResult& row) { return row.neighbour->force; });
-    expect_sum([](const freefem_axi::MotionResult& row) { return row.neighbour->torque; });
+    expect_sum([](const lubrication::MotionRow& row) { return row.force_factor; });
+    expect_sum([](const lubrication::MotionRow& row) { return row.torque_factor; });
+    expect_sum([](const lubrication::MotionRow& row) { return row.neighbour->force_factor; });
+    expect_sum([](const lubrication::MotionRow& row) { return row.neighbour->torque_factor; });
   }
 }
 
 TEST(Motions, OfAGeometry) {
   EXPECT_THAT(
-      freefem_axi::parse_motions({"all"}, "plane"),
+      parse_motions({"all"}, "plane"),
       ElementsAre(MotionKind::kApproach, MotionKind::kSlide, MotionKind::kRoll, MotionKind::kSpin));
-  EXPECT_THAT(freefem_axi::parse_motions({"all"}, "rough_plane"),
+  EXPECT_THAT(parse_motions({"all"}, "rough_plane"),
               ElementsAre(MotionKind::kApproach, MotionKind::kSpin));
-  EXPECT_THAT(freefem_axi::parse_motions({"spin", "approach"}, "cavity"),
+  EXPECT_THAT(parse_motions({"spin", "approach"}, "cavity"),
               ElementsAre(MotionKind::kApproach, MotionKind::kSpin));
-  EXPECT_THAT(bad_input([] { (void)freefem_axi::parse_motions({"slide"}, "rough_plane"); }),
+  EXPECT_THAT(bad_input([] { (void)parse_motions({"slide"}, "rough_plane"); }),
               HasSubstr("beside a rough_plane a sphere has the motions approach, spin"));
-  EXPECT_THAT(bad_input([] { (void)freefem_axi::parse_motions({"glide"}, "plane"); }),
+  EXPECT_THAT(bad_input([] { (void)parse_motions({"glide"}, "plane"); }),
               HasSubstr("approach, slide, roll or spin"));
   EXPECT_THAT(bad_input([] {
-                (void)freefem_axi::parse_motions({"roll", "roll"}, "plane");
+                (void)parse_motions({"roll", "roll"}, "plane");
               }),
               HasSubstr("names roll twice"));
 }
 
 }  // namespace
-}  // namespace viscontact::motions
+}  // namespace viscontact::freefem_axi
