@@ -5,11 +5,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "viscontact/common/stop_token.hpp"
 #include "viscontact/common/vtk/flow_field.hpp"
+#include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
@@ -100,5 +105,11 @@ class FluidSolver {
   /// The largest resident memory of the solver so far [MiB], if it is a process of its own; else 0.
   virtual double peak_memory_mebibytes() const { return 0; }
 };
+
+/// Starts a solver of the fluid in `domain` around particles with `radii` [L] in `dimension` (2 or
+/// 3) dimensions, and waits until it is ready. freefem_flow::start_fluid_solver is such a function.
+using StartFluidSolver = std::function<std::unique_ptr<FluidSolver>(
+    const Fluid& fluid, const Domain& domain, std::span<const double> radii, int dimension,
+    const StopToken& stop)>;
 
 }  // namespace viscontact::particles
