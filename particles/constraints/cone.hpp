@@ -21,7 +21,7 @@ inline double inner(const ConePoint& x, const ConePoint& y) {
   return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
 
-/// sum_k x_k^2 over k >= 1, of which the root is the length of the part beside the axis.
+/// The distance of a point from the axis of the cone.
 inline double beside_axis(const ConePoint& x) { return std::hypot(x[1], x[2]); }
 
 /// x_0^2 - x_1^2 - x_2^2, > 0 inside the cone.

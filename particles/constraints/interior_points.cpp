@@ -8,7 +8,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// Share of the change of r that is subtracted from u. It bounds the entries of the matrix at 1e9
+/// Share of the change of r that is added to u. It bounds the entries of the matrix at 1e9
 /// times the masses.
 constexpr double kRegularisation = 1e-9;
 

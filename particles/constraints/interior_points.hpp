@@ -21,9 +21,9 @@ namespace viscontact::particles {
 ///
 /// by the predictor-corrector method of Mehrotra (1992), scaled after Nesterov & Todd (1997,
 /// "Self-scaled barriers and interior-point methods for convex programming"). Each iteration
-/// factorises a UnitMatrix. Numbers of iterations hardly depend on the problem, whether or not its
-/// rows are redundant: a small multiple of the change of r in an iteration is subtracted from u, as
-/// in the proximal method, which vanishes at the solution and keeps the matrix regular.
+/// factorises a UnitMatrix. The number of iterations hardly depends on the problem, whether or not
+/// its rows are redundant: a small multiple of the change of r in an iteration is added to u, as in
+/// the proximal method. This change vanishes at the solution, and keeps the matrix regular.
 template <int D>
 class InteriorPoints {
  public:
