@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -32,19 +33,20 @@ namespace {
 // A file NAME that is not finished is named NAME.viscontact-PID.tmp.
 constexpr std::string_view kUnfinishedOf = ".viscontact-", kUnfinished = ".tmp";
 
-/// Removes the files NAME.viscontact-PID.tmp beside `place` that killed processes have left.
-void remove_left_behind(const std::filesystem::path& place) {
-  const std::string front = place.filename().string() + std::string(kUnfinishedOf);
-  const auto folder = place.has_parent_path() ? place.parent_path() : ".";
+/// Removes the files NAME.viscontact-PID.tmp in a folder that killed processes have left; those of
+/// any NAME if `of` is empty.
+void remove_left_behind(const std::filesystem::path& folder, const std::string& of) {
   std::error_code ignored;  // such files do no harm
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    if (name.size() <= front.size() + kUnfinished.size() || !name.starts_with(front) ||
-        !name.ends_with(kUnfinished))
+    const auto after = name.rfind(kUnfinishedOf);
+    if (after == std::string::npos || !name.ends_with(kUnfinished) ||
+        (!of.empty() && name.compare(0, after, of) != 0))
       continue;
+    const char* const begin = name.data() + after + kUnfinishedOf.size();
     const char* const end = name.data() + name.size() - kUnfinished.size();
     pid_t process = 0;
-    const auto number = std::from_chars(name.data() + front.size(), end, process);
+    const auto number = std::from_chars(begin, std::max(begin, end), process);
     if (number.ec != std::errc() || number.ptr != end || process <= 0) continue;
     if (::kill(process, 0) == 0 || errno != ESRCH) continue;
     // On a shared disk the file may belong to a process on another machine. That process has locked
@@ -52,6 +54,39 @@ void remove_left_behind(const std::filesystem::path& place) {
     const Descriptor file(::open(entry.path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
     if (file.get() >= 0 && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0)
       ::unlink(entry.path().c_str());
+  }
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+/// Writes a new file beside `path`, flushes it to disk if `is_flushed`, and renames it. Returns its
+/// place.
+std::filesystem::path replace_file(const std::filesystem::path& path, std::string_view content,
+                                   bool is_flushed) {
+  const std::filesystem::path place = check_output_file(path);
+  if (place.has_parent_path()) make_folder(place.parent_path());
+  // The process number in the name keeps the files of two processes that write to `path` apart.
+  const std::filesystem::path beside =
+      place.string() + fmt::format("{}{}{}", kUnfinishedOf, ::getpid(), kUnfinished);
+  try {
+    const Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (file.get() < 0) throw_system_error(path, "written", errno);
+    // The lock tells remove_left_behind that the file is in use. Not every disk has locks.
+    (void)::flock(file.get(), LOCK_EX | LOCK_NB);
+    while (!content.empty()) {
+      const ssize_t count = ::write(file.get(), content.data(), content.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) throw_system_error(path, "written", errno);
+      content.remove_prefix(static_cast<std::size_t>(count));
+    }
+    if (is_flushed && ::fsync(file.get()) != 0) throw_system_error(path, "written", errno);
+    if (::rename(beside.c_str(), place.c_str()) != 0) throw_system_error(path, "written", errno);
+    return place;
+  } catch (...) {
+    ::unlink(beside.c_str());
+    throw;
   }
 }
 
@@ -93,8 +128,7 @@ void remove_file(const std::filesystem::path& path) {
 }
 
 void sync_folder_of(const std::filesystem::path& path) {
-  const auto folder = path.has_parent_path() ? path.parent_path() : ".";
-  const Descriptor file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const Descriptor file(::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // EINVAL: the file system cannot flush folders.
   if (file.get() >= 0 && ::fsync(file.get()) != 0 && errno != EINVAL)
     throw_system_error(path, "written", errno);
@@ -121,30 +155,23 @@ std::filesystem::path check_output_file(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view content) {
-  const std::filesystem::path place = check_output_file(path);
-  if (place.has_parent_path()) make_folder(place.parent_path());
-  // The process number in the name keeps the files of two processes that write to `path` apart.
-  const std::filesystem::path beside =
-      place.string() + fmt::format("{}{}{}", kUnfinishedOf, ::getpid(), kUnfinished);
-  try {
-    const Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (file.get() < 0) throw_system_error(path, "written", errno);
-    // The lock tells remove_left_behind that the file is in use. Not every disk has locks.
-    (void)::flock(file.get(), LOCK_EX | LOCK_NB);
-    while (!content.empty()) {
-      const ssize_t count = ::write(file.get(), content.data(), content.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) throw_system_error(path, "written", errno);
-      content.remove_prefix(static_cast<std::size_t>(count));
-    }
-    if (::fsync(file.get()) != 0) throw_system_error(path, "written", errno);
-    if (::rename(beside.c_str(), place.c_str()) != 0) throw_system_error(path, "written", errno);
-    sync_folder_of(place);
-    remove_left_behind(place);
-  } catch (...) {
-    ::unlink(beside.c_str());
-    throw;
-  }
+  const auto place = replace_file(path, content, true);
+  sync_folder_of(place);
+  remove_left_behind(folder_of(place), place.filename().string());
 }
+
+void write_unflushed(const std::filesystem::path& path, std::string_view content) {
+  (void)replace_file(path, content, false);
+}
+
+void flush_files(std::span<const std::filesystem::path> paths) {
+  for (const auto& path : paths) {
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (file.get() < 0 || ::fsync(file.get()) != 0) throw_system_error(path, "written", errno);
+  }
+  if (!paths.empty()) sync_folder_of(paths.front());
+}
+
+void remove_unfinished(const std::filesystem::path& folder) { remove_left_behind(folder, ""); }
 
 }  // namespace viscontact

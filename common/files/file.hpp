@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,15 @@ std::string read_file(const std::filesystem::path& path);
 /// the path. An old file is then unchanged, unless the error came from flushing the folder, after
 /// the new file had taken its place.
 void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// As write_file, for one of many files: it is on disk only after flush_files(), and what killed
+/// processes have left stays until remove_unfinished(), which reads the whole folder.
+void write_unflushed(const std::filesystem::path& path, std::string_view content);
+/// Returns when these files, which lie in one folder, are on disk. Throws Error(kBadInput), which
+/// names a path, if the disk reports an error.
+void flush_files(std::span<const std::filesystem::path> paths);
+/// Removes files NAME.viscontact-PID.tmp in the folder that killed processes have left.
+void remove_unfinished(const std::filesystem::path& folder);
 
 /// The file that write_file would replace: `path`, or what it links to. Throws Error(kBadInput) if
 /// this exists and is not a regular file. Call it before a long computation, so that the result is

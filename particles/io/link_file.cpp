@@ -116,7 +116,7 @@ std::vector<TimeTable> time_tables(const Setting& setting, const Particles& part
   std::vector<TimeTable> tables;
   const auto add = [&](const char* name, const std::string& columns, std::size_t count,
                        auto* rows) {
-    if (count > 0) tables.push_back({name, "time,id," + columns + "\n", count, rows});
+    if (count > 0) tables.push_back({name, "time,id," + columns + "\n", rows});
   };
   add("bodies.csv",
       in_space ? "x,y,z,vx,vy,vz,orientation_w,orientation_x,orientation_y,orientation_z,"

@@ -13,9 +13,8 @@ namespace viscontact::particles {
 
 /// A table that gets rows at each output time.
 struct TimeTable {
-  std::string name;       ///< of its file
-  std::string header;     ///< line with the names of its columns
-  std::size_t count = 0;  ///< number of rows at each time
+  std::string name;    ///< of its file
+  std::string header;  ///< line with the names of its columns
   /// The rows of a state. `force_errors` are estimates of the errors of State::link_forces, as many
   /// and in the same units; empty: not known.
   std::string (*rows)(const Setting& setting, const State& state,

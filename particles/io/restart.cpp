@@ -310,7 +310,8 @@ State read_restart(const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string text = read_file(path);
   std::string_view rest = text;
-  if (rest.starts_with("# provenance"))
+  // The program writes lines with its provenance and its record before those of write_restart.
+  while (rest.starts_with("# provenance") || rest.starts_with("# record"))
     rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
   const int version = read_version(rest, file);
   const auto hash = line_of(rest, kHash, file);

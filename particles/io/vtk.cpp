@@ -112,14 +112,9 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
   return text + data.closing();
 }
 
-std::string write_pvd(std::span<const std::pair<double, std::string>> files) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\">\n<Collection>\n";
-  for (const auto& [time, file] : files)
-    text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n",
-                        format_number(time), file);
-  return text + "</Collection>\n</VTKFile>\n";
+std::string pvd_line(double time, const std::string& file) {
+  return fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n",
+                     format_number(time), file);
 }
 
 }  // namespace viscontact::particles

@@ -41,11 +41,16 @@ struct VtpContent {
 /// Error(kBadInput), which names the file, if it is not such a file or was cut short.
 VtpContent read_vtp(const std::filesystem::path& path, int dimension);
 
-/// Content of a PVD file, which lists the time and the file of each frame; ParaView opens it.
-std::string write_pvd(std::span<const std::pair<double, std::string>> files);
+/// A PVD file, which ParaView opens: kPvdHead, a line for each frame with its time [T] and its
+/// file, and kPvdFoot.
+inline constexpr const char* kPvdHead =
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+    "byte_order=\"LittleEndian\">\n<Collection>\n";
+inline constexpr const char* kPvdFoot = "</Collection>\n</VTKFile>\n";
+std::string pvd_line(double time, const std::string& file);  ///< the line of a frame
 
-/// Times and files from a PVD file that write_pvd wrote. Throws Error(kBadInput), which names the
-/// file, if it is not such a file.
+/// Times and files from a PVD file of this form. Throws Error(kBadInput), which names the file, if
+/// it is not such a file.
 std::vector<std::pair<double, std::string>> read_pvd(const std::filesystem::path& path);
 
 }  // namespace viscontact::particles

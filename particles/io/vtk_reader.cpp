@@ -1,5 +1,5 @@
-// Reads the files that vtk.cpp writes, so that an interrupted run can be continued. Lengths, masses
-// and times are in the units of the case. The reader understands only that layout, not VTK's
+// Reads the files that vtk.cpp writes, so that pages can be made from them. Lengths, masses and
+// times are in the units of the case. The reader understands only that layout, not VTK's
 // formats in general.
 #include <cstdint>
 #include <optional>

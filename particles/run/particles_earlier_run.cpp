@@ -1,10 +1,11 @@
 // Finds out by the provenance of restart.bin whether an earlier run has the inputs and the version
-// of this call, and reads its state, record and frames. Times [T] are in the unit of the case.
+// of this call, and reads its state and record. Times [T] are in the unit of the case.
 #include "viscontact/particles/run/particles_earlier_run.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,7 +16,6 @@
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/io/vtk.hpp"
-#include "viscontact/particles/run/particles_folder.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
 
@@ -91,11 +91,6 @@ void take_over_bodies(State& state, const ParticlesCase& c, const fs::path& rest
 
 }  // namespace
 
-FrameTimes frame_times(const ParticlesCase& c, double first_time) {
-  // Times that differ by less than 1e-6 time steps differ by rounding only.
-  return {first_time, std::max(c.frame_interval, c.setting.time_step), 1e-6 * c.setting.time_step};
-}
-
 State first_state(const ParticlesCase& c, const std::string& restart) {
   State state;
   if (restart.empty()) {
@@ -130,11 +125,13 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
 }
 
 std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::path& folder,
-                                           const results::Provenance& provenance) {
+                                           const results::Provenance& provenance,
+                                           const RunLog& log) {
   const auto restart = folder / "restart.bin";
   if (!fs::is_regular_file(restart)) return {};
   try {
-    const auto before = results::provenance_in(results::read_head(restart), restart.string());
+    const auto head = results::read_head(restart);
+    const auto before = results::provenance_in(head, restart.string());
     const std::string other =
         before ? difference(*before, provenance) : "does not say what it was made from";
     if (!other.empty()) {
@@ -143,16 +140,12 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
                       folder.string(), other));
       return {};
     }
-    auto state = read_restart(restart);
-    check_same_particles(state, c, restart);
-    state.particles.ids = c.particles.ids;
-    take_over_bodies(state, c, restart);
-    auto record = read_step_record(folder / "steps.csv", state.steps, c.setting.fluid.has_value());
-    ParticleFrames frames(folder, provenance, c.setting, state.particles);
-    frames.resume(
-        frames_until(folder / "particles.pvd", state.time, frame_times(c, record.first_time)),
-        c.setting, state.time);
-    return EarlierRun{std::move(state), std::move(record), std::move(frames)};
+    EarlierRun run{read_restart(restart), read_record(head, restart)};
+    check_same_particles(run.state, c, restart);
+    run.state.particles.ids = c.particles.ids;
+    take_over_bodies(run.state, c, restart);
+    log.check(run.record);
+    return run;
   } catch (const Error& error) {
     terminal::say(
         fmt::format("particles: the run in {} cannot be continued ({}), so it is replaced by a run "
@@ -162,19 +155,22 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
   }
 }
 
-bool is_finished(const EarlierRun& run, const ParticlesCase& c, const fs::path& folder) {
-  if (run.state.time < c.end_time - frame_times(c, 0).tiny) return false;
+bool is_finished(const EarlierRun& run, const ParticlesCase& c, double tiny,
+                 const fs::path& folder) {
+  if (run.state.time < c.end_time - tiny) return false;
   const auto is_there = [&](const auto& name) { return fs::is_regular_file(folder / name); };
-  if (!std::ranges::all_of(kParticleResults, is_there)) return false;
-  if (c.setting.fluid && !std::ranges::all_of(kFluidResults, is_there)) return false;
-  if (!c.setting.links.empty() && !is_there("links.pvd")) return false;
-  for (const auto& [name, text] : run.frames.tables())
-    if (!is_there(name)) return false;
+  const auto written_at_end = std::to_array<const char*>(
+      {"particles.html", "particles.svg", "final_particles.csv", "final_contacts.csv"});
+  if (!std::ranges::all_of(written_at_end, is_there)) return false;
   try {
-    // run.json is the last file that a run writes.
-    const auto record = nlohmann::json::parse(read_file(folder / "run.json"));
-    return record.at("to_time") == run.state.time &&
-           std::ranges::all_of(read_pvd(folder / "particles.pvd"), is_there, &FrameFile::second);
+    // run.json is the last file that a run writes before restart.bin.
+    const auto json = nlohmann::json::parse(read_file(folder / "run.json"));
+    if (json.at("to_time") != run.state.time) return false;
+    for (const auto& [name, end] : run.record.files)
+      if (name.ends_with(".pvd"))
+        for (const auto& [time, frame] : read_pvd(folder / name))
+          if (!is_there(frame)) return false;
+    return true;
   } catch (const std::exception&) {
     return false;  // a damaged file: the run continues and writes it again
   }

@@ -1,12 +1,14 @@
-// Recognises frames by their names, particles_NNNNN.vtp, flow_NNNNN.vtu and links_NNNNN.vtp, and
-// files that Viscontact wrote by their provenance. The form of the names must agree with
-// ParticleFrames.
+// Recognises the files of frames by their names, and files that Viscontact wrote by their
+// provenance.
 #include "viscontact/particles/run/particles_folder.hpp"
 
-#include <algorithm>
-#include <string>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -17,43 +19,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// True if the name consists of `begin`, at least five digits, and `end`.
-bool is_numbered(std::string_view name, std::string_view begin, std::string_view end) {
-  constexpr std::size_t kDigits = 5;
-  if (!name.starts_with(begin) || !name.ends_with(end) ||
-      name.size() < begin.size() + kDigits + end.size())
-    return false;
-  const auto digits = name.substr(begin.size(), name.size() - begin.size() - end.size());
-  return std::ranges::all_of(digits, [](char d) { return d >= '0' && d <= '9'; });
+/// The number of the frame whose file of this kind has that name; nothing if no frame has it.
+std::optional<std::uint64_t> number_of_frame(const FrameKind& kind, std::string_view name) {
+  const std::string_view begin(kind.begin);
+  if (!name.starts_with(begin) || name.size() <= begin.size()) return {};
+  std::uint64_t number = 0;
+  std::from_chars(name.data() + begin.size() + 1, name.data() + name.size(), number);
+  if (name != frame_name(kind, number)) return {};
+  return number;
 }
 
-bool is_named_as_frame(const fs::path& path) {
-  const std::string name = path.filename();
-  return is_numbered(name, "particles_", ".vtp") || is_numbered(name, "flow_", ".vtu") ||
-         is_numbered(name, "links_", ".vtp");
-}
-
-/// The files in the folder that are named as frames.
-std::vector<fs::path> frames_in(const fs::path& folder) {
-  std::vector<fs::path> frames;
+/// The files of one kind in the folder whose numbers are at least `first`.
+std::vector<fs::path> frames_in(const fs::path& folder, const FrameKind& kind,
+                                std::uint64_t first) {
+  std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (is_named_as_frame(entry.path())) frames.push_back(entry.path());
-  return frames;
-}
-
-template <class Visit>
-void for_each_result(const Visit& visit) {
-  for (const auto* name : kParticleResults) visit(name);
-  for (const auto* name : kFluidResults) visit(name);
-  for (const auto* name : kLinkResults) visit(name);
+    if (const auto number = number_of_frame(kind, entry.path().filename().string());
+        number && *number >= first)
+      files.push_back(entry.path());
+  return files;
 }
 
 }  // namespace
 
+std::string frame_name(const FrameKind& kind, std::uint64_t number) {
+  return fmt::format("{}_{:05}{}", kind.begin, number, kind.end);
+}
+
 void check_results(const fs::path& folder) {
-  for_each_result(
-      [&](const char* name) { results::refuse_other_kind(folder / name, "", "result"); });
-  for (const auto& frame : frames_in(folder)) results::refuse_other_kind(frame, "", "result");
+  for (const auto* name : kParticleResults) results::refuse_other_kind(folder / name, "", "result");
+  for (const auto& kind : {kFrameFile, kFlowFile, kLinksFile})
+    for (const auto& file : frames_in(folder, kind, 0))
+      results::refuse_other_kind(file, "", "result");
 }
 
 void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs::path& folder) {
@@ -66,29 +63,23 @@ void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs
         "its own folder");
   for (const auto& input : {c.path, c.particles_file}) {
     if (input.empty()) continue;
-    for_each_result([&](const char* output) {
-      std::error_code ignored;
-      if (fs::equivalent(input, folder / output, ignored))
-        throw_bad_input({input.string()}, "would be overwritten by the run's " +
-                                              std::string(output) + "; choose another folder");
-    });
+    for (const std::string output : kParticleResults)
+      if (fs::equivalent(input, folder / output, none))
+        throw_bad_input({input.string()},
+                        "would be overwritten by the run's " + output + "; choose another folder");
   }
 }
 
 void remove_results(const fs::path& folder) {
-  for_each_result([&](const char* name) { remove_file(folder / name); });
-  remove_other_frames({}, folder);
+  for (const auto* name : kParticleResults) remove_file(folder / name);
+  remove_later_frames(folder, 0, 0);
 }
 
-void remove_other_frames(const std::vector<FrameFile>& frames, const fs::path& folder) {
-  const auto belongs_to = [](const std::string& file) {
-    return [&file](const FrameFile& frame) {
-      return frame.second == file || flow_name(frame.second) == file ||
-             links_name(frame.second) == file;
-    };
-  };
-  for (const auto& file : frames_in(folder))
-    if (std::ranges::none_of(frames, belongs_to(file.filename().string()))) remove_file(file);
+void remove_later_frames(const fs::path& folder, std::uint64_t frames, std::uint64_t flows) {
+  for (const auto& [kind, first] :
+       {std::pair{kFrameFile, frames}, {kLinksFile, frames}, {kFlowFile, flows}})
+    for (const auto& file : frames_in(folder, kind, first)) remove_file(file);
+  remove_unfinished(folder);
 }
 
 }  // namespace viscontact::particles

@@ -3,26 +3,31 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
-#include <vector>
+#include <string>
 
 #include "viscontact/particles/case/particles_case.hpp"
-#include "viscontact/particles/run/particles_frames.hpp"
 
 namespace viscontact::particles {
 
-/// The names of all files of each run, except its frames.
+/// The names of all files that a run may have, except those of its frames. restart.bin is the first
+/// to be removed, because the others are of no use to a run without it.
 inline constexpr auto kParticleResults = std::to_array<const char*>(
-    {"particles.pvd", "particles.html", "particles.svg", "final_particles.csv",
-     "final_contacts.csv", "steps.csv", "restart.bin", "run.json"});
+    {"restart.bin", "particles.pvd", "particles.html", "particles.svg", "final_particles.csv",
+     "final_contacts.csv", "steps.csv", "run.json", "motion.csv", "contacts.csv", "flow.pvd",
+     "bodies.csv", "hinges.csv", "springs.csv", "arms.csv", "links.pvd", "rebounds.csv"});
 
-/// The names of further files of a run with a fluid.
-inline constexpr auto kFluidResults =
-    std::to_array<const char*>({"motion.csv", "contacts.csv", "flow.pvd"});
+/// What the name of a file of a frame has before and after the number of the frame.
+struct FrameKind {
+  const char* begin;  ///< also the name of the list of these files, without ".pvd"
+  const char* end;    ///< with the dot
+};
+inline constexpr FrameKind kFrameFile{"particles", ".vtp"}, kFlowFile{"flow", ".vtu"},
+    kLinksFile{"links", ".vtp"};
 
-/// The names of further files of a run with rigid bodies, links or restitution.
-inline constexpr auto kLinkResults = std::to_array<const char*>(
-    {"bodies.csv", "hinges.csv", "springs.csv", "arms.csv", "links.pvd", "rebounds.csv"});
+/// The name of the file of frame `number`, from 0: particles_NNNNN.vtp.
+std::string frame_name(const FrameKind& kind, std::uint64_t number);
 
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame but
 /// Viscontact did not write it.
@@ -36,7 +41,9 @@ void check_inputs_stay(const ParticlesCase& c, const std::filesystem::path& rest
 /// Removes all results and frames, so that the folder never contains files of two runs.
 void remove_results(const std::filesystem::path& folder);
 
-/// Removes the frames in the folder that are not among `frames`, and their flows.
-void remove_other_frames(const std::vector<FrameFile>& frames, const std::filesystem::path& folder);
+/// Removes the files of all frames but the first `frames`, all flows but the first `flows`, and
+/// files that a killed process has not finished.
+void remove_later_frames(const std::filesystem::path& folder, std::uint64_t frames,
+                         std::uint64_t flows);
 
 }  // namespace viscontact::particles

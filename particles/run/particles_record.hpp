@@ -1,22 +1,23 @@
-// The record of the steps of a simulation of many particles, for steps.csv and run.json
-// (docs/file-formats.md). Times [T] are in the unit of the case, computing times in seconds. A
-// change must keep earlier files readable.
+// What a run of many particles has done so far: sums over its steps, for run.json, and where its
+// files end, for restart.bin (docs/file-formats.md). Times [T] are in the unit of the case,
+// computing times in seconds.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 
+#include "viscontact/common/files/growing_file.hpp"
 #include "viscontact/particles/case/particles_case.hpp"
-#include "viscontact/particles/simulation.hpp"
+#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/step_report.hpp"
 
 namespace viscontact::particles {
 
 /// Sums and largest values over the steps of a run: those of this call and those of the interrupted
 /// calls before it in the same folder.
 struct StepTotals {
-  /// Number of the last step. A run that continues another by --restart counts on from its steps.
-  std::int64_t last_step = 0;
   /// Number of steps, of steps that did not converge, and of the iterations of all steps.
   std::int64_t steps = 0, unconverged = 0, iterations = 0;
   int most_iterations = 0;                           ///< largest number of iterations in one step
@@ -28,36 +29,38 @@ struct StepTotals {
   double seconds = 0;                                ///< computing time of earlier calls [s]
   double peak_memory_mebibytes = 0;                  ///< of earlier calls [MiB]
   // With a fluid only.
-  bool has_fluid = false;
   double fluid_seconds = 0;    ///< sum of FluidStepReport::seconds [s]
   std::uint64_t unknowns = 0;  ///< of the fluid solver, in the last step
   /// Estimates of the relative errors of velocities and forces at the first and at the last step.
   RelativeErrors first_velocity_errors, last_velocity_errors;
   RelativeErrors first_force_errors, last_force_errors;
+
+  /// Adds a step.
+  void add(const StepReport& report);
 };
 
-/// The sums and the rows of steps.csv, which can be 50 MB long.
-struct StepRecord : StepTotals {
-  /// `has_fluid`: whether the rows have the columns of a fluid.
-  explicit StepRecord(bool has_fluid = false);
-  std::string rows;  ///< the header of steps.csv, and the rows so far
-
-  /// Adds a step to the sums and, if steps.csv lists it, to the rows. After a million steps, only
-  /// every thousandth step and the steps that did not converge are listed.
-  void add(std::int64_t step, const StepReport& report);
+/// What a run has done when a state was reached. A file that a run needs to continue, beside the
+/// state, has an entry in `files`.
+struct RunRecord {
+  StepTotals totals;
+  std::uint64_t frames = 0, flows = 0;   ///< number of frames, and of those whose flow is written
+  double last_frame = 0;                 ///< time of the last frame [T]
+  std::uint64_t rebounds = 0;            ///< number of rows of rebounds.csv
+  std::map<std::string, FileEnd> files;  ///< ends of the files that grow, by name
 };
 
-/// The comment line of steps.csv that contains the sums.
-std::string record_comment(const StepTotals& sums);
+/// The line with the names of the columns of steps.csv.
+std::string steps_header(bool has_fluid);
+/// The row of steps.csv of the step with the number `step`.
+std::string step_row(std::int64_t step, const StepReport& report, bool has_fluid);
+
+/// The comment line of restart.bin that contains the record after the step with the number `step`.
+std::string record_comment(const RunRecord& record, std::int64_t step);
+/// Reads that line from `head`, the first lines of the file `restart`. Throws Error(kBadInput),
+/// which names the file, if it has no such line.
+RunRecord read_record(const std::string& head, const std::filesystem::path& restart);
 
 /// The text of run.json at the end of a run with these sums.
-std::string run_json(const ParticlesCase& c, const StepTotals& record, const State& state);
-
-/// Reads from steps.csv the record as it was after the step `last_step` (0: before the first step).
-/// The file may contain later rows, because it is written before restart.bin; they are left out.
-/// Throws Error(kBadInput) if the file has no record of this step, or if the number of its rows
-/// differs from that in the record.
-StepRecord read_step_record(const std::filesystem::path& path, std::int64_t last_step,
-                            bool has_fluid);
+std::string run_json(const ParticlesCase& c, const StepTotals& totals, const State& state);
 
 }  // namespace viscontact::particles

@@ -1,6 +1,6 @@
 // A run of many particles: checks, continues an earlier run, computes time steps, saves and writes
-// the results. restart.bin must be written after steps.csv and particles.pvd (Run::save), so that a
-// run that is killed at any time can be continued.
+// the results. restart.bin must be written after all files that a run needs to continue
+// (Run::save), so that a run that is killed at any time can be continued.
 #include "viscontact/particles/run/particles_stage.hpp"
 
 #include <fmt/format.h>
@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <exception>
 #include <filesystem>
 #include <span>
 #include <utility>
@@ -20,14 +22,11 @@
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/restart.hpp"
-#include "viscontact/particles/io/vtk.hpp"
-#include "viscontact/particles/picture/particles_page.hpp"
-#include "viscontact/particles/picture/particles_picture.hpp"
 #include "viscontact/particles/run/particle_simulation.hpp"
 #include "viscontact/particles/run/particles_earlier_run.hpp"
 #include "viscontact/particles/run/particles_folder.hpp"
-#include "viscontact/particles/run/particles_frames.hpp"
-#include "viscontact/particles/run/particles_record.hpp"
+#include "viscontact/particles/run/particles_pages.hpp"
+#include "viscontact/particles/run/run_log.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_folder.hpp"
 #include "viscontact/terminal/progress.hpp"
@@ -38,93 +37,98 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// Writes the page and the still picture of the frames.
-void write_pages(const ParticleFrames& frames, const std::string& title, const fs::path& folder,
-                 const results::Provenance& provenance) {
-  constexpr int kPanels = 4;  // states in the still picture
-  results::write_output(folder / "particles.html", TextKind::kHtml,
-                        particles_page(frames.playback(), title), provenance);
-  results::write_output(folder / "particles.svg", TextKind::kSvg,
-                        particles_picture(frames.playback(), title, kPanels), provenance);
-}
+/// Times of a run that differ by less [T] differ by rounding only.
+double tiny_time(const ParticlesCase& c) { return 1e-6 * c.setting.time_step; }
 
-/// A run with its state, frames and record, which can be written at any time.
+/// A run with its state and its files, which can be saved after any step.
 class Run {
  public:
-  /// `record` and `frames` are new ones, or those of the interrupted run that this one continues.
+  /// `log` is that of a new run, or of the interrupted run that this one continues; it must outlive
+  /// this object.
   Run(const ParticlesCase& c, ParticleSimulation& simulation, fs::path folder,
-      const results::Provenance& provenance, StepRecord record, ParticleFrames frames,
-      const StopToken& stop)
+      const results::Provenance& provenance, RunLog& log, const StopToken& stop)
       : case_(c),
         simulation_(simulation),
         folder_(std::move(folder)),
         provenance_(provenance),
-        frames_(std::move(frames)),
-        record_(std::move(record)),
-        earlier_(record_),
+        log_(log),
         stop_(stop) {}
 
-  /// Computes steps until the end time, or until a stop is requested.
-  void simulate() {
-    if (frames_.files().empty()) add_frame();
-    save();
-    const auto times = frame_times(case_, record_.first_time);
-    double next_frame = times.after(frames_.files().back().first);
-    while (simulation_.state().time < case_.end_time - times.tiny && !stop_.stop_requested()) {
-      const auto report = simulation_.step(case_.end_time);
-      record_.add(simulation_.state().steps, report);
-      frames_.add_rebounds(simulation_.state().particles, simulation_.rebounds());
-      if (simulation_.has_fluid()) {
-        record_.unknowns = simulation_.fluid().unknowns();
-        if (frames_.lacks_flow(case_.setting)) frames_.add_flow(simulation_.fluid().flow());
+  /// Computes steps until the end time, until a stop is requested, or until a step cannot be
+  /// computed. Returns the error of that step, if there is one; the state is then that before it.
+  std::exception_ptr simulate() {
+    if (log_.record().frames == 0) add_frame();
+    save(with_costs(log_.record()));
+    double next_frame = frame_after(log_.record().last_frame);
+    while (!is_at_end() && !stop_.stop_requested()) {
+      StepReport report;
+      try {
+        report = simulation_.step(case_.end_time);
+      } catch (const Error&) {
+        return std::current_exception();
       }
-      if (report.time >= next_frame - times.tiny) {
+      if (simulation_.has_fluid()) {
+        log_.totals().unknowns = simulation_.fluid().unknowns();
+        if (log_.lacks_flow()) log_.add_flow(simulation_.fluid().flow());
+      }
+      log_.add_step(report, simulation_.state(), simulation_.rebounds());
+      if (report.time >= next_frame - tiny_time(case_)) {
         add_frame();
-        next_frame = times.after(report.time);
+        next_frame = frame_after(report.time);
       }
       tell(report);
       constexpr double kSaveEvery = 60;  // [s]
-      const bool is_at_end = simulation_.state().time >= case_.end_time - times.tiny;
-      if (!is_at_end && seconds_since(last_saved_) > kSaveEvery) save();
+      if (!is_at_end() && seconds_since(last_saved_) > kSaveEvery) save(with_costs(log_.record()));
     }
+    return {};
   }
 
   /// Writes all files of the run. Returns the text of run.json.
   std::string write_results() {
     terminal::clear_progress();
-    frames_.end(case_.setting, simulation_.state(), link_force_errors());
-    add_last_flow();
+    // A run that continues from here removes what only its end adds: a frame of its last state,
+    // unless the last frame shows it, and the flow around it.
+    auto record = log_.record();
     const auto& state = simulation_.state();
+    if (record.last_frame < state.time) add_frame();
+    add_last_flow();
+    log_.sync();
     write("final_particles.csv", TextKind::kHashComment, final_particles());
     write("final_contacts.csv", TextKind::kHashComment,
           write_contacts(state.particles, contacts_of(case_.setting, state)));
-    write_pages(frames_, case_.title, folder_, provenance_);
-    auto json = run_json(case_, with_costs(), state);
+    write_pages(case_, folder_, provenance_);
+    record = with_costs(std::move(record));
+    auto json = run_json(case_, record.totals, state);
     // Forces of the fluid are not in restart.bin. A run that is killed before this line computes
     // its last step again.
     write("run.json", TextKind::kJson, json);
-    save();
+    save(record);
     return json;
   }
-
-  const StepRecord& record() const { return record_; }
 
  private:
   static double seconds_since(Clock::time_point time) {
     return std::chrono::duration<double>(Clock::now() - time).count();
   }
+  bool is_at_end() const { return simulation_.state().time >= case_.end_time - tiny_time(case_); }
   void write(const char* name, TextKind kind, const std::string& text) const {
     results::write_output(folder_ / name, kind, text, provenance_);
+  }
+
+  /// The time of the frame after the one at `time` [T]: a frame is written after the first step
+  /// that reaches a multiple of the interval since the first time.
+  double frame_after(double time) const {
+    const double first = log_.totals().first_time;
+    const double interval = std::max(case_.frame_interval, case_.setting.time_step);
+    return first + (std::floor((time + tiny_time(case_) - first) / interval) + 1) * interval;
   }
 
   /// Adds the flow around the particles where they are at the end, which no step computes. A run
   /// that was interrupted computes it in its next step, when it continues.
   void add_last_flow() {
-    const auto& state = simulation_.state();
-    const bool is_at_end = state.time >= case_.end_time - frame_times(case_, 0).tiny;
-    if (!is_at_end || stop_.stop_requested() || !frames_.lacks_flow(case_.setting)) return;
+    if (!is_at_end() || stop_.stop_requested() || !log_.lacks_flow()) return;
     try {
-      frames_.add_flow(simulation_.fluid().flow_at_present());
+      log_.add_flow(simulation_.fluid().flow_at_present());
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kExternalProgram) throw;
       terminal::warn(fmt::format(
@@ -132,11 +136,10 @@ class Run {
     }
   }
 
-  void add_frame() { frames_.add(case_.setting, simulation_.state(), link_force_errors()); }
-
-  std::span<const double> link_force_errors() {
-    if (!simulation_.has_fluid()) return {};
-    return simulation_.fluid().force_errors().of_links;
+  void add_frame() {
+    std::span<const double> link_force_errors;
+    if (simulation_.has_fluid()) link_force_errors = simulation_.fluid().force_errors().of_links;
+    log_.add_frame(simulation_.state(), link_force_errors);
   }
 
   std::string final_particles() {
@@ -147,39 +150,26 @@ class Run {
                            FluidForces{fluid.fluid_forces(), fluid.force_errors().of_fluid});
   }
 
-  /// The sums, with computing time and memory of this call and the calls before it.
-  StepTotals with_costs() const {
+  /// The record, with computing time and memory of this call and the calls before it.
+  RunRecord with_costs(RunRecord record) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    StepTotals record = record_;
-    record.seconds += seconds_since(begin_);
+    auto& totals = record.totals;
+    totals.seconds += seconds_since(begin_);
     double peak = static_cast<double>(usage.ru_maxrss) / 1024;
     if (simulation_.has_fluid()) peak += simulation_.fluid().solver_peak_memory_mebibytes();
-    record.peak_memory_mebibytes = std::max(record.peak_memory_mebibytes, peak);
+    totals.peak_memory_mebibytes = std::max(totals.peak_memory_mebibytes, peak);
     return record;
   }
 
-  /// Writes the files from which a killed run is continued, and the list of frames. A run continues
-  /// from the step of restart.bin, so restart.bin is written last: whenever the process is killed,
-  /// the other files contain that step. steps.csv may be newer than restart.bin by one call of this
-  /// function; therefore it contains the record of the previous call, too.
-  void save() {
-    const auto record = with_costs();
-    write("particles.pvd", TextKind::kXml, write_pvd(frames_.files()));
-    if (simulation_.has_fluid()) {
-      write("flow.pvd", TextKind::kXml, write_pvd(frames_.flows()));
-      write("motion.csv", TextKind::kHashComment, frames_.motion());
-      write("contacts.csv", TextKind::kHashComment, frames_.contacts());
-    }
-    if (!case_.setting.links.empty())
-      write("links.pvd", TextKind::kXml, write_pvd(frames_.links()));
-    for (const auto& [name, text] : frames_.tables())
-      write(name.c_str(), TextKind::kHashComment, text);
-    write("steps.csv", TextKind::kHashComment,
-          (earlier_.last_step == record.last_step ? "" : record_comment(earlier_)) +
-              record_comment(record) + record_.rows);
-    write("restart.bin", TextKind::kHashComment, write_restart(simulation_.state()));
-    earlier_ = record;
+  /// Writes restart.bin with the present state and a record of what was written until it, after
+  /// everything else is on disk: whenever the process is killed, the files contain what the record
+  /// says, and the run continues from there.
+  void save(const RunRecord& record) {
+    log_.sync();
+    const auto& state = simulation_.state();
+    write("restart.bin", TextKind::kHashComment,
+          record_comment(record, state.steps) + write_restart(state));
     last_saved_ = Clock::now();
   }
 
@@ -196,9 +186,7 @@ class Run {
   ParticleSimulation& simulation_;
   fs::path folder_;
   const results::Provenance& provenance_;
-  ParticleFrames frames_;
-  StepRecord record_;
-  StepTotals earlier_;  // the sums when restart.bin was last written
+  RunLog& log_;
   StopToken stop_;
   double first_time_ = simulation_.state().time;  // of this call [T]
   Clock::time_point begin_ = Clock::now(), last_saved_ = begin_;
@@ -251,7 +239,7 @@ void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path
                    const StopToken& stop) {
   if (json) fmt::print("{}", results::without_provenance(read_file(folder / "run.json")));
   terminal::say(fmt::format("particles: {} is up to date", folder.string()));
-  warn_or_fail_if_not_converged(c, run.record, folder, stop);
+  warn_or_fail_if_not_converged(c, run.record.totals, folder, stop);
 }
 
 }  // namespace
@@ -267,57 +255,34 @@ void run_particles(const ParticlesRequest& request) {
   auto state = first_state(c, request.restart);
   const LockedFolder lock(folder, results::kFolderIsLocked);
   check_results(folder);
-  auto earlier = find_earlier_run(c, folder, provenance);
-  if (earlier && is_finished(*earlier, c, folder)) {
-    tell_finished(c, *earlier, folder, request.json, request.stop);
-    return;
-  }
-  StepRecord record(c.setting.fluid.has_value());
-  ParticleFrames frames(folder, provenance, c.setting, c.particles);
-  if (earlier) {
-    // This removes frames that were written after the last restart.bin, and the frame that was
-    // written because of the interrupt.
-    remove_other_frames(earlier->frames.files(), folder);
+  RunLog log(c, folder, provenance);
+  if (const auto earlier = find_earlier_run(c, folder, provenance, log)) {
+    if (is_finished(*earlier, c, tiny_time(c), folder)) {
+      tell_finished(c, *earlier, folder, request.json, request.stop);
+      return;
+    }
+    log.resume(earlier->record);
     terminal::say(fmt::format("particles: the run in {} continues from t = {:.6g}, after step {}",
                               folder.string(), earlier->state.time, earlier->state.steps));
-    state = std::move(earlier->state);
-    record = std::move(earlier->record);
+    state = earlier->state;
   } else {
     remove_results(folder);
-    record.first_time = record.last_time = state.time;
-    record.last_step = state.steps;
+    log.totals().first_time = log.totals().last_time = state.time;
   }
   ParticleSimulation simulation(c.setting, std::move(state), request.threads, request.start_solver,
                                 request.stop);
-  Run run(c, simulation, folder, provenance, std::move(record),
-          earlier ? std::move(earlier->frames) : std::move(frames), request.stop);
+  Run run(c, simulation, folder, provenance, log, request.stop);
+  // After an error of writing, restart.bin stays as it is: the same command continues from there.
+  const auto failure = run.simulate();
+  std::string json;
   try {
-    run.simulate();
+    json = run.write_results();
   } catch (const Error&) {
-    // If a step cannot be computed, the state before this step is written. If the error came from
-    // writing, a second error of writing is ignored and the first is thrown.
-    try {
-      run.write_results();
-    } catch (const Error&) {
-    }
-    throw;
+    if (!failure) throw;
   }
-  const auto json = run.write_results();
+  if (failure) std::rethrow_exception(failure);
   if (request.json) fmt::print("{}", json);
-  warn_or_fail_if_not_converged(c, run.record(), folder, request.stop);
-}
-
-void report_particles(const fs::path& folder) {
-  check_results(folder);
-  auto files = results::given_inputs(folder / "particles.pvd");
-  const auto c = read_particles_case(files.front());
-  files.push_back(folder / "particles.pvd");
-  if (c.setting.fluid) files.push_back(folder / "flow.pvd");
-  const auto provenance = results::provenance_of({files, {}});
-  ParticleFrames frames(folder, provenance, c.setting, c.particles);
-  frames.read_all(c.setting);
-  write_pages(frames, c.title, folder, provenance);
-  terminal::say(fmt::format("report: {0}/particles.html, {0}/particles.svg", folder.string()));
+  warn_or_fail_if_not_converged(c, log.totals(), folder, request.stop);
 }
 
 }  // namespace viscontact::particles

@@ -24,13 +24,10 @@ struct ParticlesRequest {
 /// folder has an interrupted run of the same inputs, this run continues; a finished run of the same
 /// inputs is left as it is; the files of any other run are removed at the beginning. Throws
 /// Error(kBadInput) before anything is written if the case or the restart file is wrong or a file
-/// must not be replaced. Throws after everything is written: Error(kNotConverged) if a step did not
-/// reach the tolerance or cannot be computed, Error(kInterrupted) if `stop` requested a stop.
+/// must not be replaced, and after it if a file cannot be written; the same request then continues
+/// from the last restart.bin. Throws after everything is written: Error(kNotConverged) if a step
+/// did not reach the tolerance or cannot be computed, Error(kInterrupted) if `stop` requested a
+/// stop.
 void run_particles(const ParticlesRequest& request);
-
-/// Writes particles.html and particles.svg again from the frames that run_particles wrote into
-/// `folder`, and from the case and its file of particles, which must not have changed since. Throws
-/// Error(kBadInput) if a file is missing or damaged.
-void report_particles(const std::filesystem::path& folder);
 
 }  // namespace viscontact::particles

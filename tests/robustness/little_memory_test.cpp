@@ -1,8 +1,11 @@
 // Little memory, played by the shell's limit on the size of a process: the work is done, or refused
-// in a line. Limits from too little to begin to enough.
+// in a line. Limits from too little to begin to enough. The memory of a run of particles does not
+// grow with its steps.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
@@ -72,6 +75,38 @@ TEST_F(LittleMemory, Fit) {
 
 TEST_F(LittleMemory, Sweep) {
   expect_done_or_refused({"sweep", path("sweep.toml"), "-o", path("out/sweep.csv"), "--jobs", "2"});
+}
+
+TEST_F(LittleMemory, ParticlesOfManyStepsNeedNoMoreThanOfFew) {
+  // The peak memory of a run of so many steps, in MiB.
+  const auto peak = [&](int steps) {
+    put_text(path("particles.toml"), fmt::format(R"(title = "A disc on a floor"
+[space]
+dimension = 2
+gravity = [0.0, -1.0]
+[viscous_contact]
+time_step = {}
+end_time = 2.0
+[[plane]]
+point = [0.0, 0.0]
+normal = [0.0, 1.0]
+[[particle]]
+centre = [0.0, 2.0]
+radius = 1.0
+mass = 1.0
+)",
+                                                 2.0 / steps));
+    const auto folder = path("of_" + std::to_string(steps));
+    expect_done(run_viscontact({"particles", path("particles.toml"), "-o", folder}));
+    return nlohmann::json::parse(read_file(folder + "/run.json"))["peak_memory_mebibytes"]
+        .get<double>();
+  };
+  const double of_few = peak(1000), of_many = peak(400000);
+  const double table =
+      static_cast<double>(std::filesystem::file_size(path("of_400000/steps.csv"))) / (1 << 20);
+  EXPECT_GT(table, 20);
+  // A run that kept its rows would need more than the size of its table.
+  EXPECT_LT(of_many - of_few, 0.1 * table);
 }
 
 }  // namespace

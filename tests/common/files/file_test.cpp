@@ -176,6 +176,21 @@ TEST(WriteFile, TakesAwayWhatAKilledProcessLeftAndNothingElse) {
   write_file(folder.path() / "out.csv", "time\n");
   EXPECT_FALSE(std::filesystem::exists(left));
   for (const auto& other : others) EXPECT_TRUE(std::filesystem::exists(other)) << other;
+  // All that killed processes have left in the folder, of which there is one file.
+  remove_unfinished(folder.path());
+  EXPECT_EQ(folder.names().size(), others.size());
+  EXPECT_FALSE(std::filesystem::exists(others[1]));
+}
+
+TEST(WriteUnflushed, ReplacesAFileThatIsFlushedLater) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("frame", "old");
+  write_unflushed(path, "new");
+  EXPECT_EQ(read_file(path), "new");
+  EXPECT_THAT(folder.names(), ElementsAre("frame"));
+  EXPECT_NO_THROW(flush_files(std::vector{path}));
+  EXPECT_THAT(bad_input([&] { flush_files(std::vector{folder.path() / "none"}); }),
+              HasSubstr("none: cannot be written"));
 }
 
 TEST(ReadFile, RefusesADeviceWhichMayHaveNoEnd) {

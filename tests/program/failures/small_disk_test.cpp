@@ -1,4 +1,5 @@
-// Tabulations on a disk that is full; the disk is a tmpfs of a few pages, which root may mount.
+// Tabulations and runs of particles on a disk that is full; the disk is a small tmpfs, which root
+// may mount.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/mount.h>
@@ -8,11 +9,13 @@
 #include <cstring>
 
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "tests/program/particles/particles_command.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/sample_files.hpp"
 #include "tests/program/tabulate/disturbed_tabulation.hpp"
 #include "tests/program/undisturbed.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
 namespace {
@@ -21,12 +24,13 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-/// A file system of a few pages of 4 KiB.
+/// A file system in memory.
 class SmallDisk {
  public:
-  explicit SmallDisk(std::filesystem::path place) : place_(std::move(place)) {
+  /// `size` is a number with a unit, as mount(8) takes it.
+  SmallDisk(std::filesystem::path place, const std::string& size) : place_(std::move(place)) {
     std::filesystem::create_directory(place_);
-    mounted_ = ::mount("tmpfs", place_.c_str(), "tmpfs", 0, "size=16k") == 0;
+    mounted_ = ::mount("tmpfs", place_.c_str(), "tmpfs", 0, ("size=" + size).c_str()) == 0;
     if (!mounted_) reason_ = std::strerror(errno);
   }
   SmallDisk(const SmallDisk&) = delete;
@@ -34,8 +38,15 @@ class SmallDisk {
   ~SmallDisk() {
     if (mounted_) ::umount2(place_.c_str(), MNT_DETACH);
   }
-  bool mounted() const { return mounted_; }
-  const std::string& reason() const { return reason_; }
+  /// Skips a test, or fails if root runs it, where the disk could not be made. Root may mount, and
+  /// the tests of a clone that scripts/setup made run as root: there nothing is skipped. To another
+  /// user a full disk is shown by the limit on file sizes alone (disk_full_test.cpp).
+  void skip_if_there_is_none() const {
+    if (::geteuid() == 0) {
+      ASSERT_TRUE(mounted_) << reason_;
+    }
+    if (!mounted_) GTEST_SKIP() << "mounting a tmpfs is not permitted: " << reason_;
+  }
 
   /// Leaves so many bytes free.
   void fill_but(std::size_t bytes) const {
@@ -52,17 +63,9 @@ class SmallDisk {
 
 class FullDisk : public DisturbedTabulation {
  protected:
-  void SetUp() override {
-    // Root may mount, and the tests of a clone that scripts/setup made run as root: there nothing
-    // is skipped. To another user a full disk is shown by the limit on file sizes alone
-    // (disk_full_test.cpp).
-    if (::geteuid() == 0) {
-      ASSERT_TRUE(disk_.mounted()) << disk_.reason();
-    }
-    if (!disk_.mounted()) GTEST_SKIP() << "mounting a tmpfs is not permitted: " << disk_.reason();
-  }
+  void SetUp() override { disk_.skip_if_there_is_none(); }
   static constexpr std::size_t kPage = 4096;
-  SmallDisk disk_{scratch_.path() / "disk"};
+  SmallDisk disk_{scratch_.path() / "disk", "16k"};  // four pages
 };
 
 TEST_F(FullDisk, JournalThatFindsNoRoomStopsTheRunAndTheSameCommandGoesOn) {
@@ -99,6 +102,35 @@ TEST_F(FullDisk, TableThatFindsNoRoomIsWrittenLaterWithoutComputing) {
   expect_done(tabulate(path("disk/table.csv"), "no-such-freefem"));
   EXPECT_THAT(fake.answered(), SizeIs(6));
   EXPECT_FALSE(std::filesystem::exists(path("disk/table.csv.rows")));
+}
+
+class FullDiskOfParticles : public ParticlesCommand {
+ protected:
+  void SetUp() override { disk_.skip_if_there_is_none(); }
+  SmallDisk disk_{folder_.path() / "disk", "16m"};
+};
+
+TEST_F(FullDiskOfParticles, StopsTheRunAndTheSameCommandGoesOnToTheSameFiles) {
+  // 40 000 rows of steps.csv, about 3 MB.
+  const auto file = put_case(replaced(kCase, "time_step = 0.05", "time_step = 2.5e-4"));
+  const auto folder = out("disk/run");
+  expect_done(run(file, out("whole")));
+  const auto interrupted =
+      run_viscontact({"particles", file.string(), "-o", folder.string()}, {},
+                     "(while [ ! -e '" + (folder / "particles_00002.vtp").string() +
+                         "' ]; do sleep 0.01; done; kill -INT $$) &");
+  ASSERT_EQ(interrupted.exit_status, results::exit_code_of(ErrorKind::kInterrupted))
+      << interrupted.errors;
+  disk_.fill_but(200000);
+  expect_refusal(run(file, folder), ErrorKind::kBadInput,
+                 HasSubstr("cannot be written (No space left on device)"));
+  for (const auto* name : {"steps.csv", "particles.pvd"})
+    EXPECT_THAT(read_file(folder / name), ::testing::EndsWith("\n")) << name;
+  disk_.make_room();
+  const auto last = run(file, folder);
+  expect_done(last);
+  EXPECT_THAT(last.errors, HasSubstr("continues from t = "));
+  expect_same_files(path("whole"), folder.string());
 }
 
 }  // namespace

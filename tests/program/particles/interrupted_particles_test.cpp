@@ -4,9 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "tests/program/particles/particles_command.hpp"
 #include "tests/program/program.hpp"
@@ -63,39 +61,6 @@ class InterruptedParticles : public ParticlesCommand {
     ASSERT_EQ(result.exit_status, results::exit_code_of(ErrorKind::kInterrupted)) << result.errors;
     EXPECT_THAT(result.errors, HasSubstr("the same command continues from there"));
   }
-
-  /// A text without the lines that say how, how fast and in how much memory it was made.
-  static std::string without_costs(const std::string& text) {
-    std::string rest;
-    for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end) {
-      end = std::min(text.find('\n', begin), text.size() - 1) + 1;
-      const auto line = std::string_view(text).substr(begin, end - begin);
-      const auto has = [&](std::string_view words) {
-        return line.substr(0, 100).find(words) != std::string_view::npos;
-      };
-      if (!has("provenance") && !has("# record after step ") && !has("\"seconds\": ") &&
-          !has("\"peak_memory_mebibytes\": "))
-        rest += line;
-    }
-    return rest;
-  }
-
-  /// The files of a folder by name, without_costs.
-  static std::map<std::string, std::string> content(const std::string& folder) {
-    std::map<std::string, std::string> files;
-    for (const auto& [file, text] : files_below(folder))
-      files[fs::path(file).filename()] = without_costs(text);
-    return files;
-  }
-
-  static void expect_same(const std::string& one, const std::string& other) {
-    const auto first = content(one), second = content(other);
-    for (const auto& [name, text] : first) {
-      ASSERT_TRUE(second.contains(name)) << name;
-      EXPECT_TRUE(second.at(name) == text) << name << " differs";
-    }
-    EXPECT_EQ(first.size(), second.size());
-  }
 };
 
 TEST_F(InterruptedParticles, GoOnByTheSameCommandToTheSameFilesAsWithoutAnInterrupt) {
@@ -112,7 +77,7 @@ TEST_F(InterruptedParticles, GoOnByTheSameCommandToTheSameFilesAsWithoutAnInterr
   const auto last = run("parts");
   expect_done(last);
   EXPECT_THAT(last.errors, HasSubstr("continues from t = "));
-  expect_same(path("whole"), path("parts"));
+  expect_same_files(path("whole"), path("parts"));
   const auto record = nlohmann::json::parse(read_file(path("parts/run.json")));
   EXPECT_EQ(record["steps"], 400000);
   EXPECT_EQ(record["from_time"], 0);
@@ -127,7 +92,7 @@ TEST_F(InterruptedParticles, ListEachReboundOnce) {
   for (const auto& [signal, frame] : {Interrupt{"INT", 3}, {"KILL", 8}})
     (void)run("parts", {signal, frame});
   expect_done(run("parts"));
-  expect_same(path("whole"), path("parts"));
+  expect_same_files(path("whole"), path("parts"));
   const auto rebounds = read_file(path("whole/rebounds.csv"));
   EXPECT_THAT(rebounds,
               HasSubstr("\ntime,first,second,approach_velocity,solid_impulse,velocity\n"));
@@ -160,12 +125,12 @@ TEST_F(InterruptedParticles, WhoseStepsDidNotConvergeSayItAgain) {
 TEST_F(InterruptedParticles, FinishedOneOfWhichAFileIsMissingIsCompletedWithoutAStep) {
   put_case(replaced(kLongCase, "2.5e-5", "1e-2"));
   expect_done(run("out"));
-  const auto before = content(path("out"));
+  const auto before = without_costs(path("out"));
   fs::remove(path("out/particles.html"));
   const auto again = run("out");
   expect_done(again);
   EXPECT_THAT(again.errors, HasSubstr("continues from t = 10"));
-  EXPECT_EQ(content(path("out")), before);
+  EXPECT_EQ(without_costs(path("out")), before);
 }
 
 TEST_F(InterruptedParticles, OfAnotherCaseAreReplacedAndItIsSaid) {
@@ -176,7 +141,7 @@ TEST_F(InterruptedParticles, OfAnotherCaseAreReplacedAndItIsSaid) {
   EXPECT_THAT(changed.errors, HasSubstr("was made from another version of " + path("case.toml") +
                                         ", so it is replaced"));
   expect_done(run("fresh"));
-  expect_same(path("fresh"), path("out"));
+  expect_same_files(path("fresh"), path("out"));
   put_text(path("discs.csv"), replaced(kFallingDiscs, "6.5,4", "6.5,5"));
   EXPECT_THAT(run("out").errors,
               HasSubstr("was made from another version of " + path("discs.csv")));
@@ -184,18 +149,21 @@ TEST_F(InterruptedParticles, OfAnotherCaseAreReplacedAndItIsSaid) {
 
 TEST_F(InterruptedParticles, WithADamagedFileBeginAgainAndSayWhy) {
   run_half("half");
-  const auto cut = [&](const std::string& name) {
-    const auto text = read_file(path("out/" + name));
-    put_text(path("out/" + name), text.substr(0, text.size() * 2 / 3));
-  };
+  const auto cut = [](const std::string& text) { return text.substr(0, text.size() * 2 / 3); };
+  // A spreadsheet writes other line ends.
+  const auto resaved = [](const std::string& text) { return replaced_matches(text, "\n", "\r\n"); };
   for (const std::string name :
        {"restart.bin", "steps.csv", "particles.pvd", "particles_00002.vtp"})
-    for (const bool missing : {false, true}) {
-      if (missing && name == "restart.bin") continue;  // then nothing says that there was a run
-      SCOPED_TRACE(name + (missing ? " missing" : " cut"));
+    for (const std::string damage : {"missing", "cut", "resaved"}) {
+      if (damage == "missing" && name == "restart.bin") continue;  // then there was no run
+      if (damage == "resaved" && name != "steps.csv") continue;
+      SCOPED_TRACE(name + " " + damage);
       fs::remove_all(path("out"));
       fs::copy(path("half"), path("out"));
-      missing ? void(fs::remove(path("out/" + name))) : cut(name);
+      const auto text = read_file(path("out/" + name));
+      damage == "missing"
+          ? void(fs::remove(path("out/" + name)))
+          : put_text(path("out/" + name), damage == "cut" ? cut(text) : resaved(text));
       const auto again = run("out", {"INT", 7});
       EXPECT_THAT(again.errors, AllOf(HasSubstr("cannot be continued"), HasSubstr(name),
                                       HasSubstr("from the start"), Not(HasSubstr("after step"))));
@@ -204,17 +172,27 @@ TEST_F(InterruptedParticles, WithADamagedFileBeginAgainAndSayWhy) {
     }
 }
 
+TEST_F(InterruptedParticles, KilledOnesCanBeDrawn) {
+  ASSERT_EQ(run("out", {"KILL", 4}).exit_status, 128 + 9);
+  EXPECT_FALSE(fs::exists(path("out/particles.html")));
+  expect_done(run_viscontact({"report", path("out")}));
+  EXPECT_TRUE(fs::exists(path("out/particles.html")));
+  EXPECT_TRUE(fs::exists(path("out/particles.svg")));
+}
+
 TEST_F(InterruptedParticles, KilledBetweenTwoFilesGoOnFromTheOlderRestart) {
   run_half("out");
   const auto older = read_file(path("out/restart.bin"));
   ASSERT_EQ(run("out", {"INT", 9}).exit_status, results::exit_code_of(ErrorKind::kInterrupted));
-  // As if the process had been killed after steps.csv and particles.pvd and before restart.bin.
+  // As if the process had been killed while it appended to its tables, before it wrote restart.bin.
   put_text(path("out/restart.bin"), older);
+  put_text(path("out/steps.csv"), read_file(path("out/steps.csv")) + "180001,4.5");
+  put_text(path("out/particles.pvd"), read_file(path("out/particles.pvd")) + "<Data");
   const auto last = run("out");
   expect_done(last);
   EXPECT_THAT(last.errors, HasSubstr("continues from t = "));
   expect_done(run("whole"));
-  expect_same(path("whole"), path("out"));
+  expect_same_files(path("whole"), path("out"));
 }
 
 }  // namespace

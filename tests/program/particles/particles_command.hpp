@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -95,6 +97,36 @@ class ParticlesCommand : public ::testing::Test {
   static std::string content(const std::filesystem::path& file) {
     return replaced_matches(read_file(file), "#[^\n]*\n", "");
   }
+  /// The files of a run by name, without the lines and the column of steps.csv that say how, how
+  /// fast and in how much memory they were made.
+  static std::map<std::string, std::string> without_costs(const std::string& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& [file, text] : files_below(folder)) {
+      std::istringstream lines(text);
+      bool has_seconds = false;  // in the last column
+      for (std::string line; std::getline(lines, line);) {
+        const auto begin = line.substr(0, 100);
+        const auto has = [&](const char* words) { return begin.find(words) != std::string::npos; };
+        if (has("provenance") || has("# record after step ") || has("seconds\": ") ||
+            has("\"peak_memory_mebibytes\": "))
+          continue;
+        has_seconds = has_seconds || line.ends_with(",fluid_seconds");
+        files[std::filesystem::path(file).filename()] +=
+            (has_seconds ? line.substr(0, line.rfind(',')) : line) + "\n";
+      }
+    }
+    return files;
+  }
+  /// Fails if the files of two runs differ but for their costs.
+  static void expect_same_files(const std::string& one, const std::string& other) {
+    const auto first = without_costs(one), second = without_costs(other);
+    for (const auto& [name, text] : first) {
+      ASSERT_TRUE(second.contains(name)) << name;
+      EXPECT_TRUE(second.at(name) == text) << name << " differs";
+    }
+    EXPECT_EQ(first.size(), second.size());
+  }
+
   TemporaryFolder folder_;
 };
 

@@ -1,0 +1,98 @@
+// Writes lines over the foot of the file and the foot behind them in one call (growing_file.hpp).
+#include "viscontact/common/files/growing_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+
+namespace viscontact {
+namespace {
+
+[[noreturn]] void throw_cannot_be(const char* action, const std::filesystem::path& path) {
+  throw_bad_input({path.string()}, fmt::format("cannot be {} ({})", action, std::strerror(errno)));
+}
+
+}  // namespace
+
+GrowingFile::GrowingFile(std::filesystem::path path, std::string_view head, std::string foot)
+    : path_(std::move(path)), foot_(std::move(foot)) {
+  append(head);
+}
+
+void GrowingFile::check(const FileEnd& end) const {
+  const Descriptor file(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
+  struct stat status = {};
+  if (file.get() < 0 || ::fstat(file.get(), &status) != 0) throw_cannot_be("read", path_);
+  const auto line = end.last_line + "\n";
+  std::string found(line.size(), '\0');
+  if (end.bytes < line.size() || static_cast<std::uint64_t>(status.st_size) < end.bytes ||
+      ::pread(file.get(), found.data(), found.size(),
+              static_cast<off_t>(end.bytes - line.size())) != std::ssize(found) ||
+      found != line)
+    throw_bad_input({path_.string()}, "does not have the lines that the run has written into it");
+}
+
+void GrowingFile::resume(const FileEnd& end) {
+  check(end);
+  file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CLOEXEC));
+  if (file_.get() < 0 || ::ftruncate(file_.get(), static_cast<off_t>(end.bytes)) != 0)
+    throw_cannot_be("written", path_);
+  end_ = end;
+  waiting_.clear();
+  write_at(end.bytes, foot_);
+}
+
+void GrowingFile::append(std::string_view lines) {
+  if (lines.empty()) return;
+  waiting_ += lines;
+  end_.bytes += lines.size();
+  const auto last = lines.substr(0, lines.size() - 1);
+  end_.last_line = last.substr(last.rfind('\n') + 1);  // npos + 1 = 0: there is only one line
+  constexpr std::size_t kMostWaiting = std::size_t{1} << 16U;
+  if (waiting_.size() > kMostWaiting) write_waiting();
+}
+
+void GrowingFile::sync() {
+  if (!waiting_.empty()) write_waiting();
+  if (::fsync(file_.get()) != 0) throw_cannot_be("written", path_);
+}
+
+void GrowingFile::write_waiting() {
+  if (file_.get() < 0) {
+    // In one step, so that a file never has a part of its head only.
+    write_file(path_, waiting_ + foot_);
+    file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CLOEXEC));
+    if (file_.get() < 0) throw_cannot_be("written", path_);
+  } else {
+    const auto place = end_.bytes - waiting_.size();
+    try {
+      write_at(place, waiting_ + foot_);
+    } catch (const Error&) {
+      // The foot fits, because it was there before.
+      if (::ftruncate(file_.get(), static_cast<off_t>(place)) == 0) write_at(place, foot_);
+      throw;
+    }
+  }
+  waiting_.clear();
+}
+
+void GrowingFile::write_at(std::uint64_t place, std::string_view text) const {
+  while (!text.empty()) {
+    const ssize_t count =
+        ::pwrite(file_.get(), text.data(), text.size(), static_cast<off_t>(place));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw_cannot_be("written", path_);
+    place += static_cast<std::uint64_t>(count);
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace viscontact

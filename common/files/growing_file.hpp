@@ -1,0 +1,58 @@
+// A text file to which lines are only ever added, as to a table with a row for each step. A process
+// that was killed continues the file from an earlier end of it: keep that end (FileEnd) in another
+// file, which is replaced after sync().
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "viscontact/common/files/descriptor.hpp"
+
+namespace viscontact {
+
+/// The end that a growing file had at some moment.
+struct FileEnd {
+  std::uint64_t bytes = 0;  ///< length of the file, without the foot
+  std::string last_line;    ///< the line that ends there, without its line break
+};
+
+/// Holds back up to 64 KiB of lines, so that it makes few writes. Lines that are not written when
+/// the object is destroyed are lost; end() and sync() say which are not.
+class GrowingFile {
+ public:
+  /// A new file at `path` with the lines `head`. It is made, and replaces an earlier file, when the
+  /// first lines are written. `foot` follows the last line at any time, as XML needs it.
+  GrowingFile(std::filesystem::path path, std::string_view head, std::string foot = "");
+
+  /// Throws Error(kBadInput), which names the path, if the file cannot be read, is shorter than
+  /// `end`, or has another line there.
+  void check(const FileEnd& end) const;
+
+  /// Continues the file that an earlier process has written, and removes all that follows `end`.
+  /// Throws as check() does, and if the file cannot be written.
+  void resume(const FileEnd& end);
+
+  /// Adds whole lines, each with its line break. Throws Error(kBadInput), which names the path, if
+  /// the file cannot be written; it then ends with an earlier line and the foot.
+  void append(std::string_view lines);
+
+  /// The end with all lines that have been appended.
+  const FileEnd& end() const { return end_; }
+
+  /// Writes all lines that have been appended; they are then on disk. Throws as append() does.
+  void sync();
+
+ private:
+  void write_waiting();
+  void write_at(std::uint64_t place, std::string_view text) const;
+
+  std::filesystem::path path_;
+  std::string foot_;
+  Descriptor file_;
+  FileEnd end_;
+  std::string waiting_;  // the last lines of end_, which are not in the file
+};
+
+}  // namespace viscontact

@@ -1,0 +1,106 @@
+// Reads the frames of a run and draws them (particles_pages.hpp).
+#include "viscontact/particles/run/particles_pages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/io/playback.hpp"
+#include "viscontact/particles/io/vtk.hpp"
+#include "viscontact/particles/picture/particles_page.hpp"
+#include "viscontact/particles/picture/particles_picture.hpp"
+#include "viscontact/particles/run/particles_folder.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What all frames of the case have in common.
+Playback without_frames(const ParticlesCase& c) {
+  Playback playback;
+  playback.dimension = c.particles.dimension;
+  playback.radii.assign(c.particles.radii.begin(), c.particles.radii.end());
+  playback.ids = c.particles.ids;
+  playback.cell = cell_of(c.setting);
+  playback.bodies = c.particles.bodies.of_particle;
+  playback.has_friction = c.setting.laws.friction.has_value();
+  for (const auto& hinge : c.setting.links.hinges) playback.links.hinges.push_back(hinge.at);
+  for (const auto& spring : c.setting.links.springs)
+    playback.links.springs.push_back({spring.first, spring.second});
+  for (const auto& arm : c.setting.links.arms)
+    playback.links.arms.push_back({arm.first, arm.second});
+  return playback;
+}
+
+/// The frame at `time` [T] in the file at `path`.
+Frame read_frame(double time, const fs::path& path, const ParticlesCase& c) {
+  auto content = read_vtp(path, c.particles.dimension);
+  if (content.positions.size() != c.particles.positions.size())
+    throw_bad_input({path.string()}, "is a frame of other particles");
+  Frame frame;
+  frame.time = time;
+  frame.positions.assign(content.positions.begin(), content.positions.end());
+  frame.angles.assign(content.angles.begin(), content.angles.end());
+  frame.orientations.assign(content.orientations.begin(), content.orientations.end());
+  frame.planes = positions_of(obstacles_of(c.setting), time);
+  frame.contacts = std::move(content.contacts);
+  return frame;
+}
+
+/// Reads the frames of a run. If they take too much memory, every second one is left out, as often
+/// as need be; the last one is always there.
+Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
+  auto playback = without_frames(c);
+  auto& frames = playback.frames;
+  const auto files = read_pvd(folder / "particles.pvd");
+  if (files.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");
+  constexpr std::size_t kMostBytes = std::size_t{256} << 20U;  // a page cannot show as much
+  std::size_t every = 1, kept_bytes = 0;
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    if (kept_bytes > kMostBytes && frames.size() > 4) {
+      for (std::size_t i = 1; 2 * i < frames.size(); ++i) frames[i] = std::move(frames[2 * i]);
+      frames.resize((frames.size() + 1) / 2);
+      kept_bytes /= 2;
+      every *= 2;
+    }
+    if (f % every != 0 && f + 1 != files.size()) continue;
+    frames.push_back(read_frame(files[f].first, folder / files[f].second, c));
+    kept_bytes += frames.back().positions.size() * sizeof(float) +
+                  frames.back().contacts.size() * sizeof(CurrentContact);
+  }
+  if (c.setting.fluid)
+    for (const auto& [time, file] : read_pvd(folder / "flow.pvd"))
+      if (const auto frame = std::ranges::find(frames, time, &Frame::time); frame != frames.end())
+        frame->flow = folder / file;
+  return playback;
+}
+
+}  // namespace
+
+void write_pages(const ParticlesCase& c, const fs::path& folder,
+                 const results::Provenance& provenance) {
+  constexpr int kPanels = 4;  // states in the still picture
+  const auto playback = read_playback(c, folder);
+  results::write_output(folder / "particles.html", TextKind::kHtml,
+                        particles_page(playback, c.title), provenance);
+  results::write_output(folder / "particles.svg", TextKind::kSvg,
+                        particles_picture(playback, c.title, kPanels), provenance);
+}
+
+void report_particles(const fs::path& folder) {
+  check_results(folder);
+  auto files = results::given_inputs(folder / "particles.pvd");
+  const auto c = read_particles_case(files.front());
+  files.push_back(folder / "particles.pvd");
+  if (c.setting.fluid) files.push_back(folder / "flow.pvd");
+  write_pages(c, folder, results::provenance_of({files, {}}));
+  terminal::say(fmt::format("report: {0}/particles.html, {0}/particles.svg", folder.string()));
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,145 @@
+// Writes frames (VTK), their lists (PVD) and tables (CSV), and continues them (run_log.hpp).
+#include "viscontact/particles/run/run_log.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <string_view>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
+#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/io/link_file.hpp"
+#include "viscontact/particles/io/link_vtk.hpp"
+#include "viscontact/particles/io/particle_file.hpp"
+#include "viscontact/particles/io/vtk.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Throws Error(kBadInput) if the first `count` files of a kind are not all there with their ends.
+void check_frames(const fs::path& folder, const FrameKind& kind, std::uint64_t count) {
+  constexpr std::string_view kEnd = "</VTKFile>\n";
+  for (std::uint64_t number = 0; number < count; ++number) {
+    const auto path = folder / frame_name(kind, number);
+    std::ifstream file(path, std::ios::binary);
+    std::string end(kEnd.size(), '\0');
+    file.seekg(-std::ssize(kEnd), std::ios::end).read(end.data(), std::ssize(end));
+    if (!file || end != kEnd) throw_bad_input({path.string()}, "is missing or cut short");
+  }
+}
+
+std::string list_of(const FrameKind& kind) { return std::string(kind.begin) + ".pvd"; }
+
+}  // namespace
+
+RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenance& provenance)
+    : case_(c), folder_(std::move(folder)), provenance_(provenance) {
+  const auto add_list = [&](const FrameKind& kind) {
+    add_file(list_of(kind), TextKind::kXml, std::string(kPvdHead), kPvdFoot);
+  };
+  add_list(kFrameFile);
+  add_file("steps.csv", TextKind::kHashComment, steps_header(c.setting.fluid.has_value()));
+  if (c.setting.laws.restitution.is_on())
+    add_file("rebounds.csv", TextKind::kHashComment, kReboundsHeader);
+  if (!c.setting.links.empty()) add_list(kLinksFile);
+  for (const auto& table : time_tables(c.setting, c.particles))
+    add_table(table.name, table.header, [&c, rows = table.rows](const auto& state, auto errors) {
+      return rows(c.setting, state, errors);
+    });
+  if (!c.setting.fluid) return;
+  add_list(kFlowFile);
+  add_table("motion.csv", motion_header(c.particles.dimension),
+            [](const State& state, auto) { return motion_rows(state.time, state.particles); });
+  add_table("contacts.csv", contacts_header(), [&c](const State& state, auto) {
+    return contact_rows(state.time, state.particles, contacts_of(c.setting, state));
+  });
+}
+
+void RunLog::add_file(const std::string& name, TextKind kind, const std::string& head,
+                      const std::string& foot) {
+  const auto path = folder_ / name;
+  files_.try_emplace(name, path, results::output_text(path, kind, head, provenance_), foot);
+}
+
+void RunLog::add_table(const std::string& name, const std::string& header, Rows rows) {
+  add_file(name, TextKind::kHashComment, header);
+  tables_.emplace_back(name, std::move(rows));
+}
+
+void RunLog::check(const RunRecord& record) const {
+  for (const auto& [name, file] : files_) {
+    const auto end = record.files.find(name);
+    file.check(end == record.files.end() ? FileEnd{} : end->second);
+  }
+  check_frames(folder_, kFrameFile, record.frames);
+  check_frames(folder_, kLinksFile, case_.setting.links.empty() ? 0 : record.frames);
+  check_frames(folder_, kFlowFile, record.flows);
+}
+
+void RunLog::resume(const RunRecord& record) {
+  check(record);
+  record_ = record;
+  record_.files.clear();
+  remove_later_frames(folder_, record.frames, record.flows);
+  for (auto& [name, file] : files_) file.resume(record.files.at(name));
+}
+
+void RunLog::add_step(const StepReport& report, const State& state,
+                      std::span<const Rebound> rebounds) {
+  // A million rows are 50 MB.
+  constexpr std::int64_t kMostRows = 1000000, kThen = 1000;
+  constexpr std::uint64_t kMostRebounds = 1000000;
+  record_.totals.add(report);
+  const auto steps = record_.totals.steps;
+  if (steps <= kMostRows || steps % kThen == 0 || !report.converged)
+    files_.at("steps.csv").append(step_row(state.steps, report, case_.setting.fluid.has_value()));
+  const auto more = rebounds.first(std::min(rebounds.size(), kMostRebounds - record_.rebounds));
+  if (more.empty()) return;
+  files_.at("rebounds.csv").append(rebound_rows(state.particles, more));
+  record_.rebounds += more.size();
+}
+
+void RunLog::add_frame(const State& state, std::span<const double> link_force_errors) {
+  const auto& setting = case_.setting;
+  const auto contacts = contacts_of(setting, state);
+  const auto write = [&](const FrameKind& kind, const std::string& text) {
+    write_frame(kind, record_.frames, state.time, text);
+  };
+  write(kFrameFile, write_vtp(state.particles, contacts, setting.laws.friction.has_value()));
+  if (!setting.links.empty()) write(kLinksFile, write_links(setting, state));
+  for (const auto& [name, rows] : tables_) files_.at(name).append(rows(state, link_force_errors));
+  ++record_.frames;
+  record_.last_frame = state.time;
+}
+
+void RunLog::add_flow(const FlowField& flow) {
+  write_frame(kFlowFile, record_.frames - 1, record_.last_frame,
+              write_flow(flow, case_.particles.dimension == 1));
+  record_.flows = record_.frames;
+}
+
+void RunLog::write_frame(const FrameKind& kind, std::uint64_t number, double time,
+                         const std::string& text) {
+  const auto name = frame_name(kind, number);
+  const auto path = folder_ / name;
+  write_unflushed(path, results::output_text(path, TextKind::kXml, text, provenance_));
+  unflushed_.push_back(path);
+  files_.at(list_of(kind)).append(pvd_line(time, name));
+}
+
+void RunLog::sync() {
+  flush_files(unflushed_);
+  unflushed_.clear();
+  for (auto& [name, file] : files_) file.sync();
+}
+
+RunRecord RunLog::record() const {
+  auto record = record_;
+  for (const auto& [name, file] : files_) record.files[name] = file.end();
+  return record;
+}
+
+}  // namespace viscontact::particles
