@@ -2,6 +2,7 @@
 // are in the units of the case.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 namespace viscontact::particles {
@@ -18,6 +19,13 @@ struct FluidStepReport {
   double dissipation = 0;  ///< of the flow [M L^2/T^3], in two dimensions per unit length
   /// Over the viscosity of the fluid; FlowQuantities says when it is 0.
   double apparent_viscosity = 0;
+  // In a fluid with inertia:
+  double kinetic_energy = 0;   ///< of the fluid [M L^2/T^2], in two dimensions per unit length
+  double reynolds_number = 0;  ///< largest rho_f |V| 2 r/mu of a particle
+  double courant_number = 0;   ///< FlowQuantities::courant_number
+  /// Sum of the forces of the fluid on the particles whose motion is given [M L/T^2]; on an axis the
+  /// first is that along z.
+  std::array<double, 2> given_force{};
   double seconds = 0;  ///< wall time of the step: mesh, fluid solver and contacts [s]
   /// Of the velocities of the particles; < 0 if they were not estimated in this step.
   RelativeErrors velocity_errors;

@@ -24,6 +24,9 @@ using Json = nlohmann::ordered_json;
 // did not converge get a row.
 constexpr std::int64_t kMostRows = 1000000, kThen = 1000;
 
+constexpr std::string_view kInertiaColumns =
+    ",kinetic_energy_fluid,reynolds_number,courant_number,given_force_x,given_force_y";
+
 std::string comment_begin(std::int64_t last_step) {
   return fmt::format("# record after step {}: ", last_step);
 }
@@ -78,12 +81,15 @@ std::string rows_until(std::string_view text, std::string_view header, std::int6
 
 }  // namespace
 
-StepRecord::StepRecord(bool in_fluid) {
+StepRecord::StepRecord(bool in_fluid, bool with_inertia) {
   has_fluid = in_fluid;
+  has_inertia = with_inertia;
   rows =
       "step,time,contacts,glued,iterations,residual,largest_overlap,converged,impulse_residual,"
       "parts,unresolved";
-  rows += has_fluid ? ",dissipation,apparent_viscosity,fluid_seconds\n" : "\n";
+  if (has_fluid) rows += ",dissipation,apparent_viscosity,fluid_seconds";
+  if (has_inertia) rows += kInertiaColumns;
+  rows += '\n';
 }
 
 void StepRecord::add(std::int64_t step, const particles::StepReport& report) {
@@ -117,6 +123,10 @@ void StepRecord::add(std::int64_t step, const particles::StepReport& report) {
   if (has_fluid)
     fmt::format_to(std::back_inserter(rows), ",{},{},{:.3g}", format_number(fluid.dissipation),
                    format_number(fluid.apparent_viscosity), fluid.seconds);
+  if (has_inertia)
+    fmt::format_to(std::back_inserter(rows), ",{},{},{},{},{}", format_number(fluid.kinetic_energy),
+                   format_number(fluid.reynolds_number), format_number(fluid.courant_number),
+                   format_number(fluid.given_force[0]), format_number(fluid.given_force[1]));
   rows += '\n';
 }
 
@@ -179,7 +189,7 @@ StepRecord read_step_record(const std::filesystem::path& path, std::int64_t last
   const auto at = text.find(begin);
   if (at == std::string::npos)
     throw_bad_input({path.string()}, fmt::format("has no record after step {}", last_step));
-  StepRecord record(has_fluid);
+  StepRecord record(has_fluid, text.find(kInertiaColumns) != std::string::npos);
   record.last_step = last_step;
   const auto json_begin = at + begin.size();
   try {

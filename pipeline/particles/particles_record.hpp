@@ -37,10 +37,12 @@ struct StepTotals {
 
 /// The sums and the rows of steps.csv, which can be 50 MB long.
 struct StepRecord : StepTotals {
-  /// `has_fluid`: whether the rows have the columns of a fluid.
-  explicit StepRecord(bool has_fluid = false);
+  /// `has_fluid`: whether the rows have the columns of a fluid. `has_inertia`: whether they have
+  /// those of a fluid with inertia, too.
+  explicit StepRecord(bool has_fluid = false, bool has_inertia = false);
 
   std::string rows;
+  bool has_inertia = false;
 
   /// Adds a step to the sums and, if steps.csv lists it, to the rows. After a million steps, only
   /// every thousandth step and the steps that did not converge are listed.

@@ -180,7 +180,10 @@ class Run {
     write("steps.csv", TextKind::kHashComment,
           (earlier_.last_step == record.last_step ? "" : record_comment(earlier_)) +
               record_comment(record) + record_.rows);
-    write("restart.bin", TextKind::kHashComment, particles::write_restart(simulation_.state()));
+    // In a fluid with inertia the solver has a part of the state.
+    write("restart.bin", TextKind::kHashComment,
+          simulation_.has_fluid() ? particles::write_restart(simulation_.fluid().state_to_save())
+                                  : particles::write_restart(simulation_.state()));
     earlier_ = record;
     last_saved_ = Clock::now();
   }
@@ -274,7 +277,8 @@ void run_particles(const ParticlesRequest& request) {
     tell_finished(c, *earlier, folder, request.json, request.stop);
     return;
   }
-  StepRecord record(c.setting.fluid.has_value());
+  const auto& fluid = c.setting.fluid;
+  StepRecord record(fluid.has_value(), fluid && fluid->has_inertia());
   ParticleFrames frames(folder, provenance, c.setting, c.particles);
   if (earlier) {
     // This removes frames that were written after the last restart.bin, and the frame that was
