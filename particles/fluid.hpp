@@ -34,7 +34,7 @@ enum class Coupling {
 
 /// How the velocity is carried along in a fluid with inertia, docs/physics.md (6.9).
 enum class Advection {
-  kSemiImplicit,     ///< by the velocity extrapolated from the steps before, within the linear problem
+  kSemiImplicit,  ///< by the velocity extrapolated from the steps before, within the linear problem
   kCharacteristics,  ///< the velocities of the steps before are taken where the fluid was
 };
 

@@ -118,9 +118,10 @@ void side_keys(Keys& keys, WallVelocity& wall) {
       {"velocity of the whole side", "one of both is required", "`[u, v]`, or pieces"});
   keys.require(is_parabola != is_constant, "parabolic",
                "and constant exclude each other; a table of a side must have one of them");
-  keys.optional("period", number(wall.period, kModeratelyPositiveOr0),
-                {"if it is > 0, the velocity is multiplied by 1 + `amplitude` sin(2 pi t/`period`); "
-                 "needs `density`"});
+  keys.optional(
+      "period", number(wall.period, kModeratelyPositiveOr0),
+      {"if it is > 0, the velocity is multiplied by 1 + `amplitude` sin(2 pi t/`period`); "
+       "needs `density`"});
   keys.optional("amplitude", number(wall.amplitude, kModerate), {"see `period`"});
   keys.require(wall.period > 0 || !keys.has("amplitude"), "amplitude",
                "has no effect without a period > 0");
@@ -166,9 +167,9 @@ double influx(const BoxDomain& box, std::size_t side, const WallVelocity& of_sid
 /// True if fluid may flow through the side, whose normal is along `axis`.
 bool brings_fluid(const WallVelocity& wall, std::size_t axis) {
   if (wall.kind != WallVelocity::Kind::kConstant) return true;
-  return wall.value[axis] != 0 ||
-         std::ranges::any_of(wall.pieces.pieces,
-                             [&](const auto& piece) { return piece.value[axis] != 0; });
+  return wall.value[axis] != 0 || std::ranges::any_of(wall.pieces.pieces, [&](const auto& piece) {
+           return piece.value[axis] != 0;
+         });
 }
 
 /// The velocity of the walls: a rate, or that of single sides.
@@ -279,12 +280,12 @@ void read_pressure_gradient(const TomlSection& section, std::string_view key,
 void inertia_keys(Keys& keys, Fluid& fluid, const particles::Domain& domain) {
   keys.optional("density", number(fluid.density, kModeratelyPositiveOr0),
                 {"rho_f of a fluid [with inertia](fluid.md#inertia-of-the-fluid); 0: Stokes flow"});
-  keys.optional("advection",
-                one_of(fluid.advection,
-                       {{"semi_implicit", particles::Advection::kSemiImplicit},
-                        {"characteristics", particles::Advection::kCharacteristics}}),
-                {"how the fluid carries its velocity along: in the linear problem, with the "
-                 "velocity extrapolated from the steps before, or by the lecture's characteristics"});
+  keys.optional(
+      "advection",
+      one_of(fluid.advection, {{"semi_implicit", particles::Advection::kSemiImplicit},
+                               {"characteristics", particles::Advection::kCharacteristics}}),
+      {"how the fluid carries its velocity along: in the linear problem, with the "
+       "velocity extrapolated from the steps before, or by the lecture's characteristics"});
   keys.optional("start",
                 one_of(fluid.start, {{"rest", particles::FlowStart::kRest},
                                      {"stokes", particles::FlowStart::kStokes}}),

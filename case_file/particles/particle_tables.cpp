@@ -85,9 +85,10 @@ void read_mass(Keys& keys, ParticleTable& p, int dimension, bool in_fluid) {
                     {"in place of `mass`, in a fluid: mass of the disc over its area, or of the "
                      "sphere over its volume",
                      "from `mass`"});
-  keys.require(!has_density || in_fluid, "density",
-               "belongs to a particle in a fluid; the case has no section [fluid], and the particle "
-               "must have a mass");
+  keys.require(
+      !has_density || in_fluid, "density",
+      "belongs to a particle in a fluid; the case has no section [fluid], and the particle "
+      "must have a mass");
   keys.require(!has_density || !keys.has("mass"), "mass",
                "must be left out, because density gives the mass of this particle");
   if (has_density) p.mass = density * particles::size_of_particle(dimension, p.radius);
@@ -233,10 +234,9 @@ void arrangement_keys(Keys& keys, ArrangementKeys& given, bool has_fluid) {
                  "0.05 `radius`"});
   keys.optional("seed", count(asked.seed, 0, std::numeric_limits<int>::max()),
                 {"the same seed gives the same arrangement, bit for bit on every machine"});
-  const bool has_density =
-      keys.optional("density", number(given.density, kModeratelyPositiveOr0),
-                    {"in place of `mass`, in a fluid: mass of each disc over its area",
-                     "from `mass`"});
+  const bool has_density = keys.optional(
+      "density", number(given.density, kModeratelyPositiveOr0),
+      {"in place of `mass`, in a fluid: mass of each disc over its area", "from `mass`"});
   keys.require(!has_density || has_fluid, "density",
                "belongs to discs in a fluid; the case has no section [fluid], and the discs must "
                "have a mass");

@@ -274,10 +274,11 @@ void check_inertia(const TomlSection& root, const ParticlesCase& c, const Partic
   for (std::size_t k = 0; k < p.count(); ++k) {
     if (is_driven(c, static_cast<std::int32_t>(k))) continue;
     if (!(p.masses[k] > 0))
-      throw_bad_input(names.at(k),
-                      fmt::format("{} has no mass; in a fluid with a density it must have a density "
-                                  "(or mass) > 0",
-                                  names(k)));
+      throw_bad_input(
+          names.at(k),
+          fmt::format("{} has no mass; in a fluid with a density it must have a density "
+                      "(or mass) > 0",
+                      names(k)));
     // Inertia of a viscous body is that of its density, which is uniform.
     constexpr double kRounding = 1e-9;
     if (fluid.constraint == particles::RigidConstraint::kRigid || p.inertias.empty()) continue;

@@ -213,8 +213,9 @@ std::string FlowProcess::saved_flow() {
   solver_->expect("saved");
   auto text = read_file(file);
   if (!text.ends_with("complete\n"))
-    throw Error(ErrorKind::kExternalProgram, fmt::format("the fluid solver could not write {}; is the disk full?",
-                                            file.string()));
+    throw Error(
+        ErrorKind::kExternalProgram,
+        fmt::format("the fluid solver could not write {}; is the disk full?", file.string()));
   return text;
 }
 

@@ -127,11 +127,11 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   text += fmt::format("particles {}\n", radii.size());
   for (const double radius : radii) text += format_number(radius) + '\n';
   if (fluid.has_inertia())
-    text += fmt::format("density {}\nadvection {}\ngradient{}\n", format_number(fluid.density),
-                        fluid.advection == particles::Advection::kCharacteristics
-                            ? "characteristics"
-                            : "semi_implicit",
-                        words_of(fluid.pressure_gradient));
+    text +=
+        fmt::format("density {}\nadvection {}\ngradient{}\n", format_number(fluid.density),
+                    fluid.advection == particles::Advection::kCharacteristics ? "characteristics"
+                                                                              : "semi_implicit",
+                    words_of(fluid.pressure_gradient));
   return text;
 }
 

@@ -325,7 +325,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
       motion.arm_powers.push_back(power);
     }
   }
-  if (is_estimated && !setting_.fluid->has_inertia()) estimate(equation, forces, held ? &*held : nullptr, motion);
+  if (is_estimated && !setting_.fluid->has_inertia())
+    estimate(equation, forces, held ? &*held : nullptr, motion);
   motion.fluid.dissipation = motion.quantities.dissipation;
   motion.fluid.apparent_viscosity = motion.quantities.apparent_viscosity;
   if (setting_.fluid->has_inertia()) report_inertia(motion);
@@ -348,9 +349,8 @@ void FluidSimulation::report_inertia(Motion& motion) const {
       if (setting_.given_motions.contains(static_cast<std::int32_t>(k)))
         report.given_force[d] += motion.quantities.fluid_forces[i];
     }
-    report.reynolds_number =
-        std::max(report.reynolds_number,
-                 fluid.density * std::sqrt(square) * 2 * p.radii[k] / fluid.viscosity);
+    report.reynolds_number = std::max(report.reynolds_number, fluid.density * std::sqrt(square) *
+                                                                  2 * p.radii[k] / fluid.viscosity);
   }
 }
 

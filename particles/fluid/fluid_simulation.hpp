@@ -65,7 +65,7 @@ class FluidSimulation {
   /// a double; and the errors of FluidSolver. The state is then that before the step.
   StepReport step(double end);
 
-  const State& state() const { return state_; }        ///< after the last step
+  const State& state() const { return state_; }  ///< after the last step
   /// The state with the flow of a fluid with inertia, to be written.
   State state_to_save();
   const Setting& setting() const { return setting_; }  ///< as the constructor was given it

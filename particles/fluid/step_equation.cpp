@@ -354,8 +354,7 @@ bool StepEquation::put_in_contact(std::span<const Contact<2>> contacts) {
   }
   spread_contact();
   add_inertia();
-  return thetas_ != before ||
-         (setting_.fluid->has_inertia() && !was_any && is_any_in_contact());
+  return thetas_ != before || (setting_.fluid->has_inertia() && !was_any && is_any_in_contact());
 }
 
 std::array<double, 3> StepEquation::given_motion(const GivenMotion& motion, double from,

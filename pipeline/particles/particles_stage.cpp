@@ -85,9 +85,11 @@ class Run {
         next_frame = times.after(report.time);
       }
       tell(report);
-      constexpr double kSaveEvery = 60;  // [s]
+      // If a signal ends the solver of a fluid with inertia, the flow since the last call is lost.
+      const auto& fluid = case_.setting.fluid;
+      const double save_every = fluid && fluid->has_inertia() ? 10 : 60;  // [s]
       const bool is_at_end = simulation_.state().time >= case_.end_time - times.tiny;
-      if (!is_at_end && seconds_since(last_saved_) > kSaveEvery) save();
+      if (!is_at_end && seconds_since(last_saved_) > save_every) save();
     }
   }
 
