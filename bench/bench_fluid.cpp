@@ -15,7 +15,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_flow/accuracy/exact_flows.hpp"
 #include "tests/freefem_flow/placed_flow.hpp"
-#include "viscontact/case_file/particles/particles_case.hpp"
+#include "viscontact/particles/case/particles_case.hpp"
 
 namespace {
 
@@ -152,7 +152,7 @@ std::vector<Body> random_discs(int count, double side) {
                   "[viscous_contact]\ntime_step = 0.1\nend_time = 1.0\n"
                   "[arrangement]\ncount = {1}\nradius = 1.0\nsmallest_gap = 0.1\n",
                   side, count));
-  const auto c = case_file::read_particles_case(file);
+  const auto c = particles::read_particles_case(file);
   std::vector<Body> discs;
   for (std::size_t k = 0; k < c.particles.count(); ++k)
     discs.push_back({c.particles.position(k)[0], c.particles.position(k)[1]});

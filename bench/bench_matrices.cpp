@@ -19,8 +19,8 @@
 #include "bench/statistics.hpp"
 #include "tests/oracles/collinear_spheres.hpp"
 #include "viscontact/common/splitmix.hpp"
-#include "viscontact/freefem_axi/collinear_spheres.hpp"
-#include "viscontact/lubrication/resistance/resistance_matrix.hpp"
+#include "viscontact/swimmer/resistance/resistance_matrix.hpp"
+#include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 namespace viscontact {
 namespace {
@@ -37,17 +37,17 @@ void measure(int rows, std::uint64_t seed) {
       for (double& radius : radii) radius = log_uniform(random, 0.5, 2);
     for (std::size_t k = 0; k < 2; ++k)
       gaps.push_back(log_uniform(random, 0.02, 8) * std::min(radii[k], radii[k + 1]));
-    const auto row = freefem_axi::solve_resistance(freefem, {1, radii, {}, kAccuracy}, gaps);
+    const auto row = swimmer::solve_resistance(freefem, {1, radii, {}, kAccuracy}, gaps);
     seconds.push_back(row.seconds);
     const auto exact = exact_resistance(radii, gaps);
-    const auto computed = lubrication::matrix_of(row, 3);
+    const auto computed = swimmer::matrix_of(row, 3);
     for (Eigen::Index i = 0; i < 3; ++i)
       for (Eigen::Index j = i; j < 3; ++j) {
         const double scale =
             std::max(std::abs(exact(i, j)), 1e-3 * std::sqrt(exact(i, i) * exact(j, j)));
         const double error = std::abs(computed(i, j) - exact(i, j)) / scale;
-        const auto at = lubrication::entry_position(static_cast<std::size_t>(i),
-                                                    static_cast<std::size_t>(j), 3);
+        const auto at =
+            swimmer::entry_position(static_cast<std::size_t>(i), static_cast<std::size_t>(j), 3);
         errors.push_back(error);
         ratios.push_back(error / row.relative_error_estimates[at]);
         if (ratios.back() > 1)
@@ -70,9 +70,9 @@ void measure(int rows, std::uint64_t seed) {
 
 void measure_ten() {
   for (const double gap : {1.0, 8.0}) {
-    const auto row = freefem_axi::solve_resistance(freefem_axi::default_freefem(),
-                                                   {1, std::vector(10, 1.0), {}, kAccuracy},
-                                                   std::vector(9, gap));
+    const auto row =
+        swimmer::solve_resistance(freefem_axi::default_freefem(),
+                                  {1, std::vector(10, 1.0), {}, kAccuracy}, std::vector(9, gap));
     rusage usage{};
     getrusage(RUSAGE_CHILDREN, &usage);
     fmt::print(

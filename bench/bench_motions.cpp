@@ -18,7 +18,7 @@
 
 #include "bench/statistics.hpp"
 #include "viscontact/common/splitmix.hpp"
-#include "viscontact/freefem_axi/motions/motion_row.hpp"
+#include "viscontact/freefem_axi/motion_row.hpp"
 
 namespace viscontact {
 namespace {

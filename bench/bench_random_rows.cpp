@@ -25,7 +25,7 @@
 #include "bench/statistics.hpp"
 #include "tests/freefem_axi/accuracy/exact_rows.hpp"
 #include "viscontact/common/error.hpp"
-#include "viscontact/freefem_axi/motions/motion_row.hpp"
+#include "viscontact/freefem_axi/motion_row.hpp"
 
 namespace viscontact {
 namespace {

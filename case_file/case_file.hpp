@@ -1,6 +1,7 @@
 // A case file (TOML, docs/case-file.md): one sphere in a fluid, and what is to be computed for it.
 // Lengths, masses and times are in any one consistent system of units. Keys are declared in
-// case_file.cpp (keys.hpp).
+// case_file.cpp (keys.hpp). The stages of the main job (pipeline/) and sweeps read it. A change
+// must keep accepting the cases that users have written.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +35,7 @@ CaseKind kind_of_case(const std::filesystem::path& path);
 /// How the drag is fitted, or what replaces tabulation and fit.
 struct FitRequest {
   fitting::FitSettings settings;  ///< how the table is fitted; not used with `file` or `exact`
-  /// A fit file that replaces tabulation and fit.
+  /// A fit file that replaces tabulation and fit; nothing: a table is fitted.
   std::optional<std::filesystem::path> file;
   lubrication::OutsideInterval outside;  ///< drag outside the interval of the fit
   /// True: the exact drag near a plane replaces the fit.
@@ -57,8 +58,8 @@ struct Case {
   // a required_... function below.
   std::optional<freefem_axi::Tabulation> tabulation;  ///< [tabulation]
   std::optional<FitRequest> fit;                      ///< [fit]
-  std::optional<reduced_model::Motion>
-      motion;  ///< with the settings of the models, or their defaults
+  /// [motion], with the settings of the models, or their defaults.
+  std::optional<reduced_model::Motion> motion;
   /// Names of the models to run; empty: the default models of the registry.
   std::vector<std::string> models;
   std::optional<PublishedGap> published;           ///< [published]
@@ -71,7 +72,8 @@ struct Case {
 /// value and what is allowed.
 Case read_case(const std::filesystem::path& path);
 
-/// The case of one sphere whose root table is `root` (case_template.hpp).
+/// The case of one sphere whose root table is `root` (case_template.hpp). Throws as read_case()
+/// does.
 template <>
 Case case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
 

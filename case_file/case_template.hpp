@@ -1,6 +1,6 @@
 // What sweeps ask of any kind of case: its section [sweep], and a case file that is read once and
-// from which cases with other numbers are made. A kind of case takes part by a specialisation of
-// case_of_root(), which its own header declares.
+// from which cases with other numbers are made. Numbers have the units of the case. A kind of case
+// takes part by a specialisation of case_of_root(), which its own header declares.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +18,12 @@ namespace viscontact::case_file {
 /// What the section [sweep] of a case asks of `viscontact sweep`. Options on the command line
 /// replace these values. Each kind of case has some of these keys.
 struct SweepRequest {
-  std::vector<std::string> vary;    ///< "KEY=RANGE" each, as on the command line
+  std::vector<std::string> vary;    ///< "KEY=RANGE" each (sweep/variation.hpp); empty: one point
   std::vector<std::string> models;  ///< names; empty: the default of the command
   std::string reference;            ///< a model; empty: the default of the command
   std::string x;                    ///< key of the horizontal axis of the plot; may be empty
   std::string y;                    ///< key of the vertical axis of a map; empty: lines over x
-  std::vector<std::string> plot;    ///< columns to draw
+  std::vector<std::string> plot;    ///< columns to draw; empty: the default of the command
   std::uint64_t samples = 0;        ///< number of random samples; 0: the whole grid
   /// Number of random arrangements of particles at each point; 0: that of the case.
   std::uint64_t draws = 0;
@@ -46,7 +46,7 @@ CaseType titled_case(const TomlSection& root, std::string text, const std::files
   return c;
 }
 
-/// Names of sections that a case may leave out although their keys can be varied.
+/// Names of sections that a case may leave out although `--vary` may name their keys.
 template <class CaseType>
 std::vector<std::string_view> sections_with_defaults() {
   return {};

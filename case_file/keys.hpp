@@ -4,13 +4,14 @@
 // describes it for the tables of docs/case-file.md and for `viscontact init`:
 //
 //     void solver_keys(Keys& keys, SolverSettings& settings) {
-//       keys.optional("tolerance", number(settings.tolerance, kTolerance), {"tolerance of the gaps"});
+//       keys.optional("tolerance", number(settings.tolerance, kTolerance), {"tolerance of the
+//       gaps"});
 //     }
 //     read_keys(root.section("solver"), solver_keys, settings);
 //     describe_keys("[solver]", solver_keys);
 //
-// Keys have the units of the case. After a change of a declaration the tables of the page must be
-// made again; the test CaseFilePage makes them and says where.
+// Values have the units of the case, of any one consistent system. After a change of a declaration
+// the tables of the page must be made again; the test CaseFilePage makes them and says where.
 #pragma once
 
 #include <algorithm>
@@ -59,9 +60,9 @@ struct KeyTable {
   std::string markdown() const;
 };
 
-/// A case with these sections that explains itself: each key is an example, under a comment with
-/// its meaning. Keys with a default are commented out. Sections that lack an example of a required
-/// key are left out, and so are tables of keys within a value.
+/// The text of a case with these sections, for `viscontact init`: each key has a value as an
+/// example, under a comment with its meaning. Keys with a default are commented out. Sections that
+/// lack an example of a required key are left out, and so are tables of keys within a value.
 std::string commented_case(std::span<const KeyTable> tables);
 
 /// What a declaration says about a key in words, in Markdown.
@@ -72,7 +73,7 @@ struct Help {
   std::string_view example = {};   ///< for `viscontact init`, if it is not the default
 };
 
-/// The value of a key. It refers to the place into which it reads.
+/// How the value of a key is read and described. It refers to the place into which it reads.
 struct KeyValue {
   /// Reads the value of a key that the section has.
   std::function<void(const TomlSection& section, std::string_view key)> read;
@@ -87,11 +88,13 @@ class Keys {
   explicit Keys(const TomlSection& section) : section_(&section) {}  ///< reads this section
   explicit Keys(KeyTable& table) : table_(&table) {}                 ///< adds rows to this table
 
-  bool reads() const { return section_ != nullptr; }        ///< false: describes
+  bool reads() const { return section_ != nullptr; }        ///< true: reads; false: describes
   const TomlSection& section() const { return *section_; }  ///< only if it reads
   /// True if it reads and the section has the key.
   bool has(std::string_view key) const { return reads() && section_->has(key); }
 
+  // The declarations below throw the Error(kBadInput) of TomlSection for a key that is missing or
+  // has a value that is not allowed.
   /// Declares a key that a case must have.
   void required(std::string_view key, const KeyValue& value, const Help& help);
   /// Declares a key that a case may have. Without it the place keeps the value that it has. Returns
@@ -135,7 +138,8 @@ KeyTable describe_keys(std::string section, void (*declaration)(Keys&, Place&, M
   return table;
 }
 
-/// A whole number that may be greater than the largest int.
+/// A whole number that may be greater than the largest int; up to 1e12 a double has no rounding
+/// error.
 inline constexpr Allowed kWholeNumber = {
     [](double v) { return v >= 1 && v <= 1e12 && v == std::floor(v); },
     "from 1 to 1e12 without a fraction"};
@@ -224,7 +228,7 @@ KeyValue one_of(Meaning& place, std::initializer_list<std::pair<std::string_view
           }};
 }
 
-/// The section [fluid] of a case of spheres without other particles.
+/// The section [fluid] of a case of one sphere or of a swimmer: `viscosity` [M/(L T)], > 0.
 void viscosity_keys(Keys& keys, double& viscosity);
 
 }  // namespace viscontact::case_file

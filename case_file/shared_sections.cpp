@@ -1,6 +1,6 @@
 // Reads [tabulation], with gaps, velocities, geometry and container, and keys of [sweep]
-// (shared_sections.hpp). Lengths are in the unit of the case. A change must keep the gaps of a grid bit for bit, because finished rows and tables
-// are found again by their gaps.
+// (shared_sections.hpp). Lengths are in the unit of the case. A change must keep the gaps of a grid
+// bit for bit, because finished rows and tables are found again by their gaps.
 #include "viscontact/case_file/shared_sections.hpp"
 
 #include <algorithm>
@@ -16,7 +16,8 @@ namespace {
 using freefem_axi::Container;
 using freefem_axi::Tabulation;
 
-// At smaller gaps the matrices are too ill-conditioned for double precision.
+// Smallest gap divided by the radius. At smaller gaps the matrices are too ill-conditioned for
+// double precision.
 constexpr double kSmallestGap = 1e-8;
 
 /// Gaps from `from` to `to` [L], with equal ratios or equal differences.
@@ -108,7 +109,7 @@ void read_container(const TomlSection& section, std::string_view key, Tabulation
                 "neighbour need",
                 container.height, space.container_height);
   // In larger containers FreeFEM's mesh generator cannot make edges that are short enough for the
-  // gap (graded_boundary.idp). The drag in a container of this size is nearly that in unbounded
+  // gap (boundary_edges.idp). The drag in a container of this size is nearly that in unbounded
   // fluid.
   constexpr double kLargestLength = 2e5;
   for (const auto& [name, length] :

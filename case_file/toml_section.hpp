@@ -1,5 +1,7 @@
 // A table of a TOML file, read strictly: the reader asks for every key by name, and a key that was
-// not asked for is an error. Sections whose keys are declared are read by keys.hpp.
+// not asked for is an error. Sections whose keys are declared are read by keys.hpp. Numbers are in
+// the units of the file and have no unit here. All readers of cases stand on this class; a change
+// must keep the messages, which name file, line, key and what is allowed.
 #pragma once
 
 #include <fmt/format.h>
@@ -34,7 +36,7 @@ class TomlSection {
   /// number.
   TomlSection with_numbers(std::span<const std::pair<std::string, double>> numbers) const;
 
-  /// A copy of this root table with other texts, each at a path at which there is a text.
+  /// A copy of this root table with other texts, each at a path. There must be a text at each path.
   TomlSection with_texts(std::span<const std::pair<std::string, std::string>> texts) const;
 
   /// This root table as TOML, without the comments of the file and with its keys in alphabetical

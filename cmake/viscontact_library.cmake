@@ -44,10 +44,14 @@ function(viscontact_library name)
   endforeach()
   install(EXPORT viscontact-${name} NAMESPACE viscontact:: FILE viscontact-${name}-targets.cmake
           DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/viscontact)
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR}
+             OUTPUT_VARIABLE folder)
+  list(TRANSFORM arg_HEADERS PREPEND viscontact/${folder}/ OUTPUT_VARIABLE headers)
   # These variables describe the part in viscontact-config.cmake.in.
   list(JOIN arg_FIND "\" \"" find)
   string(APPEND description "set(viscontact_${name}_needs ${arg_NEEDS})\n")
   string(APPEND description "set(viscontact_${name}_find \"${find}\")\n")
+  string(APPEND description "set(viscontact_${name}_headers ${headers})\n")
   set_property(GLOBAL APPEND PROPERTY VISCONTACT_PARTS ${name})
   set_property(GLOBAL APPEND_STRING PROPERTY VISCONTACT_PART_DESCRIPTIONS "${description}")
 endfunction()

@@ -1,4 +1,5 @@
-// Conditions that a number in an input must meet, each with the words for it in messages.
+// Conditions that a number in an input must meet, each with the words for it in messages and in
+// docs/case-file.md. The keys of cases, geometries and models use them.
 #pragma once
 
 #include <string_view>
@@ -7,7 +8,7 @@ namespace viscontact {
 
 /// A test of a number, and words that complete the sentence "it must be a number ...".
 struct Allowed {
-  bool (*test)(double value);  ///< true if the value is allowed; it is asked of finite values only
+  bool (*test)(double value);  ///< true if the finite number `value` is allowed
   std::string_view words;      ///< such as "> 0"
 };
 

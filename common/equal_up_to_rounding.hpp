@@ -1,4 +1,5 @@
-// Comparison of quantities that two files give, such as a radius or a viscosity.
+// Comparison of quantities that two files give, such as the radius or viscosity of a case and of
+// its fit.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // Finds rows by name in the tables of geometries, bases, terms and models. Each row of a table has
-// a member `name`.
+// a member `name`. The words of the error are those that users see for a wrong name.
 //
 // The row that find_named and require_named return belongs to the table. Therefore they take a
-// table that outlives the call, or a view of one (std::span), but no temporary container: that call
-// does not compile.
+// table that outlives the call, or a view of such a table (std::span); a call with a temporary
+// container does not compile.
 #pragma once
 
 #include <algorithm>

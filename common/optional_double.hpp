@@ -1,4 +1,5 @@
-// A number that may be missing. It takes no more memory than a double.
+// A number that may be missing. It takes no more memory than a double, which a change must keep,
+// because the rows of trajectories contain such numbers.
 #pragma once
 
 #include <cassert>
@@ -13,7 +14,7 @@ namespace viscontact {
 class OptionalDouble {
  public:
   constexpr OptionalDouble() = default;
-  /// `value` must not be NaN, which would be a missing value.
+  /// `value` must not be NaN, because NaN stands for a missing value.
   // The conversion is implicit, as in std::optional.
   // NOLINTNEXTLINE(google-explicit-constructor)
   constexpr OptionalDouble(double value) : value_(value) {}

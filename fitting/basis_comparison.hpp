@@ -1,5 +1,6 @@
 // Fits of one table in several bases, and the choice between them by Akaike's information criterion
-// (FitDiagnostics::information_criterion). Units are those of the table.
+// (FitDiagnostics::information_criterion). Lengths, masses and times are in the units of the table.
+// `fit --compare-bases` and the report print and draw these fits.
 #pragma once
 
 #include <optional>
@@ -19,8 +20,8 @@ struct BasisResult {
   std::string failure;                    ///< message of the error if there is no fit
 };
 
-/// Fits the table in every named basis, and in that of `settings` if it is a list of terms. All
-/// other settings are the same. The error of a basis that fails is kept in its result.
+/// Fits the table in every named basis, and in the basis of `settings` if that is a user's list of
+/// terms. All other settings are the same. The error of a basis that fails is kept in its result.
 /// Throws Error(kInterrupted) if `stop` requests a stop.
 std::vector<BasisResult> compare_bases(const lubrication::ForceTable& table,
                                        const FitSettings& settings, const StopToken& stop = {});

@@ -1,5 +1,6 @@
 // Assembles the equations of a fit, physics.md (3.2), from the rows of a table, solves them, and
-// sets the members of the fit. Units are those of the table.
+// sets the members of the fit. Lengths, masses and times are in the units of the table; q is the
+// gap, r the radius of the sphere, F the force and u the velocity of a row.
 #include "viscontact/fitting/fit_force_table.hpp"
 
 #include <fmt/format.h>
@@ -44,8 +45,8 @@ struct FittedSystem {
   std::vector<lubrication::FitTerm> fitted_terms{};
 };
 
-/// The diagnostics of a fit whose other members are complete. There is a warning if the fitted
-/// function has another shape.
+/// The diagnostics of a fit whose other members are complete. They contain a warning if the fitted
+/// resistance has not the shape that theory demands (FitSettings::shape).
 lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
                                      const FittedSystem& system, const lubrication::Fit& fit,
                                      lubrication::FittedShape shape);
@@ -352,9 +353,9 @@ struct Equations {
   Eigen::VectorXd weight;
 };
 
-/// The place in the basis of the term that takes up ln r if `term`, f(q) ln q, is fitted as
-/// f(q) ln(q/r) = f(q) ln q - ln r f(q): that of f(q). Nothing if the term has no logarithm or the
-/// basis lacks f(q).
+/// If `term` is f(q) ln q, the place of the term f(q) in the basis. `term` is fitted as
+/// f(q) ln(q/r) = f(q) ln q - ln r f(q), so that the coefficient of f(q) changes by a multiple of
+/// ln r. Nothing if the term has no logarithm or the basis lacks f(q).
 std::optional<std::size_t> partner_of(const lubrication::Term& term, const lubrication::Basis& b) {
   constexpr std::string_view kLogarithm = "ln q";
   if (!term.name.ends_with(kLogarithm)) return std::nullopt;
@@ -400,7 +401,7 @@ Equations assemble(const lubrication::ForceTable& table, const FitSettings& sett
   return equations;
 }
 
-/// Goes over from coefficients of f(q) ln(q/r) to those of f(q) ln q, and their covariance.
+/// Converts coefficients of f(q) ln(q/r), and their covariance, to those of f(q) ln q.
 void shift_logarithms(const FitSettings& settings, double radius, lubrication::Fit& fit) {
   const double shift = std::log(radius);
   if (shift == 0) return;

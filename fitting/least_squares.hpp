@@ -1,5 +1,6 @@
 // Linear least squares by Ceres, with scaled columns, refined solution, covariance and condition
-// number. A change must keep the digits of the NIST reference problems in the tests.
+// number. Numbers have any units. Every fit uses it; a change must keep the digits of the NIST
+// reference problems in the tests.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +9,7 @@ namespace viscontact::fitting {
 
 /// The solution x of a least squares problem, with its uncertainty.
 struct LeastSquaresSolution {
-  Eigen::VectorXd coefficients;  ///< x; the unit of entry i is that of b over that of column i
+  Eigen::VectorXd coefficients;  ///< x; the unit of x_i is that of b over that of column i of A
   /// Covariance of the coefficients, with the variance s^2 = |A x - b|^2/(rows - columns) of the
   /// residuals; zero if rows == columns.
   Eigen::MatrixXd covariance;
@@ -16,7 +17,8 @@ struct LeastSquaresSolution {
   double condition_number = 0;
 };
 
-/// The x that minimises |A x - b|_2. A is rows x columns with rows >= columns. Throws
+/// The x that minimises |A x - b|_2, with A = `matrix`, which must have at least as many rows as
+/// columns, and b = `right_hand_side`. Throws
 /// Error(kBadInput) if an entry is not finite or if |b|^2 overflows, and Error(kNotConverged) if
 /// the columns are linearly dependent to working precision or if Ceres fails.
 LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,

@@ -1,5 +1,6 @@
 // The shift of a rough wall: how far below its crests it acts like a smooth one (Lefebvre 2008,
-// "Rugosité"; Vinogradova & Yakubov 2006). Units are those of the table.
+// "Rugosité"; Vinogradova & Yakubov 2006). R is the resistance (drag over velocity), q the gap.
+// Lengths, masses and times are in the units of the table. The command `shift` uses it.
 #pragma once
 
 #include <vector>
@@ -13,11 +14,11 @@ namespace viscontact::fitting {
 struct ShiftedRow {
   /// Gap from the crests of the roughness, q [L].
   double gap = 0;
-  /// The shift of this row alone, s [L], from R_smooth(q + s) = R_rough(q).
+  /// The shift s [L] of this row alone, from R_smooth(q + s) = R_rough(q).
   double shift = 0;
-  /// R_smooth(q + q_s)/R_rough(q) - 1, with the common shift q_s.
+  /// R_smooth(q + q_s)/R_rough(q) - 1 [1], with the common shift q_s.
   double relative_residual = 0;
-  /// Relative error estimate of the rough wall's force.
+  /// Relative error estimate of the rough wall's force [1], >= 0.
   double relative_error_estimate = 0;
 };
 

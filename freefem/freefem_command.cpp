@@ -62,7 +62,7 @@ std::string owner_in(const std::string& answer, const std::string& path) {
     const auto names = line.substr(0, line.size() - end.size());
     if (names.starts_with(kDiversion) && names.ends_with(kFrom))
       return names.substr(kDiversion.size(), names.size() - kDiversion.size() - kFrom.size());
-    // Of a diversion there are other lines, whose first word is no package.
+    // A diversion has further lines, whose first word is no package; they are skipped.
     const auto first = names.substr(0, names.find(", "));
     if (owner.empty() && first.find(' ') == std::string::npos) owner = first;
   }

@@ -1,5 +1,6 @@
-// How a FreeFEM process is started: which program, where its scripts are, with which arguments and
-// surroundings. Times are in seconds. A change must keep each process on one thread.
+// How a FreeFEM process is started: which program, where its scripts are, with which arguments,
+// environment and working folder. Times are in seconds. freefem_axi/ and freefem_flow/ use it. A
+// change must keep each process on one thread, because as many processes as cores run at once.
 #pragma once
 
 #include <chrono>
@@ -24,8 +25,9 @@ std::string executable_of_user();
 /// Error(kWrongUsage) if it is not a whole number from 1 to 10 million.
 std::optional<std::chrono::seconds> time_limit_of_user();
 
-/// The folder share/viscontact/PART in the folder of this program (build tree) or in the one above
-/// it (installed), if `script` is in it. Throws Error(kExternalProgram) if there is no such folder.
+/// The folder of the scripts of a part: share/viscontact/PART in the folder of this program (build
+/// tree) or in the folder above (installed), with the file `script` in it. Throws
+/// Error(kExternalProgram) if there is no such folder.
 std::filesystem::path find_script_folder(std::string_view part, std::string_view script);
 
 /// How a process of FreeFEM is started.
@@ -43,7 +45,7 @@ Command make_command(const std::string& executable, const std::filesystem::path&
 /// A package of Debian.
 struct Package {
   std::string name;     ///< "freefem++"
-  std::string version;  ///< with the revision of Debian, "4.11+dfsg1-3"
+  std::string version;  ///< with the revision of Debian, such as "4.11+dfsg1-3"
 };
 
 /// The package that has installed an executable, which is a path or a name to look for on PATH.

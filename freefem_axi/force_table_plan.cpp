@@ -1,4 +1,5 @@
 // Makes the plan of a force table from the inputs of its tabulation (force_table_plan.hpp).
+// Lengths, masses and times are in the units of the case.
 #include "viscontact/freefem_axi/force_table_plan.hpp"
 
 #include <fmt/format.h>

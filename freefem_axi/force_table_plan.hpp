@@ -1,5 +1,6 @@
-// The table of the lubrication force on one sphere as a TablePlan. A row's point is { gap [L],
-// velocity [L/T] }. Numbers are in the units of the case.
+// The table of the lubrication force on one sphere as a TablePlan (journal/table_plan.hpp), for the
+// stage `tabulate`. A row's point is { gap [L], velocity [L/T] }. Lengths, masses and times are in
+// the units of the case. A change must keep journals of interrupted tabulations readable.
 #pragma once
 
 #include <filesystem>

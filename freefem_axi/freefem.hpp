@@ -1,5 +1,6 @@
 // Runs FreeFEM as a separate process, which gets a script and numbers and prints lines of text
-// (docs/extending.md). A change must keep each process on one thread and within its time limit.
+// (docs/extending.md). Times are in seconds. Rows of all tables are computed by it. A change must
+// keep each process on one thread and within its time limit.
 #pragma once
 
 #include <chrono>
@@ -42,8 +43,8 @@ ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                           const std::vector<std::string>& arguments,
                           std::optional<std::chrono::seconds> time_limit = {});
 
-/// Appends the arguments of scripts/mesh_arguments.idp: the relative accuracy [1] that is asked of
-/// each force, in (0, 1), and how the meshes are refined.
+/// Appends the arguments of scripts/arguments.idp: the largest relative error estimate [1]
+/// that is asked of each force, in (0, 1), and the numbers of cells of the meshes.
 void append_mesh_arguments(std::vector<std::string>& arguments, double relative_accuracy);
 
 /// The part of an error message that says that FreeFEM was killed at its time limit, and the

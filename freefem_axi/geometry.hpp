@@ -1,6 +1,8 @@
-// The registry of geometries: what the sphere approaches. Lengths are in any one unit. A new
-// geometry needs a script and a row in geometry.cpp; docs/extending.md shows how. A change must
-// keep names and keys, which case files contain, and flags, which scripts read.
+// The registry of geometries: what the sphere approaches. q is the gap, r the radius of the sphere,
+// mu the viscosity, R the resistance. Lengths are in any one unit. A new geometry needs a script
+// and a row in geometry.cpp; docs/extending.md shows how. Case files and tabulation.hpp use the
+// registry. A change must keep names and keys, which case files contain, and flags, which scripts
+// read.
 #pragma once
 
 #include <array>
@@ -12,7 +14,7 @@
 #include <vector>
 
 #include "viscontact/common/allowed.hpp"
-#include "viscontact/lubrication/motions/motion_kind.hpp"
+#include "viscontact/lubrication/motion_kind.hpp"
 
 namespace viscontact::freefem_axi {
 
@@ -62,8 +64,8 @@ struct Geometry {
   double relative_cost = 1;
   /// The motions for which the script imposes the right conditions on the neighbour, in the order
   /// of MotionKind. A script that changes a condition changes it for the approach alone
-  /// (axisymmetric_stokes.idp); sideways_stokes.idp and swirl_stokes.idp have conditions of their
-  /// own.
+  /// (solveStokes in axisymmetric_stokes.idp); solveSideways in sideways_stokes.idp and solveSwirl
+  /// in axisymmetric_stokes.idp have conditions of their own.
   std::span<const lubrication::MotionKind> motions = kApproachAlone;
   /// 1 over the neighbour's radius [1/L]: 0 of a plane, < 0 of a cavity. It gives theory's leading
   /// terms of sliding, rolling and spinning. Null: they are not known.

@@ -1,5 +1,5 @@
 // Reads the meshes and the flow that scripts/pictures.idp prints, and writes them for ParaView.
-// Units are those of row_picture.hpp.
+// Lengths, masses and times are in the units of the case.
 #include "viscontact/freefem_axi/row_picture.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/vtk/flow_vtk.hpp"
-#include "viscontact/freefem_axi/motions/motion_row.hpp"
+#include "viscontact/freefem_axi/motion_row.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {
@@ -43,7 +43,7 @@ class PictureReader {
       mesh.y[i] = number();
       for (auto& field : fields) field[i] = number();
     }
-    // FreeFEM's middle i is that of the side opposite to corner i.
+    // FreeFEM's node 3 + i is the middle of the side opposite to corner i.
     for (auto& triangle : mesh.triangles)
       for (const std::size_t place : {0, 1, 2, 4, 5, 3})
         triangle.at(place) = static_cast<std::int32_t>(node_below(nodes));
@@ -89,7 +89,7 @@ class PictureReader {
   std::istringstream stream_;
 };
 
-/// What velocities, pressure and the last column of FreeFEM are multiplied by.
+/// The factors by which velocities, pressure and the last column of FreeFEM are multiplied.
 std::array<double, 4> factors_of_approach(const Tabulation& tabulation, double velocity) {
   const auto scale = solve_scale(tabulation, velocity);
   return {scale.speed, scale.speed, scale.viscosity * scale.speed, scale.speed};

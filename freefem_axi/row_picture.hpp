@@ -1,4 +1,5 @@
-// One row of a tabulation with its flow and its meshes, for pictures. Lengths, masses and times are
+// One row of a tabulation with its flow and its meshes, for the pictures of report/flow. rho is the
+// distance from the axis, z the height, phi the angle about the axis. Lengths, masses and times are
 // in the units of the case. A change must agree with scripts/pictures.idp.
 #pragma once
 
@@ -32,10 +33,11 @@ struct RowPicture {
   /// u_phi sin phi, u_z cos phi) and the pressure p cos phi; these are the values at phi = 0.
   FlowField flow;
   std::vector<BoundaryEdge> boundary;  ///< of the fluid, and interfaces in it
-  /// psi [L^3/T] at the nodes, with u_rho = -(1/rho) dpsi/dz and u_z = (1/rho) dpsi/drho; 0 on the
-  /// axis. Only of the approach.
+  /// Of the approach: the stream function psi [L^3/T] at the nodes, with u_rho = -(1/rho) dpsi/dz
+  /// and u_z = (1/rho) dpsi/drho, 0 on the axis. Empty for other motions.
   std::vector<double> stream_function;
-  std::vector<double> azimuthal_velocity;  ///< u_phi [L/T] at the nodes, of the other motions
+  /// Of the other motions: u_phi [L/T] at the nodes. Empty for the approach.
+  std::vector<double> azimuthal_velocity;
   /// The mesh that the finest mesh was made from, by repeated division of triangles into four.
   QuadraticMesh coarsest;
 };

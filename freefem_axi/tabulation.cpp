@@ -1,5 +1,5 @@
-// The arguments of a row, the call of FreeFEM, and the result. Units are those of the case, except
-// that FreeFEM writes in those of solve_scale().
+// The arguments of a row, the call of FreeFEM, and the result. Lengths, masses and times are in the
+// units of the case, except that FreeFEM writes the force in the units of solve_scale().
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 #include <fmt/format.h>

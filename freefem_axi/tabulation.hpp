@@ -1,6 +1,7 @@
-// The tabulation of the lubrication force (physics.md, section 2): its inputs, and the solution of
-// one row. Lengths, masses and times are in any one consistent system of units. If a change alters
-// tabulation_hash(), finished tables are computed again.
+// The tabulation of the lubrication force F_lub(q, u0) (physics.md, section 2): its inputs, and the
+// solution of one row, at the gap q and the velocity u0 of the sphere. Case files and
+// force_table_plan.hpp use it. Lengths, masses and times are in any one consistent system of units.
+// If a change alters tabulation_hash(), finished tables are computed again.
 #pragma once
 
 #include <optional>
@@ -10,7 +11,7 @@
 #include "viscontact/freefem_axi/freefem.hpp"
 #include "viscontact/freefem_axi/geometry.hpp"
 #include "viscontact/lubrication/force_table.hpp"
-#include "viscontact/lubrication/motions/motion_kind.hpp"
+#include "viscontact/lubrication/motion_kind.hpp"
 
 namespace viscontact::freefem_axi {
 
@@ -30,7 +31,7 @@ struct Tabulation {
   /// Larger than the RequiredSpace of the geometry. Nothing: the fluid is unbounded, or the
   /// geometry takes no container.
   std::optional<Container> container;
-  double relative_accuracy = 0;                   ///< asked of every row [1], in (0, 1)
+  double relative_accuracy = 0;                   ///< error estimate asked of a row [1], in (0, 1)
   std::string geometry{default_geometry().name};  ///< name of a Geometry
   std::vector<double> geometry_parameters;        ///< in the order of Geometry::parameters
   /// The motions that are tabulated, each once. Those other than the approach are tabulated by
@@ -49,8 +50,8 @@ std::string geometry_in_words(const Tabulation& tabulation);
 /// sphere [1], from the parameters of the geometry.
 double neighbour_ratio(const Tabulation& tabulation, lubrication::MotionKind motion);
 
-/// Coefficient k of R ~ k/q near contact in theory [M L/T]. Nothing if it is not known or too large
-/// for a double.
+/// Theory's coefficient k [M L/T] of the resistance -F_lub/u0 = k/q near contact. Nothing if it is
+/// not known or too large for a double.
 std::optional<double> leading_coefficient(const Tabulation& tabulation);
 
 /// SHA-256 of everything that the forces depend on. Equal inputs have equal hashes.
@@ -60,8 +61,8 @@ std::string tabulation_hash(const Tabulation& tabulation);
 std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
                                        double reference_velocity);
 
-/// The units of viscosity and speed in which FreeFEM writes the force. Stokes flow is linear in
-/// both; the force in these units is multiplied by both.
+/// The units of viscosity and speed in which FreeFEM writes the force. Because Stokes flow is
+/// linear in both, the force is that in these units times both units.
 struct SolveScale {
   double viscosity = 1;  ///< [M/(L T)], > 0
   double speed = 1;      ///< [L/T], > 0

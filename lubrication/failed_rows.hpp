@@ -1,5 +1,6 @@
-// The rows that a table lacks because they could not be computed. Its file names each of them in a
-// line "# failed row, gap 0.01, velocity -1: REASON" (docs/file-formats.md).
+// The rows that a table of forces or of motions lacks because they could not be computed. The file
+// of the table names each of them in a line "# failed row, gap 0.01, velocity -1: REASON"
+// (docs/file-formats.md). A change must keep this form, because `fit` warns of these rows.
 #pragma once
 
 #include <map>
@@ -8,19 +9,19 @@
 
 namespace viscontact::lubrication {
 
-/// The rows by their names, "gap 0.01, velocity -1" with all digits, and the reason of each.
+/// The name of each failed row, "gap 0.01, velocity -1" with all digits, and the reason.
 using FailedRows = std::map<std::string, std::string>;
 
-/// How the keys of these lines begin; the name of the row follows.
+/// Beginning of the key of such a line; the name of the row follows.
 inline constexpr std::string_view kFailedRow = "failed row, ";
 
-/// Adds the lines of these rows to `comments`, the lines "# key: value" of a table by their keys.
+/// Adds a line for each of these rows to `comments`, which has the lines "# key: value" of a table.
 inline void add_failed_rows(std::map<std::string, std::string>& comments,
                             const FailedRows& failed) {
   for (const auto& [name, reason] : failed) comments[std::string(kFailedRow) + name] = reason;
 }
 
-/// The rows that the lines of a table name.
+/// The rows that `comments`, the lines "# key: value" of a table, name.
 inline FailedRows failed_rows_in(const std::map<std::string, std::string>& comments) {
   FailedRows failed;
   for (const auto& [key, value] : comments)

@@ -1,5 +1,5 @@
-// Reads and writes the CSV file of a force table (docs/file-formats.md). Units are those of
-// force_table.hpp.
+// Reads and writes the CSV file of a force table (docs/file-formats.md). Lengths, masses and times
+// are in any one consistent system of units.
 #include "viscontact/lubrication/force_table.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
-// The table of the lubrication force over a grid of gaps and velocities, which the tabulation
-// writes and the fit reads. Lengths, masses and times are in any one consistent system of units. A
-// change must keep the names of the columns and header keys, because published tables use them.
+// The table of the lubrication force F_lub(q, u0) over a grid of gaps q and velocities u0 of the
+// sphere, which the tabulation (freefem_axi/) writes and the fit (fitting/) reads. Lengths, masses
+// and times are in any one consistent system of units. A change must keep the names of the columns
+// and header keys, because published tables use them.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +11,7 @@
 #include <vector>
 
 #include "viscontact/lubrication/failed_rows.hpp"
-#include "viscontact/lubrication/motions/motion_kind.hpp"
+#include "viscontact/lubrication/motion_kind.hpp"
 
 namespace viscontact::lubrication {
 
@@ -20,10 +21,10 @@ struct ForceTableRow {
   double gap = 0;
   /// u0 [L/T], not 0; < 0 when the sphere approaches.
   double reference_velocity = 0;
-  /// F_lub(q, u0) [M L/T^2] along the outward normal. Its sign is opposite to that of u0, unless
-  /// the neighbour moves and pulls the sphere along.
+  /// F_lub(q, u0) [M L/T^2], > 0 away from the neighbour. Its sign is opposite to that of u0,
+  /// unless the neighbour moves and pulls the sphere along.
   double force = 0;
-  /// K = -F_lub/(6 pi mu r u0) [1].
+  /// K = -F_lub/(6 pi mu r u0) [1], with the viscosity mu and the radius r of the table.
   double drag_factor = 0;
   /// Estimate of the relative error of `force` [1], >= 0; 0 if the table has none.
   double relative_error_estimate = 0;
@@ -44,13 +45,14 @@ struct ForceTable {
   std::string container;  ///< walls around the fluid, in words; may be empty
   /// True if the neighbour moves. It may then pull the sphere, so a force along u0 is allowed.
   bool neighbour_moves = false;
-  /// Coefficient k of R ~ k/q near contact in theory [M L/T], > 0, if it is known.
+  /// Theory's coefficient k of the resistance R = -F_lub/u0 = k/q near contact [M L/T], > 0, if it
+  /// is known.
   std::optional<double> leading_coefficient{};
   std::string case_hash;  ///< SHA-256 of the tabulation's inputs; empty if the table has none
   std::map<std::string, std::string> versions;  ///< program name to version
   /// The motions of the tabulation, if there were several: each has a table of its own.
   std::vector<MotionKind> tabulated_motions{};
-  FailedRows failed_rows{};           ///< rows that the table should have and has not
+  FailedRows failed_rows{};           ///< rows that could not be computed
   std::vector<ForceTableRow> rows{};  ///< at least one
 };
 

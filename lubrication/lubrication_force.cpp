@@ -1,6 +1,6 @@
 // Resistance, its derivative and its primitive, inside the fitted interval and in the limits
-// outside of it, and the inverse of the primitive. Equations and units are those of
-// lubrication_force.hpp.
+// outside of it, and the inverse of the primitive. The equations are in lubrication_force.hpp.
+// Lengths, masses and times are in any one consistent system of units.
 #include "viscontact/lubrication/lubrication_force.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +20,8 @@
 namespace viscontact::lubrication {
 namespace {
 
-// Range of gap/radius in which K and its integral are normal doubles of full precision.
+// Range of gap/radius in which the exact drag and its integral are normal doubles of full
+// precision.
 constexpr std::array kExactRange = {1e-300, 1e300};
 
 }  // namespace

@@ -39,7 +39,7 @@ double value(const Polynomial<count>& polynomial, double t) {
 }
 
 // Near contact, x < kNear: R = sum_k eps^k (constant_k + logarithm_k x), k = 0..4. The first term
-// that is left out, of order eps^5 x, is 1.2e-16 at kNear.
+// that is left out, of order eps^5 x, is 1.2e-16 at x = kNear.
 constexpr double kNear = -6;
 // After Cox & Brenner 1967 and Cooley & O'Neill 1969; the digits are those of
 // data/reference/near_contact_expansion.csv.
@@ -50,7 +50,7 @@ constexpr Polynomial<5> kLogarithms = {-1.0 / 5, -1.0 / 21, 8.0 / 1125, -15416.0
                                        910732.0 / 1773646875};
 
 // Between, kNear <= x < kFar: M is a polynomial in t = -1..1 on each piece of length 1 in x. M is
-// analytic for |Im x| < pi, so its Chebyshev coefficients fall at least like 12^-n.
+// analytic for |Im x| < pi, so its Chebyshev coefficients of degree n fall at least like 12^-n.
 constexpr double kFar = 2;
 constexpr int kPieces = 8;
 // Coefficients of M in powers of t, computed with mpmath in 45 digits: R from Brenner's series at
@@ -101,10 +101,10 @@ constexpr std::array<Polynomial<20>, kPieces> kMean = {{
 }};
 // clang-format on
 
-// Far away, x >= kFar: R = sum_k b_k h^k with h = 1/(1 + eps) < 0.12. As 1/eps = h + h^2 + ..., the
-// coefficients of K are 1 + b_k for k > 0: 9/8, 81/64, 473/512, 4113/4096, ... All are dyadic
-// fractions, from the expansion of Brenner's series in exp(-alpha), cosh(alpha) = 1/h, in rational
-// arithmetic.
+// Far away, x >= kFar: R = sum_k b_k h^k with h = 1/(1 + eps) < 0.12. Because 1/eps = h + h^2 +
+// ..., the coefficients of K are 1 + b_k for k > 0: 9/8, 81/64, 473/512, 4113/4096, ... All are
+// dyadic fractions. They come from the expansion of Brenner's series in exp(-alpha), with
+// cosh(alpha) = 1/h, in rational arithmetic.
 // clang-format off
 constexpr Polynomial<18> kFarRegular = {
     1, 0.125, 0.265625, -0.076171875, 0.004150390625, 0.215118408203125,
@@ -161,8 +161,9 @@ consteval Expansion slope_expansion() {
   return slope;
 }
 
-/// The coefficients of M near and between, but of S - eps - x/8 far away, where R = 1 + h/8 + ...,
-/// int h^(k+1) d eps = -h^k/k and ln(1 + eps) - x = sum h^k/k.
+/// The coefficients of M near contact and between. Far away they are those of S - eps - x/8
+/// instead, which follow from R = 1 + h/8 + ..., int h^(k+1) d eps = -h^k/k and ln(1 + eps) - x =
+/// sum h^k/k.
 consteval Expansion mean_expansion() {
   Expansion mean = {kConstants, kLogarithms, kMean, {}};
   for (std::size_t k = 0; k < kConstants.size(); ++k) {
@@ -180,8 +181,8 @@ constexpr Expansion kRegular = regular_expansion();
 constexpr Expansion kSlope = slope_expansion();
 constexpr Expansion kMeanRegular = mean_expansion();
 
-/// The value at eps, x = ln eps. If eps < 0, x is NaN and fails both comparisons, so that the last
-/// line returns NaN.
+/// The value at eps, where x = ln eps. If eps < 0, x is NaN and fails both comparisons, so that the
+/// last line returns NaN.
 double value(const Expansion& f, double eps, double x) {
   if (x >= kFar) return value(f.far, 1 / (1 + eps));
   if (x >= kNear) {

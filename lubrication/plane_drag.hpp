@@ -1,17 +1,19 @@
 // Exact Stokes drag of a sphere that moves normal to a no-slip plane in a half-space (physics.md
 // (2.4); Brenner 1961, Chem. Eng. Sci. 16, 242), to round-off and without summing a series. All
-// values are without dimension. A change must keep the error bound below.
+// values are without dimension. LubricationForce is built on these functions. A change must keep
+// the error bound below.
 #pragma once
 
 namespace viscontact::lubrication {
 
-// The argument is eps = gap/radius > 0, and K = drag/(6 pi mu r |u|):
+// The argument is eps = gap/radius > 0. K = drag/(6 pi mu r |u|) is the drag factor, with the
+// viscosity mu, the radius r and the velocity u:
 // 1/eps - (1/5) ln eps + 0.97 + ... near contact, 1 + (9/8)/(1 + eps) + ... far away.
 //
 // Relative errors are below 1e-15 for 1e-300 <= eps <= 1e300. The largest error that was found is
 // 6e-16, at 6000 gaps from exp(-9) to exp(5), by comparison with sums in 45 digits. The functions
-// check nothing and throw nothing: eps < 0 and NaN give NaN; 0 and infinity give what the
-// arithmetic gives. Each call takes one logarithm and one polynomial, and allocates no memory.
+// check nothing and throw nothing: eps < 0 and NaN give NaN, and the values at 0 and infinity are
+// not defined. Each call takes one logarithm and one polynomial, and allocates no memory.
 
 /// K, > 1.
 double plane_drag_factor(double eps);

@@ -1,5 +1,5 @@
-// Sample points for functions of the gap. The default of 201 points is also stated in the help of
-// `export` and in docs/file-formats.md.
+// Sample points for functions of the gap, at which fits are checked and exported. The default of
+// 201 points is also stated in the help of `export` and in docs/file-formats.md.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace viscontact::lubrication {
 
-/// `count` >= 2 gaps [L] in geometric progression on an interval 0 < first < second, whose ends are
-/// the first and the last of them exactly.
+/// `count` >= 2 gaps [L] in geometric progression on `interval`, 0 < first < second. The first and
+/// the last gap are exactly its ends.
 inline std::vector<double> spread_gaps(const std::array<double, 2>& interval, int count = 201) {
   const double low = std::log(interval[0]);
   const double high = std::log(interval[1]);

@@ -1,4 +1,4 @@
-// The drag of a sphere in an unbounded fluid.
+// The drag of a sphere in an unbounded fluid, the unit in which tables and limits give other drags.
 #pragma once
 
 #include <numbers>

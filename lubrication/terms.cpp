@@ -1,6 +1,6 @@
-// The table of terms and the named bases. A new term or basis is a new row here. Each row's
-// log_slope must be q times the derivative of its value, and its antiderivative a primitive of its
-// value.
+// The table of terms and the named bases. A new term or basis is a new row here. The formulas are
+// in the gap q > 0, in the table's unit of length, and l = ln q. Each row's log_slope must be q
+// times the derivative of its value, and its antiderivative a primitive of its value.
 #include "viscontact/lubrication/terms.hpp"
 
 #include <fmt/format.h>
@@ -15,8 +15,8 @@
 namespace viscontact::lubrication {
 namespace {
 
-// Makes a Formula of an expression, as text and as code, so that an exported fit computes what was
-// fitted.
+// Makes a Formula of an expression in q and l, as text and as code, so that an exported fit
+// computes what was fitted.
 #define FORMULA(expression)                                                                       \
   Formula {                                                                                       \
 #expression,                                                                                  \

@@ -1,4 +1,5 @@
-// The functions of the gap that a fit may combine, and the named bases (physics.md (3.2)). A change
+// The functions of the gap q that a fit may combine, and the named bases (physics.md (3.2)). q is a
+// number > 0 in the table's unit of length. fitting/ and lubrication_force.hpp use them. A change
 // must keep the names and the formulas, because fit files name their terms and exports print the
 // formulas.
 #pragma once
@@ -24,16 +25,15 @@ struct Formula {
   double operator()(double gap) const { return at(gap, std::log(gap)); }
 };
 
-/// A function phi of the gap q > 0, where q is a number in the table's unit of length. With another
-/// unit, the same function has other coefficients of 1 and of q, to which parts of the coefficients
-/// of ln q and q ln q are added. A coefficient has the dimension [M L/T^2] of a force over that of
-/// phi.
+/// A function phi of the gap q > 0. If q is given in another unit of length, ln q changes by a
+/// constant, so that parts of the coefficients of ln q, q ln q, ... are added to those of 1, q, ...
+/// A coefficient has the dimension [M L/T^2] of a force over that of phi.
 struct Term {
   std::string_view name;  ///< as fit files and `--terms` give it: "q ln q"
   Formula value;          ///< phi(q)
   /// q phi'(q) = d phi/d ln q: the derivative in a form that does not overflow near contact.
   Formula log_slope;
-  /// A primitive of phi. Gamma is a sum of these.
+  /// A primitive of phi. The primitive Gamma of the resistance (4.2) is a sum of these.
   Formula antiderivative;
 };
 
@@ -47,8 +47,9 @@ std::span<const Term> all_terms();
 std::optional<Term> find_term(std::string_view name);
 
 /// Sum of weight * value over all_terms() at a gap > 0. `weights` has an entry for each of these
-/// terms, in the same order; a term of weight 0 is not evaluated. This function and the two below
-/// are fast enough for inner loops: they take one logarithm and call no function pointer.
+/// terms, in the same order; a term of weight 0 is not evaluated. The result has the dimension of a
+/// weight times that of its term. This function and the two below are fast enough for inner loops:
+/// they take one logarithm and call no function pointer.
 double sum_values(std::span<const double> weights, double gap);
 /// Sum of weight * log_slope over all_terms(), as sum_values().
 double sum_log_slopes(std::span<const double> weights, double gap);

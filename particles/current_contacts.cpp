@@ -16,7 +16,7 @@ double gap_of(const Particles& p, const Pair& pair, std::span<const PlanePositio
   return p.dimension == 2 ? contact_of<2>(p, pair, places).gap : contact_of<3>(p, pair, places).gap;
 }
 
-/// The smallest gap of two discs and their nearest images [L]; 0 if it is not below 0.
+/// The smallest gap of two discs, between their nearest images [L]; 0 if none overlap.
 double smallest_gap_of_images(const Particles& p) {
   double smallest = 0;
   for (std::size_t j = 0; j < p.count(); ++j)
@@ -29,8 +29,9 @@ double smallest_gap_of_images(const Particles& p) {
 }
 
 ContactFriction friction_of(const Setting& setting, const PairMemory& memory) {
-  // Solvers project friction on its bound, so that it reaches the bound within rounding errors. The
-  // sum over the parts of a divided step reaches it if its direction did not change.
+  // Solvers set the friction of a sliding contact to its bound, so that it has this value within
+  // rounding errors. In a divided step friction and bound are sums over the parts, which are equal
+  // if the direction of the friction did not change.
   constexpr double kRounding = 1e-9;
   const double carried = memory[Remembered::kCarried];
   if (!setting.laws.friction || !(carried > 0)) return ContactFriction::kNone;
@@ -52,8 +53,8 @@ double largest_overlap(const Setting& setting, const State& state) {
   double smallest = 0;
   const auto& p = state.particles;
   ThreadPool pool(1);
-  // The search for close pairs in a period takes the images where they were at the start. Images
-  // that have moved are compared one by one.
+  // close_pairs_in_period() takes the images where they were at the start. In a sheared cell images
+  // have moved, and all pairs are compared one by one.
   std::vector<ClosePair> close;
   if (p.cell.is_sheared()) {
     smallest = smallest_gap_of_images(p);

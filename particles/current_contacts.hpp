@@ -1,6 +1,6 @@
 // Lists the contacts of a state for output, and measures its overlaps. Lengths, masses and times
-// are in the units of the case. A change must keep the order of contacts_of(), which vtk_reader.cpp
-// restores.
+// are in the units of the case. Files, frames and pages show these contacts. A change must keep the
+// order of contacts_of(), which vtk_reader.cpp restores.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct CurrentContact {
   std::int32_t first;      ///< number of a particle, or -1 - k for obstacle k
   std::int32_t second;     ///< number of a particle
   double gap;              ///< [L]
-  double gamma;            ///< [M L/T], of discs in a fluid [M/T]
+  double gamma;            ///< [M L/T], of discs in a fluid [M/T]; <= 0
   double gamma_error = 0;  ///< Pair::gamma_error, in the unit of gamma
   std::int32_t image = 0;  ///< Pair::image
   ContactFriction friction = ContactFriction::kNone;  ///< in the last step
@@ -37,8 +37,8 @@ struct CurrentContact {
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact);
 
-/// The pairs that are glued (gamma < 0) or touch (gap <= solver tolerance times mean radius): first
-/// pairs of particles, then particles at obstacles, each in the order of the state.
+/// The pairs that are glued (gamma < 0) or touch (gap <= SolverSettings::tolerance times mean
+/// radius): first pairs of particles, then particles at obstacles, each in the order of the state.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
 /// Largest Pair::gamma_error of all pairs, in the unit of gamma.

@@ -1,6 +1,7 @@
 // The fluid around the particles, as a case describes it: sections [fluid] and [domain] of a case
 // file. Lengths, masses and times are in the units of the case; in two dimensions masses and forces
-// are per unit length of the third dimension.
+// are per unit length of the third dimension. case_file/ checks the values; particles/fluid and
+// freefem_flow read them.
 #pragma once
 
 #include <array>
@@ -22,8 +23,8 @@ enum class RigidConstraint {
 
 /// Whether the mesh of the fluid follows the particles.
 enum class FluidMesh {
-  kFitted,  ///< follows the surfaces of the particles with curved edges
-  kFixed,   ///< does not know the particles (the lecture's method)
+  kFitted,  ///< curved edges of the mesh follow the surfaces of the particles
+  kFixed,   ///< one mesh of the domain, whatever the places of the particles (the lecture's method)
 };
 
 /// How contact acts on particles in a fluid, docs/physics.md (6.4).
@@ -44,8 +45,8 @@ enum class FlowStart {
   kStokes,  ///< it has the Stokes flow of the first instant
 };
 
-/// Velocity of a wall: (a, b), or a parabola along the wall that is 0 at both ends. In a fluid with
-/// inertia it may depend on time.
+/// Velocity of a wall: constant, or a parabola along the wall that is 0 at both ends, or not given.
+/// In a fluid with inertia it may depend on time.
 struct WallVelocity {
   /// What is given on the wall.
   enum class Kind {
@@ -53,8 +54,9 @@ struct WallVelocity {
     kParabolic,  ///< along the inward normal, with the largest speed value[0] in the middle
     kOpen,       ///< no stress acts on this side, and fluid flows through it freely
   };
-  Kind kind = Kind::kConstant;    ///< what is given
-  std::array<double, 2> value{};  ///< the velocity, or the speed of a parabola first [L/T]
+  Kind kind = Kind::kConstant;  ///< what is given
+  /// x and y of a constant velocity; of a parabola value[0] is the largest speed [L/T].
+  std::array<double, 2> value{};
   /// Takes the place of `value` if it has pieces.
   PiecewiseConstant pieces{};
   /// If the period [T] is > 0, the velocity is multiplied by 1 + amplitude sin(2 pi time/period).
@@ -89,11 +91,15 @@ struct Fluid {
   std::array<double, 2> pressure_gradient{};
   /// How particles are kept rigid; kRigid needs the fitted mesh.
   RigidConstraint constraint = RigidConstraint::kPenalty;
-  double penalty = 1e-7;                ///< > 0, docs/physics.md (6.1); used by kPenalty only
+  /// > 0, docs/physics.md (6.1); used by kPenalty only. Velocities have an error proportional to
+  /// it, and rounding errors of about 1e-16/penalty (docs/fluid.md).
+  double penalty = 1e-7;
   FluidMesh mesh = FluidMesh::kFitted;  ///< whether it follows the particles
-  int edges_per_particle = 24;          ///< on the circumference of the smallest particle, >= 6
+  /// Edges of the mesh on the circumference of the smallest particle, >= 6. With 24, velocities
+  /// have relative errors of some 1e-4 at gaps of 0.1 radii and more (docs/fluid.md).
+  int edges_per_particle = 24;
   Coupling coupling = Coupling::kConstrained;  ///< how contact acts
-  double threshold_gap = 0;  ///< D_c [L], >= 0: contact is made where a gap reaches it
+  double threshold_gap = 0;  ///< gap at which particles make contact, D_c of physics.md [L], >= 0
   /// Velocities of the walls, or of a cell that is periodic both ways.
   std::variant<LinearFlow, SideVelocities> boundary;
   /// Command of a solver of the user's own; empty: FreeFEM.

@@ -1,5 +1,6 @@
-// The motion of a step without contacts, h u* and h w* of docs/physics.md (5.3) and (5.10), and the
-// velocities at the present time. Units are those of the case.
+// The motion of a step of length h without contacts: displacements h u* and turns h w* of
+// docs/physics.md (5.3) and (5.10), and the velocities at the present time. Lengths, masses and
+// times are in the units of the case.
 #include "viscontact/particles/rotation.hpp"
 #include "viscontact/particles/simulation.hpp"
 
@@ -82,8 +83,8 @@ void Simulation::move_bodies_freely(double h, double next) {
   }
 }
 
-/// Whether nothing but forces, gravity and torques changes the motion of each particle at the end of
-/// the last step: no contact, no link, and none on its rigid body.
+/// For each particle 1 if in the last step only forces, gravity and torques changed its motion,
+/// else 0: it, or its rigid body, then has a link or a contact with an impulse.
 std::vector<char> Simulation::free_particles() const {
   const auto& p = state_.particles;
   std::vector<char> is_free(p.count(), 1);
@@ -146,7 +147,7 @@ Particles Simulation::reported_particles() const {
   return reported;
 }
 
-/// Sets the rotations h w* of the free motion.
+/// Sets the turns h w* of the free motion [rad].
 void Simulation::turn_freely(double h, double next) {
   const auto& p = state_.particles;
   const auto components = turn_components(p.dimension);

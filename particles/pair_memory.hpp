@@ -1,7 +1,7 @@
 // What contact laws remember of a pair besides gamma, declared once: the restart file,
 // contacts.csv, final_contacts.csv and the frames learn it from kMemoryFields. To add a memory, add
-// a row there and its place in Remembered. A memory is dropped when gamma is 0 and the pair leaves
-// the lists of close pairs; a law must not rely on it longer. Units are those of the case.
+// a row there and its place in Remembered, whose comment says the unit. A memory is dropped when
+// gamma is 0 and the pair leaves the lists of close pairs; a law must not rely on it longer.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace viscontact::particles {
 
 /// The places in a PairMemory, in the order of kMemoryFields.
 enum class Remembered : std::uint8_t {
-  kFrictionX,  ///< impulse of friction on `second` in the last step [M L/T], tangential: the first
-  kFrictionY,  ///< guess of the next one
+  kFrictionX,  ///< x, y and z of the impulse of friction on Pair::second in the last step [M L/T],
+  kFrictionY,  ///< which is tangential, and the first guess of the next step
   kFrictionZ,
   kCarried,  ///< part of the impulse of the last step that the solids carried [M L/T], >= 0: p_s of
              ///< docs/physics.md (5.7), which bounds the friction
@@ -53,11 +53,11 @@ class PairMemory {
  public:
   /// The number in one place, in the unit that Remembered says.
   double& operator[](Remembered field) { return values_[static_cast<std::size_t>(field)]; }
-  /// The same.
+  /// The number in one place, in the unit that Remembered says.
   double operator[](Remembered field) const { return values_[static_cast<std::size_t>(field)]; }
   /// All numbers, in the order of kMemoryFields.
   std::array<double, kMemoryFields.size()>& values() { return values_; }
-  /// The same.
+  /// All numbers, in the order of kMemoryFields.
   const std::array<double, kMemoryFields.size()>& values() const { return values_; }
 
   /// The numbers that files show.
@@ -97,8 +97,8 @@ class PairMemories {
     static constexpr PairMemory kZeros{};
     return row == kNone ? kZeros : rows_[static_cast<std::size_t>(row)];
   }
-  /// The same to be changed. If `row` is kNone, a row of zeros is made and `row` becomes its
-  /// number.
+  /// The memory with number `row`, which the caller may change. If `row` is kNone, a row of zeros
+  /// is made and `row` becomes its number.
   PairMemory& make(std::int32_t& row) {
     if (row == kNone) {
       row = static_cast<std::int32_t>(rows_.size());
@@ -112,8 +112,8 @@ class PairMemories {
   }
   bool empty() const { return rows_.empty(); }  ///< whether nothing is remembered
 
-  /// Drops the rows of pairs that are in none of the lists, and those of zeros. The lists hold
-  /// Pair.
+  /// Drops the rows of pairs that are in none of the lists of Pair, and the rows that hold zeros
+  /// only. The numbers Pair::memory change with the rows.
   template <class... Lists>
   void keep_only(Lists&... lists) {
     if (rows_.empty()) return;

@@ -1,5 +1,6 @@
 // The particles of a simulation: rigid discs or spheres. Lengths, masses and times are in any one
-// consistent system of units. The restart file stores these arrays as they are (io/restart.cpp).
+// consistent system of units. The restart file stores these arrays as they are (io/restart.cpp), so
+// that a change of their layout needs a new version of that file.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +16,8 @@ namespace viscontact::particles {
 /// The place in an array of the particle with number `number` >= 0.
 constexpr std::size_t index_of(std::int32_t number) { return static_cast<std::size_t>(number); }
 
-/// Flat arrays. Entry k of `radii`, `masses` and `ids` belongs to particle k, and so do `dimension`
-/// entries from dimension * k on of `positions` and `velocities`.
+/// Flat arrays of the numbers of all particles. Entry k of `radii`, `masses` and `ids` belongs to
+/// particle k, and so do `dimension` entries from dimension * k on of `positions` and `velocities`.
 struct Particles {
   /// 2: discs, 3: spheres, 1: spheres on the axis z of a cylinder. z is component 0 of a Vector.
   int dimension = 2;
@@ -65,9 +66,9 @@ inline double homogeneous_inertia(int dimension, double mass, double radius) {
   return (dimension == 3 ? 0.4 : 0.5) * mass * radius * radius;
 }
 
-/// Makes all particles turn. Those after the end of an array of the rotation get values there: at
-/// rest, in the orientation of the start, with the moment of inertia of a homogeneous body. The
-/// dimension is 2 or 3.
+/// Makes all particles turn: extends each array of the rotation to all particles. The new entries
+/// are those of particles that do not turn yet, in the orientation of the start, with the moment of
+/// inertia of a homogeneous disc or sphere. The dimension is 2 or 3.
 void add_rotation(Particles& particles);
 
 /// Mean radius [L], by which residuals and overlaps are measured; 1 if there are no particles.

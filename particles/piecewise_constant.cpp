@@ -1,4 +1,5 @@
-// Exact integrals and means of a piecewise constant vector (piecewise_constant.hpp).
+// Exact integrals and means of a piecewise constant vector (piecewise_constant.hpp). The vector has
+// any dimension; times [T] are in the unit of the case.
 #include "viscontact/particles/piecewise_constant.hpp"
 
 #include <algorithm>

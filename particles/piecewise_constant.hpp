@@ -1,5 +1,5 @@
 // A vector that is constant between given times, such as a force [M L/T^2] or the velocity of a
-// plane [L/T]. Times are in any unit [T].
+// plane [L/T]. Times [T] are in the unit of the case. No function checks the order of the pieces.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ struct PiecewiseConstant {
   };
   std::vector<Piece> pieces;  ///< empty: the vector is 0 at all times
 
-  /// Integral from time 0 to t >= 0 [T].
+  /// Integral from time 0 to t >= 0 [T], in the unit of the vector times that of time.
   Vector integral(double t) const;
   /// Mean over the times from `from` to `to` [T]; needs 0 <= from < to.
   Vector mean(double from, double to) const;

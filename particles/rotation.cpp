@@ -1,4 +1,4 @@
-// Quaternions, and how particles turn in a step (rotation.hpp).
+// Quaternions, and how particles turn in a step (rotation.hpp). Turns are in radians.
 #include "viscontact/particles/rotation.hpp"
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // Rotations in space as unit quaternions (w, x, y, z), and the rotation of particles in a step.
+// Turns and angles are in radians; a quaternion has no dimension.
 #pragma once
 
 #include <array>

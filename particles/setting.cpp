@@ -1,4 +1,5 @@
-// What follows from the setting of a case (setting.hpp).
+// Obstacles and periodic cell of a setting (setting.hpp). Lengths and times are in the units of the
+// case. The order of the obstacles numbers them in files and must be kept.
 #include "viscontact/particles/setting.hpp"
 
 namespace viscontact::particles {

@@ -19,20 +19,22 @@
 
 namespace viscontact::particles {
 
-/// Velocities that a particle has whatever acts on it. Both are 0 after their last piece.
+/// Velocities of a driven particle, which no force changes. Both are 0 after their last piece.
 struct GivenMotion {
   PiecewiseConstant velocity;          ///< of the centre [L/T]
   PiecewiseConstant angular_velocity;  ///< counter-clockwise, value[2] of each piece [1/T]
 };
 
-/// How the velocities of (5.3) are read, docs/physics.md (5.10).
+/// At which time the velocities u^n of the scheme stand, docs/physics.md (5.3) and (5.10); t^n is
+/// the time at the end of step n.
 enum class Scheme {
-  kEuler,     ///< u^n is the velocity at time t^n; positions are of first order
+  kEuler,     ///< u^n is the velocity at t^n; positions are of first order in the step
   kLeapfrog,  ///< u^n is the velocity half a step before t^n; of second order away from impacts
 };
 
-/// What moves the particles, and how their motion is computed. A case file's values are checked
-/// when it is read. The keys of the maps must be numbers of existing particles.
+/// What moves the particles, and how their motion is computed. case_file/ checks all values when it
+/// reads a case, and a simulation does not check them again. The keys of the maps must be numbers
+/// of existing particles.
 struct Setting {
   std::vector<Plane> planes;  ///< rigid planes, at rest or moving, that particles cannot cross
   /// Holds the particles, and the fluid if there is one. Its walls are obstacles.
@@ -40,10 +42,10 @@ struct Setting {
   Vector gravity{};  ///< acceleration, on all particles [L/T^2]
   /// Forces on single particles, by the number of the particle, in addition to gravity [M L/T^2].
   std::map<std::int32_t, PiecewiseConstant> forces;
-  ContactLaws
-      laws;     ///< of each pair; friction needs particles that turn (add_rotation), and no fluid
-  Links links;  ///< hinges, springs and arms; need particles that turn, except on an axis
-  double time_step = 0;            ///< h [T], > 0
+  /// The laws of each pair. Friction needs particles that turn (add_rotation), and no fluid.
+  ContactLaws laws;
+  Links links;           ///< hinges, springs and arms; need particles that turn, except on an axis
+  double time_step = 0;  ///< h [T], > 0
   Scheme scheme = Scheme::kEuler;  ///< kLeapfrog only without a fluid
   SolverSettings solver;           ///< tolerances and limits of the projection
   std::optional<Fluid> fluid;      ///< around the particles; needs a domain
@@ -56,7 +58,8 @@ struct Setting {
   std::map<std::int32_t, GivenMotion> given_motions;
 };
 
-/// The cell of the domain, with the mean velocity gradient of the fluid.
+/// The cell of the domain with the mean velocity gradient of the fluid; the gradient is 0 without a
+/// fluid.
 PeriodicCell cell_of(const Setting& setting);
 
 /// All obstacles of a case: the walls of its domain, then its planes. Files number them -1, -2, ...

@@ -1,5 +1,6 @@
 // Time stepping of many particles, docs/physics.md (5.3): free motion, projection, new gamma, new
-// positions; and the division of steps with fast particles. Units are those of the case.
+// positions; and the division of steps with fast particles. Lengths, masses and times are in the
+// units of the case. If a step throws, the state must be that before the step.
 #include "viscontact/particles/simulation.hpp"
 
 #include <fmt/format.h>
@@ -75,7 +76,8 @@ void Simulation::scale_impulses(double factor) {
   });
 }
 
-/// Keeps the impulses of the step before and what pairs remember, for a step that has no solution.
+/// Copies the impulses of the step before, and what pairs remember, so that they can be restored if
+/// the step throws.
 void Simulation::save_impulses() {
   if (!saved_impulses_.empty() || before_division_) return;
   for_pairs([&](const Pair& pair) {
@@ -170,8 +172,9 @@ ProjectionResult Simulation::project(double h, double next) {
         gone = std::max(gone, length_of(index_of(body)));
     if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) return projected;
     // The impulses moved particles further than the lists cover, so the step is repeated with
-    // longer lists. The loop ends because skins and margin only grow. The impulses are a good
-    // guess; but blows ask them which pairs bore a load in the step before.
+    // longer lists. The loop ends because skins and margin only grow. The new impulses are a good
+    // guess. With restitution they are not stored, because the blows need the impulses of the step
+    // before, which say which pairs bore a load in it.
     if (!setting_.laws.restitution.is_on()) {
       save_impulses();
       take_impulses(projected);
@@ -289,8 +292,9 @@ void Simulation::examine(const ProjectionResult& projected, double next) const {
                                 "particles too little room?",
                                 moving);
   });
-  // A link that is not solved by a solver that may do thousands of iterations contradicts others.
-  // The bound lets pass what is only slow to converge, and is seen on pages.
+  // A link that is off by more than a thousandth of the mean radius after all iterations is taken
+  // to contradict others. Smaller residuals may be slow convergence; they are reported and not an
+  // error.
   constexpr double kBroken = 1e-3;
   if (residuals.converged || projected.unsolved_links.empty() ||
       std::max(projected.link_residual, -residuals.smallest_gap) <= kBroken * mean_radius_)

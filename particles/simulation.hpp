@@ -32,31 +32,36 @@ class Impacts;
 ///     D_ij >= 0,   gamma_ij <= 0,   D_ij gamma_ij = 0,
 ///     M d^2x/dt^2 = M f + sum lambda_ij G_ij^T,   dgamma_ij/dt = -lambda_ij,
 ///
-/// where velocities are projected, in the norm of M, on G_ij v = 0 where gamma_ij < 0, and on
-/// G_ij v >= 0 where gamma_ij = 0 and D_ij = 0. Each step solves one convex projection, (5.3). The
+/// where velocities v are projected, in the norm of M, on G_ij v = 0 where gamma_ij < 0, and on
+/// G_ij v >= 0 where gamma_ij = 0 and D_ij = 0. x are the centres, D_ij is the gap of a pair, G_ij
+/// v its rate, gamma_ij minus the impulse that its film has absorbed and lambda_ij the force of its
+/// contact; M are the masses and M f the forces. Each step solves one convex projection, (5.3). The
 /// pull of a film is bounded by the impulse that the film has absorbed. A pair therefore separates
 /// within the step in which its gamma reaches 0, with the momentum that is left of the pull. At
-/// gamma_min the solids carry the rest of the load.
+/// gamma_min (film_law.hpp) the solids carry the rest of the load.
 class Simulation {
  public:
-  /// `state` is what read_restart returned, or a state of which only the particles are set.
-  /// `threads` >= 1 is the number of threads.
+  /// `setting` has no fluid (FluidSimulation has one). `state` is what read_restart returned, or a
+  /// state of which only the particles are set; their dimension is 2 or 3. `threads` >= 1 is the
+  /// number of threads.
   Simulation(Setting setting, State state, int threads);
   ~Simulation();
   Simulation(Simulation&&) noexcept;  ///< the other simulation must not be used afterwards
 
-  /// Computes one step of length h. If `end` is earlier than the end of this step by more than a
-  /// millionth of h, the step ends at `end`. If less than a millionth of h is left until `end`, no
-  /// step is made. Without this millionth, rounding errors of the times would cause tiny steps.
+  /// Computes one step of length h = Setting::time_step, but for steps at jumps (step_times.hpp).
+  /// If the time `end` [T] is earlier than the end of this step by more than a millionth of h, the
+  /// step ends at `end`. If less than a millionth of h is left until `end`, no step is made.
+  /// Without this millionth, rounding errors of the times would cause tiny steps.
   ///
   /// A step in which touching particles turn about each other by more than kLargestTurn is halved,
   /// up to kMostHalvings times. The contacts and glued pairs in the report are then those of the
   /// last part.
   ///
   /// Throws Error(kNotConverged) if a position or displacement exceeds largest_resolved_distance(),
-  /// or if the projection has not converged and leaves an overlap of more than the mean radius (for
-  /// example because moving planes leave the particles too little room). The state is then that
-  /// before the step.
+  /// if the projection has not converged and leaves an overlap of more than the mean radius (for
+  /// example because moving planes leave the particles too little room), or if links and contacts
+  /// contradict each other. The state is then that before the step. Other steps that have not
+  /// converged are accepted; StepReport::converged is then false.
   StepReport step(double end);
 
   /// The smallest part of a step is 2^-8 = 1/256 of it. It resolves the contact of equal particles
@@ -77,6 +82,8 @@ class Simulation {
   Particles reported_particles() const;
 
  private:
+  // In all members `h` is the length of a step or of a part of it, and `next` the time at its end
+  // [T]. Time for which forces act on the velocities in a part of length `h` [T].
   double kick_length(double h) const {
     return setting_.scheme == Scheme::kLeapfrog ? state_.velocity_lag + h / 2 : h;
   }
@@ -131,7 +138,7 @@ class Simulation {
   Setting setting_;
   State state_;
   double mean_radius_;
-  double first_time_;  // at the beginning [T]
+  double first_time_;  // time at which this object began [T]
   std::unique_ptr<ThreadPool> pool_;
   std::vector<double> displacements_;  // h u*, later h v [L]
   std::vector<double> mobilities_;     // h/m [T/M]
@@ -148,8 +155,8 @@ class Simulation {
   std::unique_ptr<Impacts<2>> impacts_in_plane_;
   std::unique_ptr<Impacts<3>> impacts_in_space_;
   std::vector<Rebound> rebounds_;
-  // By the numbers of both particles and of the image of a pair [M L/T]. If a step is divided: the
-  // sums of the impulses of its parts, and the state before the step.
+  // Impulses of pairs [M L/T], by the numbers of both particles and of the image. If a step is
+  // divided: the sums of the impulses of its parts, and the state before the step.
   struct Impulses {
     double of_contact = 0;
     PairMemory memory{};

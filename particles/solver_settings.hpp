@@ -6,14 +6,14 @@
 
 namespace viscontact::particles {
 
-/// Tolerances have no dimension; docs/particles.md says how each is measured.
+/// Tolerances have no dimension; docs/particles.md, "The projection", says how each is measured.
 struct SolverSettings {
   /// Tolerance of the gaps, divided by the mean radius; > 0.
   double tolerance = 1e-6;
   /// Tolerance of each contact's impulse, divided by the impulses at work on its particles; > 0.
   double impulse_tolerance = 1e-10;
-  /// Largest number of iterations in a step, >= 1. An iteration is a product with W, a sweep, or a
-  /// factorisation.
+  /// Largest number of iterations in a step, >= 1. An iteration is a product with the matrix W of
+  /// the dual problem, docs/physics.md (5.4), a sweep over the contacts, or a factorisation.
   int max_iterations = 10000;
 };
 
@@ -21,8 +21,7 @@ struct SolverSettings {
 /// [L]. Beyond this distance the rounding errors of positions exceed `tolerance` (SolverSettings)
 /// times `mean_radius` [L].
 inline double largest_resolved_distance(double tolerance, double mean_radius) {
-  // Squares of distances must be finite, and the rounding errors of positions must be smaller than
-  // the tolerated gaps.
+  // Squares of distances must be finite: 1e120 is far below 1e154, the root of the largest double.
   constexpr double kFinite = 1e120;
   return std::min(kFinite, tolerance * mean_radius / std::numeric_limits<double>::epsilon());
 }

@@ -13,12 +13,15 @@
 namespace viscontact::particles {
 
 /// A pair of the neighbour list: two particles, or a particle and a plane, and their memory. In a
-/// fluid, gamma and the impulses of discs are per unit length: M stands for M/L there.
+/// fluid, gamma and the impulses of discs are per unit length: M stands for M/L there. gamma is
+/// minus the impulse that the film has absorbed, and gamma_min its value when the solids touch
+/// (film_law.hpp).
 struct Pair {
   std::int32_t first = 0;   ///< number of a particle, or -1 - k for plane k
   std::int32_t second = 0;  ///< number of a particle, > first
   double gamma = 0;         ///< gamma_min <= gamma <= 0 [M L/T]
-  /// h lambda of the last step [M L/T]. The next projection takes it as its first guess.
+  /// Impulse of the contact in the last step [M L/T], > 0 where it pushes, >= gamma before the
+  /// step. The next projection takes it as its first guess.
   double impulse = 0;
   /// Estimate of the error of gamma [M L/T], >= 0: the sum of the residuals and rounding errors of
   /// all impulses that gamma is the sum of. It is 0 where gamma is at one of its bounds, because
@@ -43,8 +46,9 @@ struct State {
   /// The velocities are those at the time `time` - velocity_lag [T], >= 0; 0 unless the scheme is
   /// Scheme::kLeapfrog.
   double velocity_lag = 0;
-  /// Step n ends at time grid_time + (n - grid_step) h. Both numbers are 0 until a step is cut
-  /// short or a restart changes h; they are then the time and the number of that step.
+  /// Step n ends at time grid_time + (n - grid_step) h [T], where h is the time step of the case.
+  /// Both numbers are 0 until a step is cut short or a restart changes h; they are then the time
+  /// and the number of that step.
   double grid_time = 0;
   std::int64_t grid_step = 0;  ///< number of the step that ended at grid_time
   /// Pairs of particles that may touch soon, in order of first, second, image.
@@ -59,13 +63,16 @@ struct State {
   /// Forces and torques of the links in the last step, in the order of Links::force_count()
   /// [M L/T^2, M L^2/T^2]: the first guess of the next step. Empty before the first step.
   std::vector<double> link_forces;
-  /// Work of each arm in the last step over its length [M L^2/T^3]; empty before the first step.
+  /// Work of each arm in the last step, divided by the length of the step [M L^2/T^3]; empty before
+  /// the first step.
   std::vector<double> arm_powers;
-  // What time stepping in a fluid needs of the step before.
-  /// motion_components() numbers for each particle [L/T, 1/T]; empty if there was no step.
+  // What time stepping in a fluid needs of the step before; without a fluid these stay empty or 0.
+  /// Velocities and angular velocities [L/T, 1/T], motion_components() numbers (fluid_solver.hpp)
+  /// for each particle: vx, vy, angular velocity, or vz on an axis. Empty if there was no step.
   std::vector<double> earlier_velocities;
   /// Forces and torques of the particles on the fluid at these velocities [M L/T^2, M L^2/T^2], as
-  /// many numbers; without those of bodies, hinges and arms of particles without mass.
+  /// many numbers in the same order. The forces that bodies, hinges and arms exert on particles
+  /// without mass are left out.
   std::vector<double> earlier_forces;
   double earlier_step = 0;  ///< length of the step before [T]; 0 if there was none
   /// In a fluid with inertia: length of the step before that one [T]; 0 if there was none.

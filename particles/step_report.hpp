@@ -1,5 +1,5 @@
-// What is recorded of one step of a simulation, for steps.csv and run.json. Lengths, masses and times
-// are in the units of the case.
+// What is recorded of one step of a simulation, for steps.csv and run.json. Lengths, masses and
+// times are in the units of the case.
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@ struct RelativeErrors {
 /// What is recorded of one step in a fluid.
 struct FluidStepReport {
   double dissipation = 0;  ///< of the flow [M L^2/T^3], in two dimensions per unit length
-  /// Over the viscosity of the fluid; FlowQuantities says when it is 0.
+  /// Apparent viscosity over that of the fluid [1], docs/physics.md (6.6); 0 if the flow without
+  /// particles does not dissipate or is not known (FlowQuantities).
   double apparent_viscosity = 0;
   // In a fluid with inertia:
   double kinetic_energy = 0;   ///< of the fluid [M L^2/T^2], in two dimensions per unit length
@@ -27,12 +28,14 @@ struct FluidStepReport {
   /// first is that along z.
   std::array<double, 2> given_force{};
   double seconds = 0;  ///< wall time of the step: mesh, fluid solver and contacts [s]
-  /// Of the velocities of the particles; < 0 if they were not estimated in this step.
+  /// Errors of the velocities of the particles; < 0 if they were not estimated in this step.
   RelativeErrors velocity_errors;
-  RelativeErrors force_errors;  ///< the same of the forces of the fluid
+  /// Errors of the forces of the fluid; < 0 if they were not estimated in this step.
+  RelativeErrors force_errors;
 };
 
-/// What is recorded of one step.
+/// What is recorded of one step. Here D + h G v is the linearised gap of a contact after the step
+/// [L], p its impulse, gamma that before the step, and w the change of the gap per impulse [T/M].
 struct StepReport {
   double time = 0;           ///< at the end of the step [T]
   std::size_t contacts = 0;  ///< number of contacts in the projection
@@ -40,13 +43,15 @@ struct StepReport {
   int iterations = 0;        ///< sum over all parts of the step
   /// Largest residual |min(D + h G v, w (p - gamma))| of a close pair, divided by the mean radius.
   double residual = 0;
-  /// Largest residual divided by w and by the impulses at work on the particles of the contact.
+  /// Largest residual divided by w and by the impulses at work on the particles of the contact
+  /// (docs/particles.md, "The projection").
   double impulse_residual = 0;
   bool converged = true;  ///< the residuals of all contacts are within the tolerances
   /// Largest overlap -(D + h G v) after the step, divided by the mean radius. It is computed from
   /// linearised gaps; no gap is smaller than its linearised gap.
   double largest_overlap = 0;
-  int parts = 0;  ///< number of parts that the step was divided into, 1 to 2^kMostHalvings
+  /// Number of parts that the step was divided into, 1 to 256 (2^Simulation::kMostHalvings).
+  int parts = 0;
   /// Number of contacts that turn further than kLargestTurn (contact.hpp) in the smallest parts.
   std::size_t unresolved = 0;
   FluidStepReport fluid{};  ///< zeros without a fluid

@@ -1,4 +1,5 @@
-// Residuals of a step and their limits (step_residuals.hpp).
+// Residuals of a step and their limits (step_residuals.hpp). Lengths, masses and times are in the
+// units of the case.
 #include "viscontact/particles/step_residuals.hpp"
 
 #include <fmt/format.h>

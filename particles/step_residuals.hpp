@@ -1,6 +1,7 @@
 // How far the solution of a step misses its conditions, and whether the step is accepted: the same
-// for particles with masses (projection/) and in a fluid (fluid/). Lengths, masses and times are in
-// the units of the case.
+// for particles with masses (projection/) and in a fluid (fluid/). A residual is how far a gap or a
+// length is from what its condition asks, [L]; docs/particles.md, "The projection", says what is
+// allowed. Lengths, masses and times are in the units of the case.
 #pragma once
 
 #include <functional>
@@ -19,12 +20,14 @@ struct StepResiduals {
   double excess = 0;   ///< largest residual, divided by what is allowed for its contact or link
   /// Largest residual as an impulse, divided by the impulses at work in its contact or link.
   double of_impulses = 0;
-  double smallest_gap = 0;             ///< smallest linearised gap after the step [L], at most 0
-  Pair deepest_overlap;                ///< the pair with the smallest gap
-  bool converged = true;               ///< all residuals are allowed
-  std::vector<double> impulse_errors;  ///< of each contact: residual/w [M L/T], >= 0
+  double smallest_gap = 0;  ///< smallest linearised gap after the step [L], at most 0
+  Pair deepest_overlap;     ///< the pair with the smallest gap
+  bool converged = true;    ///< all residuals are allowed
+  /// Of each contact [M L/T], >= 0: its residual divided by its mobility Contact::w.
+  std::vector<double> impulse_errors;
 
-  /// Takes in a residual >= 0 for which `allowed` > 0 is allowed [L]. Returns true if it is larger.
+  /// Takes in a residual >= 0 for which `allowed` > 0 is allowed [L]. Returns true if it is larger
+  /// than allowed, or not a number; then `converged` becomes false.
   bool take(double residual, double allowed);
   /// Takes in the residual of an impulse [M L/T]; `at_work` >= 0 are the impulses at work [M L/T].
   void take_impulse(double residual, double at_work);

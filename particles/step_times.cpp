@@ -1,4 +1,5 @@
-// Places the steps around or at the times of jumps (step_times.hpp).
+// Places the steps around or at the times of jumps (step_times.hpp). Times [T] are in the unit of
+// the case. A run that continues must take the same steps, bit for bit.
 #include "viscontact/particles/step_times.hpp"
 
 #include <algorithm>
@@ -36,12 +37,14 @@ std::vector<double> jump_times(const Setting& setting) {
 double leapfrog_step_end(double time, double grid_end, double h, std::span<const double> jumps) {
   const auto next = std::ranges::upper_bound(jumps, time + kTiny * h);
   const double until_jump = next == jumps.end() ? 2 * h : *next - time;
-  // At most this far from a jump, a whole step would leave less than h/8 to it.
+  // A whole step that begins less than 1.125 h before a jump would end less than h/8 before it. The
+  // step is then shortened, such that the jump is in the middle of the next one.
   constexpr double kNear = 1.125;
   if (until_jump <= h / 2) return time + 2 * until_jump;
   if (until_jump <= kNear * h) return time + until_jump * 2 / 3;
   const double rest = grid_end - time;
-  // Back on the grid in one step, or in two of equal length if it is near.
+  // The steps return to the grid: in one step, or, if it ends less than h/2 later, in two equal
+  // ones.
   if (rest < h / 2 - kTiny * h) return time + (rest + h) / 2;
   return grid_end;
 }

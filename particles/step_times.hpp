@@ -1,5 +1,6 @@
-// The grid of time steps, docs/physics.md (5.10): where each step of a simulation ends. Times are
-// in the unit of the case.
+// The grid of time steps, docs/physics.md (5.10): where each step of a simulation ends. Times [T]
+// are in the unit of the case. Both simulations use it. A change must keep the ends of steps bit
+// for bit, because a run that continues must take the same steps as one that was not interrupted.
 #pragma once
 
 #include <optional>

@@ -16,24 +16,24 @@ namespace viscontact::pipeline {
 /// The rows that task `number` of `count` tasks computes: those whose number modulo `count` is
 /// `number`.
 struct Share {
-  std::size_t number = 0, count = 1;
+  std::size_t number = 0,  ///< number of the task, from 0, < count
+      count = 1;           ///< number of tasks, >= 1; 1: all rows
 };
 
 /// The options of an array job.
 struct ArrayRequest {
   std::filesystem::path output;      ///< output of the command
-  std::optional<std::size_t> tasks;  ///< size of the array; default: one task a row, at most 1000
-  std::optional<int> jobs;           ///< processes or runs at once in a task; default: 1
-  std::string options;               ///< further words for sbatch, quoted as in a shell
+  std::optional<std::size_t> tasks;  ///< size of the array; nothing: one task a row, at most 1000
+  std::optional<int> jobs;           ///< processes or runs at once in a task; nothing: 1
+  std::string options;               ///< further words for sbatch, quoted as in a shell; or empty
   StopToken stop{};                  ///< a stop ends the wait for Slurm (kInterrupted)
 };
 
 /// What an array job computes.
 struct ArrayJob {
-  std::string command;  ///< of Viscontact: "tabulate" or "sweep"
-  std::string
-      is_running;       ///< says in a message that a job computes the output: "is being tabulated"
-  std::string results;  ///< what the output is in messages: "the tables"
+  std::string command;     ///< of Viscontact: "tabulate" or "sweep"
+  std::string is_running;  ///< for a message, such as "is being tabulated", said of the output
+  std::string results;     ///< what the output is in messages, such as "the tables"
   std::vector<std::string> cases;  ///< paths of the case files
   /// Names and contents of the copies of the cases, which the tasks run, so that later edits of the
   /// cases do not change them.
@@ -43,7 +43,7 @@ struct ArrayJob {
   std::vector<std::size_t> tasks;    ///< numbers of the tasks that have rows to compute
 };
 
-/// The number of tasks for so many rows, if the request does not say it.
+/// The number of tasks: that of the request or, if it names none, one for each row, at most 1000.
 std::size_t task_count(const ArrayRequest& request, std::size_t rows);
 
 /// The folder OUTPUT.slurm, which has copies of the submitted cases, the script of a task and the

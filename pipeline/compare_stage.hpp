@@ -1,5 +1,6 @@
 // The stage compare: how far the trajectories of a folder are from that of the reference
-// (docs/file-formats.md, "Comparison").
+// (docs/file-formats.md, "Comparison"). Numbers are in the units of the trajectories. The main job
+// and the command `compare` call it.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +23,8 @@ void print_comparison(const reduced_model::Comparison& comparison, bool json);
 /// made the trajectories; it is empty if the user gave the trajectories themselves. If
 /// `reference_model` is empty, the reference is the usual one, or the first model with a trajectory
 /// if the usual one failed. The comparison is printed, as JSON if `json` is true.
-/// Throws Error(kInterrupted) if `stop` requests a stop; then nothing is written.
+/// Throws Error(kBadInput) if the folder or a trajectory is missing or wrong, and
+/// Error(kInterrupted) if `stop` requests a stop; then nothing is written.
 void compare_stage(const std::filesystem::path& folder,
                    const std::vector<std::filesystem::path>& others,
                    const std::string& reference_model, const std::filesystem::path& comparison_path,

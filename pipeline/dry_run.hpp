@@ -1,4 +1,5 @@
-// The output of --dry-run: how many rows a command would compute and about how long that takes [s].
+// The output of --dry-run: how many rows a command would compute and about how long that takes, in
+// seconds of wall time. Nothing is written.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ struct DryRun {
   std::string output;  ///< path of the table or of the sweep's file
   /// The number of all rows, and of those that are finished and would not be computed again.
   std::uint64_t rows = 0, finished = 0;
-  std::uint64_t failed = 0;    ///< of the other rows, those that were tried and failed
+  std::uint64_t failed = 0;    ///< number of the unfinished rows that were tried and failed
   double seconds_per_row = 0;  ///< on one core [s]
   std::string basis;           ///< what seconds_per_row was estimated from, in words
 };

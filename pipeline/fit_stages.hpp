@@ -1,5 +1,6 @@
 // The stages that fit: a table in one basis, a table in every basis, and the shift of a rough wall.
-// If `stop` requests a stop, a stage throws Error(kInterrupted); finished files are kept.
+// Lengths, masses and times are in the units of the table. If `stop` requests a stop, a stage
+// throws Error(kInterrupted); finished files are kept.
 #pragma once
 
 #include <filesystem>
@@ -25,6 +26,7 @@ void compare_bases_stage(const std::filesystem::path& table_path,
 /// Fits the shift of a rough wall: the depth below its crests at which a smooth wall has the same
 /// drag (fitting/wall_shift.hpp). Uses the rough wall's table and the smooth wall's fit. Prints the
 /// shift [L], writes the shift of each row (CSV) and, unless `plot_path` is empty, a picture.
+/// Throws Error(kBadInput) for a wrong table or fit, Error(kExternalProgram) if gnuplot fails.
 void shift_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path,
                  const std::filesystem::path& shift_path, const std::filesystem::path& plot_path,
                  const StopToken& stop);

@@ -1,4 +1,5 @@
-// The main job: the stages tabulate, fit, simulate, compare and report, one after the other.
+// The main job: the stages tabulate, fit, simulate, compare and report, one after the other. The
+// command `run` calls it.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +9,12 @@
 
 namespace viscontact::pipeline {
 
-/// Tabulates, fits, simulates, compares and reports into a run's folder. A stage whose inputs have
-/// not changed is not run again. Errors of the case, and files that must not be replaced, are found
-/// before the tabulation starts. If rows of the table or models failed, the error of the first is
-/// thrown after the results of the others are written. If `json` is true, the comparison is printed
-/// as JSON. If `stop` requests a stop, throws Error(kInterrupted); results that are finished are
-/// kept.
+/// Tabulates (`jobs` >= 1 rows at once), fits, simulates, compares and reports into a run's folder.
+/// A stage whose inputs have not changed is not run again. Errors of the case, and files that must
+/// not be replaced, are found before the tabulation starts. If rows of the table or models failed,
+/// the error of the first is thrown after the results of the others are written. If `json` is true,
+/// the comparison is printed as JSON. If `stop` requests a stop, throws Error(kInterrupted);
+/// results that are finished are kept.
 void run_stages(const case_file::Case& c, const std::filesystem::path& folder, int jobs, bool json,
                 const StopToken& stop);
 

@@ -1,5 +1,6 @@
 // Distances between trajectories that are linear between their rows, by exact integrals, and the
-// comparison file (docs/file-formats.md). Units are those of comparison.hpp.
+// comparison file (docs/file-formats.md). Lengths, masses and times are in the units of the
+// trajectories.
 #include "viscontact/reduced_model/comparison.hpp"
 
 #include <fmt/format.h>

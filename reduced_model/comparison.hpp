@@ -1,6 +1,7 @@
 // Comparison of trajectories: how thin the film gets, when there is contact, and how far each
-// trajectory is from the reference. Lengths, masses and times are in the units of the trajectories.
-// A change must keep comparison files of earlier versions readable.
+// trajectory is from the reference. q is the gap, u the velocity, q_ref and u_ref those of the
+// reference. Lengths, masses and times are in the units of the trajectories. `compare`, `run` and
+// `sweep` use it. A change must keep comparison files of earlier versions readable.
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@ struct ModelComparison {
   std::string model;            ///< its name
   double minimal_gap = 0;       ///< smallest gap of the rows [L]
   double minimal_gap_time = 0;  ///< time of the first row with this gap [T]
-  /// Film thickness recovered from gamma at its lowest [L]; contact models only.
+  /// Film thickness recovered from the lowest gamma [L]; contact models only.
   std::optional<double> recovered_minimal_gap;
   /// First landing and last release [T]. In a trajectory that Viscontact did not write: the first
   /// and the last row with gamma < 0.
@@ -44,15 +45,15 @@ struct ModelWithoutTrajectory {
 
 /// The comparison of all models with one of them.
 struct Comparison {
-  std::string reference_model;                          ///< the name of that one
+  std::string reference_model;                          ///< name of the model of reference
   std::vector<ModelComparison> models;                  ///< in the order of the trajectories
   std::vector<ModelWithoutTrajectory> failed_models{};  ///< filled in by the caller
 };
 
-/// Compares each trajectory with that of `reference_model` over the times that both cover. Each is
-/// taken as linear between its rows. Throws Error(kBadInput) if no trajectory has that name, if two
-/// have the same name, or if two have no time in common, and Error(kInterrupted) if `stop` requests a stop; it is
-/// asked before each trajectory.
+/// Compares each trajectory with that of `reference_model` over the times that both cover. Between
+/// its rows each trajectory is linear. Throws Error(kBadInput) if no trajectory has that name, if
+/// two have the same name, or if two have no time in common, and Error(kInterrupted) if `stop`,
+/// which is asked before each trajectory, requests a stop.
 Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
                                 std::string_view reference_model, const StopToken& stop = {});
 

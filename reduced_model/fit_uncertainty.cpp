@@ -1,5 +1,5 @@
 // Random draws of the coefficients of a fit, the bound from the misfit, and the file
-// uncertainty.json. Units are those of fit_uncertainty.hpp.
+// uncertainty.json. Lengths, masses and times are in the units of the case.
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 
 #include <fmt/format.h>
@@ -45,8 +45,8 @@ std::array<double, 2> middle_of(std::vector<double>& values) {
   return {at(0.025), at(0.975)};
 }
 
-/// The times at which gaps are computed. The first is that of q_min: the impulse of the force is
-/// least there.
+/// The times at which gaps are computed. The first is that of the smallest gap, at which the
+/// impulse of the force is least.
 std::vector<double> instants_of(const Motion& motion, std::size_t times) {
   auto ends = motion.external_force.jumps();
   std::erase_if(ends, [&](double t) { return t > motion.end_time; });

@@ -1,6 +1,7 @@
-// How the errors of a fit change the motion without inertia (physics.md (4.2) with m = 0). Lengths,
-// masses and times are in the units of the case. A change must keep the draws equal for equal
-// arguments.
+// How the errors of a fit change the motion without inertia (physics.md (4.2) with m = 0), for
+// uncertainty.json and the report. q is the gap, q0 the initial one, R the resistance, Gamma its
+// primitive, f_ext the external force; the index fit marks what the fit gives. Lengths, masses and
+// times are in the units of the case. A change must keep the draws equal for equal arguments.
 #pragma once
 
 #include <array>
@@ -29,18 +30,19 @@ struct UncertainGap {
 /// The uncertain gaps of a motion.
 struct FitUncertainty {
   std::size_t draws = 0;  ///< number of draws of coefficients
-  /// Draws that were left out, because their drag is not positive or the motion is impossible with
-  /// it.
+  /// Number of draws that were left out, because their drag is not positive or the motion is
+  /// impossible with it.
   std::size_t refused = 0;
-  /// Bound of the relative error of the drag [1], at most 1: r + e + r e = (1 + r)(1 + e) - 1, r
-  /// the largest relative residual of the rows that are not outliers, e the table's largest error
-  /// estimate.
+  /// Bound of the relative error of the drag [1], at most 1: (1 + r)(1 + e) - 1, with the largest
+  /// relative residual r of the rows that are not outliers and the table's largest error estimate
+  /// e.
   double misfit = 0;
   UncertainGap smallest;           ///< the smallest gap of the motion, q_min
   std::vector<UncertainGap> gaps;  ///< at equidistant times
 };
 
-/// Default number of draws.
+/// Default number of draws. The ends of the interval of 95 % then have a random error of about 1 %
+/// of its width.
 inline constexpr std::size_t kDraws = 10000;
 
 /// Propagates the errors of a fit to the motion without inertia, Gamma(q(t)) = Gamma(q0) + int
@@ -50,11 +52,11 @@ inline constexpr std::size_t kDraws = 10000;
 ///   misfit  uses |R_fit/R - 1| <= misfit, so that Gamma_fit(q(t)) is between Gamma_fit(q0) +
 ///           (1 - misfit) int f_ext and Gamma_fit(q0) + (1 + misfit) int f_ext. This bound is valid
 ///           for every shape of the misfit, as far as the misfit is known at the gaps of the table.
-/// Outside the fit's interval the drag follows outside.with_limits(). q_min is the smallest gap at the beginnings and
-/// ends of the force's pieces. `times` is the number of further, equidistant instants from 0 to
-/// motion.end_time; 0 asks for q_min alone. Equal arguments give equal numbers. Throws the Error of
-/// LubricationForce if the fit itself is impossible, and Error(kNotConverged) if no draw is
-/// possible.
+/// Outside the fit's interval the drag follows outside.with_limits(). The smallest gap, q_min, is
+/// sought at the beginnings and ends of the force's pieces. `times` is the number of further,
+/// equidistant instants from 0 to motion.end_time; 0 asks for q_min alone. Equal arguments give
+/// equal numbers. Throws the Error of LubricationForce if its constructor refuses the fit itself,
+/// and Error(kNotConverged) if all draws were left out.
 FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, std::size_t times,
                              const lubrication::OutsideInterval& outside = {},
                              std::size_t draws = kDraws);

@@ -1,6 +1,7 @@
 // Parameters of models of motion: numbers of the case file that a model declares. A new parameter
-// is declared beside its model and in no other file. A parameter of several models is in
-// motion.hpp.
+// is declared beside its model and in no other file; a parameter of several models is in
+// motion.hpp. Case files, their documentation, sweeps and the report learn of it from the table of
+// models. A change must keep the keys, which case files contain.
 #pragma once
 
 #include <string_view>
@@ -23,8 +24,8 @@ struct ModelParameter {
   std::string_view description;  ///< for the report
   std::string_view dimension;    ///< dimension of the values, such as "L"; for the report
   Allowed allowed;               ///< the values that are accepted
-  /// Value for a case without this key. `motion` has no parameters yet; `radius` is that of the
-  /// sphere [L].
+  /// Value for a case without this key. It must not depend on parameters of `motion`, which are not
+  /// set yet; `radius` is that of the sphere [L].
   double (*fallback)(const Motion& motion, double radius);
   /// True for a time step: it is at most Motion::end_time, and motion.time_scale stretches it.
   bool is_time_step = false;

@@ -1,6 +1,6 @@
 // Budget of momentum and energy of a motion: which impulse and which work each force gave the
-// sphere. Masses, lengths and times are in the units of the case. A change must keep both balances
-// below.
+// sphere. Masses, lengths and times are in the units of the case. Every trajectory and comparison
+// has one. A change must keep both balances below.
 #pragma once
 
 #include <array>
@@ -12,9 +12,10 @@ namespace viscontact::reduced_model {
 /// the start of the motion to its end:
 ///
 ///     m u(end) - m v0              = sum of the impulses,
-///     m u(end)^2/2 - m v0^2/2      = sum of the works.
+///     m u(end)^2/2 - m v0^2/2      = sum of the works,
 ///
-/// The left sides are 0 for a model without inertia. The film absorbed the energy -film_work, the
+/// with the mass m, the velocity u and its value v0 at the start. The left sides are 0 for a model
+/// without inertia. The film absorbed the energy -film_work, the
 /// resolved drag dissipated -drag_work, and the impact on the solid dissipated -solid_work.
 ///
 /// The contact models add up each step. In the other models the film is the whole drag. Its impulse

@@ -1,5 +1,5 @@
-// Values of parameters, progress reports, the number of steps, and the times of rows. Units are
-// those of motion.hpp.
+// Values of parameters, progress reports, the number of steps, and the times of rows. Lengths,
+// masses and times are in any one consistent system of units.
 #include "viscontact/reduced_model/motion.hpp"
 
 #include <fmt/format.h>
@@ -47,7 +47,8 @@ std::vector<double> row_times(const Motion& motion, const ModelParameter& parame
   auto jumps = motion.external_force.jumps();
   std::erase_if(jumps,
                 [&](double t) { return t >= motion.end_time || are_one_time(t, motion.end_time); });
-  // A time of the grid that differs from a jump by round-off only is dropped in favour of the jump.
+  // A multiple of the step that differs from a jump by round-off only is left out, and the jump
+  // kept.
   const auto is_a_jump = [&](double t) {
     const auto next = std::ranges::lower_bound(jumps, t);
     const auto close = [&](double jump) { return std::abs(t - jump) < 1e-6 * spacing; };

@@ -1,5 +1,6 @@
 // What every model of motion is given: the sphere, its start, the external force, and the values of
-// the models' parameters. Lengths, masses and times are in any one consistent system of units.
+// the models' parameters. Lengths, masses and times are in any one consistent system of units. Case
+// files set these members; a change must keep the keys.
 #pragma once
 
 #include <array>
@@ -17,7 +18,8 @@ namespace viscontact::reduced_model {
 /// Key of Motion::roughness in the case file.
 inline constexpr std::string_view kRoughnessKey = "viscous_contact.roughness";
 
-/// The motion of a sphere along the normal of a wall, problem (M) (physics.md (4.1)):
+/// The motion of a sphere along the normal of a wall, problem (M) (physics.md (4.1)), with the gap
+/// q(t) and the lubrication force F_lub:
 /// m d^2q/dt^2 = F_lub(q, dq/dt) + f_ext(t), q(0) = q0, dq/dt(0) = v0.
 struct Motion {
   double mass = 0;               ///< m [M], > 0
@@ -41,13 +43,14 @@ struct Motion {
 
   /// The value of a parameter. Throws Error(kBadInput) if it has no value.
   double parameter(const ModelParameter& which) const;
-  /// e_d of the solids, 0 to 1 [1]; 0 if the motion has no value of kRestitution.
+  /// Coefficient of restitution e_d of the solids, 0 to 1 [1]; 0 if the motion has no value of
+  /// kRestitution.
   double restitution() const;
   /// Sets a parameter. The value must be one that `which` allows, which is not checked here.
   void set(const ModelParameter& which, double value) { parameters[which.key] = value; }
 };
 
-/// As many time steps as in the lecture's case.
+/// The time step [T] with which a motion has 4000 steps, as many as the lecture's case.
 inline double default_time_step(const Motion& motion, double) { return motion.end_time / 4000; }
 
 /// Step h of `reference` [T], and spacing of the rows of models that choose their steps themselves.
@@ -91,7 +94,7 @@ inline constexpr int kStepsBetweenProgressReports = 4096;
 /// Error(kBadInput) for more than 1e8 steps.
 int step_count(double end, double step);
 
-/// The time after `index` of these steps, which is exactly `end` at the last.
+/// The time after `index` of the `count` steps; after the last step it is exactly `end`.
 inline double step_time(int index, int count, double end, double step) {
   return index == count ? end : index * step;
 }

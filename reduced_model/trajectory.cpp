@@ -1,5 +1,5 @@
-// Reads and writes the CSV file of a trajectory (docs/file-formats.md). Units are those of
-// trajectory.hpp.
+// Reads and writes the CSV file of a trajectory (docs/file-formats.md). Lengths, masses and times
+// are in the units of the case.
 #include "viscontact/reduced_model/trajectory.hpp"
 
 #include <fmt/format.h>

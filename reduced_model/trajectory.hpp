@@ -1,5 +1,6 @@
-// A trajectory and its file. Lengths, masses and times are in the units of the case. A change must
-// keep the names of the columns, because published files use them.
+// A trajectory, which every model of motion returns, and its file. Lengths, masses and times are in
+// the units of the case. A change must keep the names of the columns, because published files use
+// them.
 #pragma once
 
 #include <array>
@@ -14,14 +15,14 @@
 
 namespace viscontact::reduced_model {
 
-/// The state at one time.
+/// The state of the sphere at one time. Forces are > 0 away from the wall.
 struct TrajectoryRow {
   double time = 0;      ///< [T]
   double gap = 0;       ///< q [L], >= 0
   double velocity = 0;  ///< u = dq/dt [L/T]
   /// Force of the fluid on the sphere [M L/T^2].
   OptionalDouble lubrication_force{};
-  /// f_ext [M L/T^2].
+  /// Every other force but that of contact, f_ext [M L/T^2].
   OptionalDouble external_force{};
   /// Adhesion potential [M L/T], <= 0; contact models only.
   OptionalDouble gamma{};
@@ -29,14 +30,13 @@ struct TrajectoryRow {
   OptionalDouble solid_force{};
 };
 
-/// An impact of the sphere on the solids, (4.12).
+/// An impact of the sphere on the solids, physics.md (4.12).
 struct Rebound {
   double time = 0;               ///< [T]
-  double approach_velocity = 0;  ///< where gamma began, of inertial_rough at r1 + r2 [L/T], < 0
-  double solid_impulse =
-      0;                   ///< s that the solids took up, before they gave e_d s back [M L/T], > 0
-  double velocity = 0;     ///< where the sphere leaves the film [L/T], >= 0; 0: it stays
-  double coefficient = 0;  ///< of restitution, velocity/|approach_velocity| [1]
+  double approach_velocity = 0;  ///< where gamma began; of inertial_rough see there [L/T], < 0
+  double solid_impulse = 0;  ///< that the solids took up, before they gave a part back [M L/T], > 0
+  double velocity = 0;       ///< where the sphere leaves the film [L/T], >= 0; 0: it stays
+  double coefficient = 0;    ///< of restitution, velocity/|approach_velocity| [1]
   bool operator==(const Rebound&) const = default;  ///< whether all numbers are equal
 };
 
@@ -48,7 +48,7 @@ inline constexpr int kModelsRevision = 4;
 struct Trajectory {
   std::string model;                ///< its name
   std::vector<TrajectoryRow> rows;  ///< in strictly increasing time, at least one
-  /// Smallest thickness [L] of the film that gamma stands for; contact models only.
+  /// Smallest film thickness [L] that is recovered from gamma; contact models only.
   std::optional<double> recovered_minimal_gap;
   /// First landing and last release (or end of the motion) [T]; contact models only.
   std::optional<std::array<double, 2>> contact_interval;

@@ -1,6 +1,7 @@
 // The writer of all reports: report.html, with plots that can be zoomed in a browser, and a still
 // picture plots/NAME.svg of each, for browsers without scripts and for printing. Pieces of HTML
-// that all pages share are here, too. Plots have no units; the labels of their axes name them.
+// that all pages share are here, too. Numbers in plots have no units here; the labels of their axes
+// name the units. A change must keep report/page/*.js, which read the plots as JSON, in step.
 #pragma once
 
 #include <exception>
@@ -19,6 +20,7 @@
 
 namespace viscontact::report {
 
+/// The shape in which the points of a curve are drawn; a disc is a filled circle.
 enum class PointKind { kNone, kCircle, kDisc, kSquare, kCross };
 
 /// How a curve is drawn.
@@ -26,8 +28,8 @@ struct CurveStyle {
   std::string colour{};        ///< "#rrggbb"
   double width = 2;            ///< width of the line [pixels]; 0: points only
   std::vector<double> dash{};  ///< lengths of dashes and spaces in turn [pixels]; empty: solid
-  PointKind point = PointKind::kNone;
-  double point_size = 1;  ///< in units of about 7 pixels
+  PointKind point = PointKind::kNone;  ///< shape of the points; kNone: the line only
+  double point_size = 1;               ///< in units of about 7 pixels, > 0
 };
 
 /// A curve of points (x, y).
@@ -39,9 +41,10 @@ struct PlotCurve {
   std::vector<std::pair<double, double>> points{};
 };
 
+/// An axis of a plot.
 struct PlotAxis {
-  std::string label{};
-  bool logarithmic = false;
+  std::string label{};                  ///< what it shows, with the unit
+  bool logarithmic = false;             ///< true: values <= 0 are not drawn
   std::optional<double> low{}, high{};  ///< range before zooming; nothing: as the curves need
 };
 
@@ -50,10 +53,10 @@ enum class KeyPlace { kBelow, kTopRight, kBottomRight };
 
 /// Curves on common axes.
 struct PlotPanel {
-  std::string title{};
-  PlotAxis x{}, y{};
-  std::vector<PlotCurve> curves{};
-  KeyPlace key = KeyPlace::kBelow;
+  std::string title{};              ///< above the panel
+  PlotAxis x{}, y{};                ///< its axes
+  std::vector<PlotCurve> curves{};  ///< in the order of the legend
+  KeyPlace key = KeyPlace::kBelow;  ///< where the legend is
   std::vector<std::string> rows{};  ///< names of y = 1, 2, ... if y numbers rows from the bottom
 };
 
@@ -91,7 +94,7 @@ std::string headings(std::initializer_list<std::string_view> cells);
 /// of headings; empty: they are among the rows, if there are any.
 std::string table_of(const std::string& rows, const std::string& head = {});
 
-/// The files from which the numbers above it are.
+/// A line of HTML below a table or text that says from which files the numbers above it are.
 std::string source(const std::string& words);
 
 /// Items of HTML as a box with warnings; empty if there are none.

@@ -1,5 +1,5 @@
-// report.html: one self-contained page with the results of a run. The page must not load anything
-// from elsewhere.
+// report.html: one self-contained page with the results of a run of one sphere, in the units of the
+// case. The page must not load anything from elsewhere.
 #pragma once
 
 #include <filesystem>

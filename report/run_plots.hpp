@@ -1,5 +1,5 @@
-// The plots of the report, in the units of the case. A plot without curves has nothing to show and
-// is left out (shows_something).
+// The plots of the report of one sphere: lengths, masses and times are in the units of the case. A
+// plot without curves has nothing to show, and report.cpp leaves it out.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 // Summaries of fits, shifts and comparisons: words and tables for the terminal, and pictures. Gaps
-// and times are in the units of the case.
+// and times are in the units of the case. A change must keep the keys of the JSON, which scripts of
+// users read.
 #pragma once
 
 #include <string>

@@ -11,10 +11,11 @@
 
 namespace viscontact::results {
 
+/// An exit code of the program.
 struct ExitCode {
-  std::optional<ErrorKind> kind;  ///< nothing: success
-  int code;
-  std::string_view meaning;
+  std::optional<ErrorKind> kind;  ///< kind of the error; nothing: success
+  int code;                       ///< 0 to 255
+  std::string_view meaning;       ///< a line for --help and the manual
 };
 
 /// All exit codes, in increasing order.

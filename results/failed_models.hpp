@@ -1,5 +1,6 @@
-// The record of the models that failed in a simulation, failed_models.json in a run's folder. By it
-// `compare` and `report` can say why these models have no trajectory.
+// The record of the models that failed in a simulation, failed_models.json in a run's folder. From
+// this file `compare` and `report` know why these models have no trajectory. A change must keep the
+// keys of the file.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +16,9 @@ namespace viscontact::results {
 
 /// A model that failed, and why.
 struct FailedModel {
-  std::string model;   ///< name of the model, with suffixes
-  std::string reason;  ///< message of the Error, without the name of the model
-  ErrorKind kind = ErrorKind::kBadInput;
+  std::string model;                      ///< name of the model, with suffixes
+  std::string reason;                     ///< message of the Error, without the name of the model
+  ErrorKind kind = ErrorKind::kBadInput;  ///< kind of the Error
   CsvComments made_from;  ///< comments that identify case, fit and version, as in a trajectory
 };
 

@@ -12,9 +12,10 @@ namespace viscontact::results {
 
 /// A kind of picture.
 struct PictureKind {
-  std::string_view name;    ///< ending of the file's name
-  TextKind kind;            ///< how the provenance is written into it
-  std::string_view marker;  ///< what every such file contains (refuse_other_kind)
+  std::string_view name;  ///< ending of the file's name
+  TextKind kind;          ///< how the provenance is written into it
+  std::string_view
+      marker;  ///< text in every such file, by which refuse_other_kind() knows the kind
 };
 
 /// The kinds, the default first.

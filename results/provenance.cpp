@@ -144,7 +144,8 @@ std::size_t place_in(TextKind kind, const std::string& text) {
     case TextKind::kXml:
       return line_after(text, "?>");
     case TextKind::kPdf:
-      // Behind all that the table of offsets in the file refers to.
+      // The line is added behind the objects of the file, so that the offsets in its table of
+      // offsets stay right.
       return text.rfind("startxref");
   }
   return 0;
@@ -154,7 +155,7 @@ std::size_t place_in(TextKind kind, const std::string& text) {
 // bytes type, data, 4 bytes CRC (ISO/IEC 15948).
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 constexpr std::size_t kPngHeader = 8 + 25;
-/// How the type and the data of the chunk with the provenance begin: a text with a keyword.
+/// The beginning of the type and the data of the chunk with the provenance: a text with a keyword.
 constexpr std::string_view kChunk{"tEXtprovenance\0", 15};
 
 /// A number as 4 bytes, the highest first.

@@ -1,5 +1,6 @@
-// Provenance: how a file was made. Every output contains its provenance as one line;
-// `viscontact rerun` and the report read it. Files of earlier versions must stay readable.
+// Provenance: how a file was made. Every output contains its provenance as one line, which
+// `viscontact rerun`, the report and foreign_files.hpp read. A change must keep files of earlier
+// versions readable.
 #pragma once
 
 #include <filesystem>

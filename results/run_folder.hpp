@@ -1,4 +1,5 @@
-// The names of the files in a run's folder. Users and scripts rely on them (docs/file-formats.md).
+// The names of the files in the folder of a run (docs/file-formats.md). A change must keep them,
+// because users, scripts and later versions rely on them.
 #pragma once
 
 #include <filesystem>

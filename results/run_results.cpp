@@ -9,9 +9,9 @@
 namespace viscontact::results {
 namespace {
 
-/// True if the table in the folder belongs to the run. It does if the fit was made from it. It also
-/// does if the case asks for a fit of a table; the report then warns if the fit was made from
-/// another table. A case with `exact` or `file` in [fit] needs no table; then table.csv may be the
+/// True if the table in the folder belongs to the run: the fit was made from this table, or the
+/// case asks for a fit of a table. (In the second case the report warns if the fit was made from
+/// another table.) A case with `exact` or `file` in [fit] needs no table; then table.csv may be the
 /// table of an earlier case or any file of the user.
 bool has_table(const RunFolder& run, const case_file::Case& c, const lubrication::Fit& fit) {
   if (!std::filesystem::is_regular_file(run.table())) return false;

@@ -1,4 +1,5 @@
-// Reads the results of a run from its folder, for the report.
+// Reads the results of a run from its folder, for the report. Lengths, masses and times are in the
+// units of the case. A change must keep the folders of earlier versions readable.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +26,7 @@ struct RunResults {
   std::vector<reduced_model::Trajectory> trajectories;
   /// The table that the fit was made from; nothing if the run needs no table.
   std::optional<lubrication::ForceTable> table;
-  std::optional<reduced_model::FitUncertainty> uncertainty;
+  std::optional<reduced_model::FitUncertainty> uncertainty;  ///< nothing if the run has none
 };
 
 /// Reads the results of the run in `folder`. Throws Error(kBadInput) if case, fit, comparison or

@@ -1,4 +1,5 @@
-// Versions of the programs and libraries that make a result, for its provenance.
+// Versions of the programs and libraries that make a result, for its provenance. A change must keep
+// the names, which files contain.
 #pragma once
 
 #include <map>

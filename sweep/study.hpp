@@ -1,8 +1,8 @@
-// A sweep, whatever kind of case it runs: rows of named numbers at the points of a sweep, and the
+// What sweeps of all kinds of cases share: rows of named numbers at the points of a sweep, and the
 // CSV file in which they are kept (docs/file-formats.md). The file is written row by row, so that a
 // later call continues an interrupted sweep after its last row. A kind of case adds one function
 // that makes a Study: how a point becomes a case, and which numbers its row has. Numbers are in the
-// units of the case.
+// units of the case. A change must keep the form of the file, which scripts of users read.
 #pragma once
 
 #include <cstddef>
@@ -62,11 +62,12 @@ std::map<std::string, std::string> head_of(const std::string& kind, const std::s
                                            const Points& points, const std::string& identity,
                                            const std::string& version);
 
-/// Throws Error(kWrongUsage) if a name occurs twice. `kind` is what the names are, as "the key".
+/// Throws Error(kWrongUsage) if a name occurs twice. `kind` is what the names are in the message,
+/// such as "the key".
 void refuse_doubles(const std::vector<std::string>& names, std::string_view kind);
 
-/// The ranges of the section [sweep] of a case. Throws Error(kBadInput), which names the case, if
-/// one is not valid.
+/// The ranges "KEY=RANGE" (variation.hpp) of the section [sweep] of a case. Throws
+/// Error(kBadInput), which names the case, if one is not valid.
 std::vector<Variation> variations_of_case(const std::vector<std::string>& ranges,
                                           const std::filesystem::path& case_path);
 

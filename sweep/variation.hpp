@@ -1,5 +1,6 @@
 // The keys of a case that a sweep varies, and the values of each key, in the unit that the key has
-// in the case.
+// in the case. Sweeps of all kinds of cases use it. A change must keep the values bit for bit,
+// because an interrupted sweep compares them with the rows that it has already written.
 #pragma once
 
 #include <cstdint>
@@ -41,13 +42,13 @@ std::vector<std::pair<std::string, double>> grid_point(const std::vector<Variati
 
 /// Keys and values of random sample `index`. Each value is uniformly distributed over its range (in
 /// the logarithm, if the range is logarithmic) or over its list, and independent of all others.
-/// Equal arguments give equal values: a hash (common/splitmix.hpp) of seed, index and number
-/// of the variation. A change must keep them bit for bit, because an interrupted sweep compares
-/// them with the rows that it has already written.
+/// Equal arguments give equal values, which come from a hash (common/splitmix.hpp) of seed, index
+/// and number of the variation.
 std::vector<std::pair<std::string, double>> random_point(const std::vector<Variation>& variations,
                                                          std::uint64_t index, std::uint64_t seed);
 
-/// Number of points of the grid. Throws Error(kWrongUsage) if it exceeds 1e12.
+/// Number of points of the grid. Throws Error(kWrongUsage) if it exceeds 1e12, the largest number
+/// of rows that a sweep may have.
 std::uint64_t grid_size(const std::vector<Variation>& variations);
 
 /// The points of a sweep: a grid, or random points, each of them once or with several draws. Each
@@ -64,15 +65,15 @@ struct Points {
 
   std::uint64_t count() const;  ///< number of points, without draws
   std::uint64_t rows() const;   ///< number of rows: points times draws
-  std::vector<std::string> keys()
-      const;  ///< the varied keys, and arrangement.seed if there are draws
+  /// The varied keys, and arrangement.seed if there are draws.
+  std::vector<std::string> keys() const;
   /// Keys and values of a row, 0 <= index < rows().
   std::vector<std::pair<std::string, double>> numbers(std::uint64_t index) const;
   std::string key_fields(std::uint64_t index) const;  ///< the values of a row as fields of CSV
   bool is_varied(const std::string& key) const;       ///< true: a variation has this key
 };
 
-/// " KEY = VALUE KEY = VALUE ...", for messages.
+/// The text " KEY = VALUE KEY = VALUE ...", for messages; it begins with a space.
 std::string in_words(const std::vector<std::pair<std::string, double>>& numbers);
 
 /// A text that differs if the points do, for hashes of sweeps that have no draws.

@@ -1,5 +1,6 @@
 // What a person at a terminal sees on standard error: a progress line, and messages with coloured
-// words. If standard error is not a terminal, messages are plain text and progress is not shown.
+// words. If standard error is not a terminal, messages are plain text and progress is not shown; a
+// change must keep that, because scripts read the messages. app, pipeline and report write by it.
 #pragma once
 
 #include <chrono>
@@ -24,7 +25,7 @@ class ProgressTimer {
 };
 
 /// The remaining time of a work of which the share `done`, above 0 and at most 1, took `seconds`
-/// [s]: ", about 3 min left". Empty in the first two seconds, from which nothing can be told.
+/// [s]: ", about 3 min left". Empty in the first two seconds, which are too short for an estimate.
 std::string time_left(double seconds, double done);
 
 /// Removes the progress line.
@@ -39,8 +40,8 @@ void warn(const std::string& text);
 /// Writes an error message to standard error, with its first word in red.
 void complain(const std::string& text);
 
-/// While an object of this class exists, nothing that its thread says or shows reaches the terminal.
-/// A sweep runs many simulations at once, whose messages would be mixed.
+/// While an object of this class exists, nothing that its thread says or shows reaches the
+/// terminal. A sweep runs many simulations at once, whose messages would be mixed.
 class QuietThread {
  public:
   QuietThread();

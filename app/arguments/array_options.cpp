@@ -1,4 +1,5 @@
-// Adds and checks the options of array jobs (array_options.hpp).
+// Adds and checks the options of array jobs (array_options.hpp). A change must keep the names of
+// the options, because submitted scripts contain them.
 #include "viscontact/app/arguments/array_options.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& re
   command
       .add_option("--tasks", o.tasks,
                   "tasks of the array job; default: one for each row, at most 1000")
-      ->check(CLI::Range(1, 4000000));
+      ->check(CLI::Range(1, 4000000));  // Slurm allows no larger array (MaxArraySize)
   add_value(command, "--slurm-options", o.slurm_options, "OPTIONS",
             "more options for sbatch, in one argument");
   o.gather_option = command.add_flag(

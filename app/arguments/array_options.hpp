@@ -11,14 +11,17 @@
 
 namespace viscontact::app {
 
+/// The values of these options.
 struct ArrayOptions {
-  std::string launcher = "local", slurm_options, task;
-  std::size_t tasks = 0;
-  bool gather = false;
+  std::string launcher = "local",  ///< "local" or "slurm"
+      slurm_options,               ///< words for sbatch, quoted as in a shell; may be empty
+      task;                        ///< "K/T": task K of T, 0 <= K < T; empty: no task
+  std::size_t tasks = 0;           ///< number of tasks; 0: one for each row, at most 1000
+  bool gather = false;             ///< true: puts the tables together, computes no row
   /// CLI11's objects of the options, for `excludes`.
   CLI::Option *launcher_option = nullptr, *gather_option = nullptr, *task_option = nullptr;
 
-  bool is_slurm() const { return launcher == "slurm"; }
+  bool is_slurm() const { return launcher == "slurm"; }  ///< whether a job is submitted
 };
 
 /// Adds the options. `results` says in --help what is written from the rows: "the tables".

@@ -1,5 +1,6 @@
 // Options that several commands have, and checks of what a command line names. help/completion.cpp
-// finds out by the type names below what to offer for an option; a change must agree with it.
+// recognises by the type names below whether to offer files, folders or models as the value of an
+// option; a change of the names must be made there, too.
 #pragma once
 
 #include <CLI/CLI.hpp>

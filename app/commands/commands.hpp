@@ -1,5 +1,6 @@
-// The commands of the program. Each function adds one command with its options to the command line;
-// the command runs while CLI11 parses the line. pipeline/ and the libraries do the work.
+// The commands of the program. Each function adds the command that it is named after, with its
+// options, to the command line `app`; the command runs while CLI11 parses the line, and throws
+// Error. docs/command-line.md describes the commands. pipeline/ and the libraries do the work.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -23,16 +23,17 @@
 namespace viscontact::app {
 namespace {
 
+/// What one check has found.
 struct Finding {
-  bool good;
-  std::string what;
+  bool good;         ///< false: something is missing or wrong
+  std::string what;  ///< in words
 };
 
 using Report = std::function<void(const Finding&)>;
 
 /// Computes a row whose exact value is known: a gap of 0.1 radii over a plane, in a container so
-/// wide that it changes the drag factor by less than 1e-4. kBrenner is the exact drag factor, from
-/// the series of Brenner (1961).
+/// wide that it changes the drag factor by less than kTolerance. kBrenner is the exact drag factor,
+/// from the series of Brenner (1961).
 Finding solve_known_row(const freefem_axi::FreeFem& freefem) {
   constexpr double kBrenner = 11.45915720340955722964;
   constexpr double kTolerance = 1e-4;

@@ -15,10 +15,10 @@
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/fitting/export/export_fit.hpp"
-#include "viscontact/fitting/export/export_pair.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/motions/fit/export_pair.hpp"
+#include "viscontact/motions/job/pair_fit_stage.hpp"
 #include "viscontact/pipeline/fit_stages.hpp"
-#include "viscontact/pipeline/pair_fit_stage.hpp"
 #include "viscontact/results/provenance.hpp"
 
 namespace viscontact::app {
@@ -41,12 +41,14 @@ void read_fix(const std::string& word, fitting::FitSettings& settings) {
                     word));
 }
 
+/// The values of the options of `fit`, which are named after them; add_fit() says what each means.
+/// A path or text is empty if its option was not given.
 struct FitOptions {
   std::string basis{lubrication::default_basis().name};
   std::vector<std::string> tables;
   std::string table, fit, terms, weights = "relative", loss = "none", fix, plot;
   bool compare_bases = false, json = false;
-  /// CLI11's objects of --output, --terms and --fix, which tell whether an option was given.
+  /// CLI11's objects of some options, which tell whether the option was given.
   const CLI::Option *output_option = nullptr, *terms_option = nullptr, *fix_option = nullptr,
                     *basis_option = nullptr, *weights_option = nullptr;
 };
@@ -57,25 +59,25 @@ void fit_tables_of_pair(const FitOptions& o, const std::vector<std::filesystem::
     throw Error(ErrorKind::kWrongUsage,
                 "--terms, --fix, --weights and --plot are options of a single table of forces; the "
                 "tables of a pair take --basis, --loss and --compare-bases");
-  fitting::PairFitSettings settings;
+  motions::PairFitSettings settings;
   if (o.basis_option->count() > 0) settings.basis = o.basis;
   (void)from_option("--basis", [&] {
-    return lubrication::basis_of_entry(lubrication::pair_entries().front(), settings.basis);
+    return motions::basis_of_entry(motions::pair_entries().front(), settings.basis);
   });
   settings.loss = from_option("--loss", [&] { return lubrication::parse_loss(o.loss); });
   if (o.output_option->count() == 0 && !o.compare_bases)
     throw Error(ErrorKind::kWrongUsage, "--output is required unless --compare-bases is given");
   if (o.compare_bases)
-    pipeline::compare_pair_bases_stage(files, settings, o.json, interrupt_token());
+    motions::compare_pair_bases_stage(files, settings, o.json, interrupt_token());
   if (o.output_option->count() == 0) return;
   check_outputs({o.fit});
   results::refuse_other_kind(o.fit, "\"pair fit\"", "fit of a pair");
-  pipeline::fit_pair_stage(files, o.fit, settings, interrupt_token());
+  motions::fit_pair_stage(files, o.fit, settings, interrupt_token());
 }
 
 void fit_table(FitOptions& o) {
-  const auto files = pipeline::pair_table_files(o.tables);
-  if (pipeline::are_of_pair(o.tables, files)) return fit_tables_of_pair(o, files);
+  const auto files = motions::pair_table_files(o.tables);
+  if (motions::are_of_pair(o.tables, files)) return fit_tables_of_pair(o, files);
   o.table = files.front().string();
   fitting::FitSettings settings;
   settings.basis = o.terms_option->count() == 0
@@ -117,9 +119,9 @@ void fit_table(FitOptions& o) {
 /// The text of a fit file for a target, whether it is the fit of one force or of a pair.
 std::string exported(const std::string& file, const std::string& target,
                      const std::string& source) {
-  if (lubrication::is_pair_fit(file)) {
-    const auto pair = lubrication::read_pair_fit(file);
-    return with_place(file, [&] { return fitting::export_pair(pair, target, source); });
+  if (motions::is_pair_fit(file)) {
+    const auto pair = motions::read_pair_fit(file);
+    return with_place(file, [&] { return motions::export_pair(pair, target, source); });
   }
   const auto fit = lubrication::read_fit(file);
   return with_place(file, [&] { return fitting::export_fit(fit, target, source); });

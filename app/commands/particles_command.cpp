@@ -1,18 +1,19 @@
 // The command line of `particles` (docs/command-line.md). The work is done in
-// pipeline/particles/particles_stage.hpp.
+// particles/run/particles_stage.hpp.
 #include <memory>
 #include <string>
 
 #include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/commands/interrupt.hpp"
-#include "viscontact/pipeline/particles/particles_stage.hpp"
+#include "viscontact/freefem_flow/freefem_solver.hpp"
+#include "viscontact/particles/run/particles_stage.hpp"
 
 namespace viscontact::app {
 
 void add_particles(CLI::App& app) {
   auto* command = app.add_subcommand("particles", "simulate many particles with viscous contact");
-  auto o = std::make_shared<pipeline::ParticlesRequest>();
+  auto o = std::make_shared<particles::ParticlesRequest>();
   o->threads = default_jobs();
   add_value(*command, "CASE", o->case_file, kFile, "case file (TOML)")->required();
   add_value(*command, "-o,--output", o->folder, kFolder,
@@ -24,8 +25,9 @@ void add_particles(CLI::App& app) {
   add_json(*command, o->json);
   command->callback([o] {
     check_outputs({o->folder});
+    o->start_solver = freefem_flow::start_fluid_solver;
     o->stop = interrupt_token();
-    pipeline::run_particles(*o);
+    particles::run_particles(*o);
   });
 }
 

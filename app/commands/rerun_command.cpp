@@ -25,14 +25,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The values of the options of `rerun`; add_rerun() says what each means.
 struct RerunOptions {
-  std::string file, output, folder;
+  std::string file,  ///< path of the file whose command is repeated
+      output,        ///< path of the new output; empty: the recorded one
+      folder;        ///< folder in which the command runs; empty: the recorded one
   bool changed_inputs = false, dry_run = false;
 };
 
-/// Throws Error(kBadInput) unless the command is a command of Viscontact that writes files. `rerun`
-/// itself is refused, and so are the options by which a file could make this program run other
-/// programs (--launcher, --slurm-options).
+/// Throws Error(kBadInput) unless the command is a command of Viscontact that writes files. The
+/// command `rerun` is refused, and so are the options by which a file could make this program run
+/// other programs (--launcher, --slurm-options).
 void check_command(const std::string& file, const std::vector<std::string>& command) {
   constexpr auto kWriting = std::to_array<std::string_view>(
       {"run", "tabulate", "fit", "export", "shift", "simulate", "sweep", "compare", "report",

@@ -12,12 +12,15 @@
 #include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/common/files/locked_folder.hpp"
 #include "viscontact/common/named.hpp"
+#include "viscontact/particles/run/particles_stage.hpp"
 #include "viscontact/pipeline/compare_stage.hpp"
-#include "viscontact/pipeline/report_stage.hpp"
 #include "viscontact/pipeline/run_stages.hpp"
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/report/report.hpp"
 #include "viscontact/results/run_folder.hpp"
+#include "viscontact/rolling/job/rolling_stage.hpp"
+#include "viscontact/swimmer/job/swimmer_stage.hpp"
 
 namespace viscontact::app {
 
@@ -124,6 +127,26 @@ void add_compare(CLI::App& app) {
   });
 }
 
+namespace {
+
+/// Writes the page and the pictures of a folder again. The results in the folder tell which command
+/// wrote them.
+void report_again(const std::filesystem::path& folder) {
+  const auto has = [&](const char* name) {
+    return std::filesystem::is_regular_file(folder / name);
+  };
+  if (has("rolling.json"))
+    rolling::report_rolling(folder, interrupt_token());
+  else if (has("swimmer.json"))
+    swimmer::report_swimmer(folder, interrupt_token());
+  else if (has("particles.pvd"))
+    particles::report_particles(folder);
+  else
+    report::write_report(folder, {}, interrupt_token());
+}
+
+}  // namespace
+
 void add_report(CLI::App& app) {
   auto* command = app.add_subcommand(
       "report", "make the page and the pictures of a folder again from its other files");
@@ -134,7 +157,7 @@ void add_report(CLI::App& app) {
   command->callback([folder] {
     std::optional<LockedFolder> lock;
     if (std::filesystem::is_directory(*folder)) lock.emplace(*folder, results::kFolderIsLocked);
-    pipeline::report_stage(*folder, interrupt_token());
+    report_again(*folder);
   });
 }
 

@@ -3,7 +3,12 @@
 // pipeline/tabulate/ does the work.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <map>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -12,22 +17,30 @@
 #include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/commands/interrupt.hpp"
+#include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/motions/job/motion_tables.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/pipeline/tabulate/picture_stage.hpp"
 #include "viscontact/pipeline/tabulate/tabulate_job.hpp"
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
+#include "viscontact/rolling/case/rolling_case.hpp"
+#include "viscontact/swimmer/job/swimmer_stage.hpp"
 
 namespace viscontact::app {
 
 namespace {
 
+/// The values of the options of `tabulate`; add_tabulate() says what each means.
 struct TabulateOptions {
-  std::vector<std::string> case_files, motions;
-  std::string output, plot;
-  ArrayOptions array;
-  int jobs = default_jobs();
+  std::vector<std::string> case_files,  ///< paths of the cases, at least one
+      motions;                          ///< names; empty: those of the cases
+  std::string output,                   ///< path of the table or folder
+      plot;                             ///< gaps separated by commas; may be empty
+  ArrayOptions array;                   ///< of a job on a cluster
+  int jobs = default_jobs();            ///< number of rows at once, >= 1
   bool dry_run = false, json = false;
   /// CLI11's objects of --jobs and --plot, which tell whether an option was given.
   const CLI::Option *jobs_option = nullptr, *plot_option = nullptr;
@@ -55,11 +68,66 @@ std::vector<std::string> motion_words(const TabulateOptions& o) {
   return {"--motion", fmt::format("{}", fmt::join(o.motions, ","))};
 }
 
+/// Reads the cases. For one case of one motion, `output` is the file of the table; for one case of
+/// several motions it is a folder with a table MOTION.csv for each. For several cases it is a
+/// folder with CASE.csv or CASE/MOTION.csv, after the names of the case files. `motions`, unless it
+/// is empty, replaces the key `motion` of the cases (parse_motions). Throws Error(kWrongUsage) if
+/// two tables would have the same name, and Error(kBadInput) as read_case and read_swimmer_case do
+/// or if a case has neither [tabulation] nor [swimmer].
+std::vector<pipeline::CaseTable> read_case_tables(const std::vector<std::string>& case_files,
+                                                  const std::filesystem::path& output,
+                                                  const std::vector<std::string>& motions) {
+  const auto name_of = [&](const std::string& file) {
+    return case_files.size() == 1 ? output : output / std::filesystem::path(file).stem();
+  };
+  const auto csv_of = [&](const std::string& file) {
+    return case_files.size() == 1 ? output : std::filesystem::path(name_of(file).string() + ".csv");
+  };
+  std::map<std::filesystem::path, std::string> case_of;
+  for (const auto& file : case_files)
+    if (const auto [other, is_new] = case_of.insert({name_of(file), file}); !is_new)
+      throw Error(ErrorKind::kWrongUsage,
+                  fmt::format("{} and {} would both be tabulated to {}; rename one of them",
+                              other->second, file, csv_of(file).string()));
+  std::vector<pipeline::CaseTable> tables;
+  for (const auto& file : case_files) {
+    const auto name = name_of(file), csv = csv_of(file);
+    const auto kind = case_file::kind_of_case(file);
+    if (kind == case_file::CaseKind::kSwimmer) {
+      if (!motions.empty())
+        throw Error(ErrorKind::kWrongUsage,
+                    fmt::format("--motion: {} is a case of a swimmer, whose spheres move along "
+                                "the axis",
+                                file));
+      tables.push_back(swimmer::case_table(swimmer::read_swimmer_case(file), csv));
+      continue;
+    }
+    auto tabulation =
+        kind == case_file::CaseKind::kRolling
+            ? rolling::read_rolling_case(file).tabulation
+            : std::optional(case_file::required_tabulation(case_file::read_case(file)));
+    if (!tabulation)
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("{}: the section [tabulation] is missing", file));
+    if (!motions.empty())
+      tabulation->motions = with_place(
+          "--motion", [&] { return freefem_axi::parse_motions(motions, tabulation->geometry); });
+    const bool several = tabulation->motions.size() > 1;
+    // The plans keep this function, so it must not refer to variables of this one.
+    const auto path_of = [=](lubrication::MotionKind motion) {
+      return several ? name / (std::string(to_string(motion)) + ".csv") : csv;
+    };
+    std::ranges::move(motions::case_tables(file, read_file(file), *tabulation, path_of),
+                      std::back_inserter(tables));
+  }
+  return tables;
+}
+
 void tabulate_cases(const TabulateOptions& o) {
   check_array_options(o.array);
   check_outputs({o.output});
   const auto gaps = read_gaps(o.plot);
-  const auto tables = pipeline::read_case_tables(o.case_files, o.output, o.motions);
+  const auto tables = read_case_tables(o.case_files, o.output, o.motions);
   for (const auto& one : tables) {
     results::refuse_other_kind(one.table.string(), "# case: ", "table");
     for (const auto& other : one.plan.companions)

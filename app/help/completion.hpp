@@ -10,8 +10,8 @@ class App;
 
 namespace viscontact::app {
 
-/// A script for bash that completes commands, options, words of a choice and files. It is to be
-/// sourced, or installed as "viscontact" in bash's folder of completions.
+/// A script for bash that completes commands, options, words of a choice and files. The user
+/// sources it, or installs it as "viscontact" in bash's folder of completions.
 std::string bash_completion(const CLI::App& app);
 
 /// A function for zsh, with descriptions, to be installed as "_viscontact" in a folder of fpath.

@@ -29,6 +29,7 @@ namespace {
   throw_bad_input({path.string()}, fmt::format("cannot be {} ({})", action, std::strerror(code)));
 }
 
+// A file NAME that is not finished is named NAME.viscontact-PID.tmp.
 constexpr std::string_view kUnfinishedOf = ".viscontact-", kUnfinished = ".tmp";
 
 /// Removes the files NAME.viscontact-PID.tmp beside `place` that killed processes have left.

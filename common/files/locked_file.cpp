@@ -1,5 +1,5 @@
 // Opens, locks (flock) and appends with system calls (locked_file.hpp). The lock must remain an
-// flock, because row_record.cpp locks the same files.
+// flock, because freefem_axi/journal/row_record.cpp locks the same files with flock.
 #include "viscontact/common/files/locked_file.hpp"
 
 #include <fcntl.h>

@@ -1,5 +1,6 @@
 // Talks with a child process by poll on its three streams at once (child_process.hpp). At most one
-// buffer is received ahead of what is read, so that a child that writes without end takes no memory.
+// buffer is received ahead of what is read, so that a child that writes without end takes no
+// memory.
 #include "viscontact/common/system/child_process.hpp"
 
 #include <fmt/format.h>
@@ -25,8 +26,8 @@ constexpr int kLongestWait = 100;
 
 constexpr std::size_t kBufferSize = 1 << 16;
 
-/// Reads what there is into `buffer`, without waiting. Returns nothing read as 0 bytes, and closes
-/// the descriptor at the end of the stream.
+/// Reads the bytes that have arrived into `buffer`, without waiting, and returns them; there may be
+/// none. Closes the descriptor at the end of the stream.
 std::string_view receive_from(Descriptor& from, std::array<char, kBufferSize>& buffer) {
   const ssize_t count = ::recv(from.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
   if (count > 0) return {buffer.data(), static_cast<std::size_t>(count)};
@@ -70,7 +71,8 @@ ChildProcess::ChildProcess(const ProcessCommand& command, const StopToken& stop)
 
 ChildProcess::~ChildProcess() {
   if (child_.id < 0) return;
-  // The child was not waited for yet, so that the number of its group cannot be another's.
+  // finish() was not called, so that the number of the child's group cannot belong to another
+  // group.
   ::kill(-child_.id, SIGKILL);
   while (::waitpid(child_.id, nullptr, 0) < 0 && errno == EINTR) {
   }
@@ -86,7 +88,8 @@ void ChildProcess::send_some() {
   const ssize_t count = ::send(child_.to_child.get(), to_send_.data() + sent_,
                                to_send_.size() - sent_, MSG_NOSIGNAL | MSG_DONTWAIT);
   if (count > 0) sent_ += static_cast<std::size_t>(count);
-  // A child that does not read any more may still answer. If it does not, read_word says so.
+  // A child that does not read any more may still answer. If it does not, read_word returns kClosed
+  // or kTimedOut.
   if (count < 0 && errno != EAGAIN && errno != EINTR) child_.to_child.close();
 }
 
@@ -134,7 +137,7 @@ ChildProcess::Reading ChildProcess::more_or(Clock::time_point deadline, std::siz
 }
 
 ChildProcess::Reading ChildProcess::read_word(Clock::time_point deadline) {
-  std::size_t searched = 0;  // bytes of the word that hold no white space
+  std::size_t searched = 0;  // number of bytes of the word that are known to be no white space
   for (;;) {
     if (searched == 0) {
       at_ = std::min(output_.find_first_not_of(kWhiteSpace, at_), output_.size());
@@ -216,8 +219,9 @@ std::string ChildProcess::finish(std::chrono::milliseconds grace) {
     collect(kPause);  // pauses, too, if the child has closed its streams
     ended = has_ended();
   }
-  // What it wrote before its end is in the sockets. Processes that it started may write for ever.
-  constexpr int kLargest = 64;  // buffers
+  // What the child wrote before its end is in the sockets. Processes that the child has started may
+  // write for ever; therefore the number of buffers that are read is limited.
+  constexpr int kLargest = 64;  // buffers, 4 MB
   for (int i = 0; i < kLargest && (child_.from_child.get() >= 0 || child_.errors_of_it.get() >= 0);
        ++i)
     collect(0);

@@ -1,6 +1,7 @@
-// A child process that is asked over and over: text goes to its standard input, and words come from
-// its standard output (Linux). A change must keep that neither a full pipe nor a child that ends
-// or is silent can stop this process for longer than the deadline.
+// A child process that is asked over and over, such as a fluid solver (freefem_flow/process/): text
+// goes to its standard input, and words come from its standard output (Linux). A change must keep
+// that neither a full pipe nor a child that ends or is silent can stop this process for longer than
+// the deadline.
 #pragma once
 
 #include <array>
@@ -15,10 +16,11 @@
 
 namespace viscontact {
 
-/// The last lines of two streams, in the order in which the lines were completed. Blank lines are
-/// left out, so is the white space at the ends of a line, and what is beyond kLongest bytes of it.
+/// The last lines of two streams, in the order in which the lines were completed. Blank lines, the
+/// white space at both ends of a line, and its bytes beyond kLongest are left out.
 class LastLines {
  public:
+  // Error messages show these lines, which must therefore be few and short.
   static constexpr std::size_t kLines = 20,  ///< number of lines that are kept
       kLongest = 1000;                       ///< number of bytes of a line that are kept
 
@@ -39,8 +41,8 @@ class LastLines {
   std::array<std::string, 2> incomplete_;
 };
 
-/// The child leads a process group of its own. The group is killed when the object is destroyed, and
-/// the child is ended by the kernel when the thread that made the object ends, even by SIGKILL.
+/// The child leads a process group of its own. The group is killed when the object is destroyed,
+/// and the child is ended by the kernel when the thread that made the object ends, even by SIGKILL.
 ///
 /// The functions that wait throw Error(kInterrupted) if `stop` requests a stop.
 class ChildProcess {
@@ -54,8 +56,8 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
   ~ChildProcess();
 
-  /// Adds `text` to what is sent to the child. It is sent while one of the functions below waits, so
-  /// that a child that writes before it reads cannot block both sides.
+  /// Adds `text` to what is sent to the child. It is sent while one of the functions below waits,
+  /// so that a child that writes before it reads cannot block both sides.
   void send(std::string_view text);
 
   /// How the attempt to read a word or a line ended.
@@ -70,7 +72,9 @@ class ChildProcess {
     State state = State::kRead;  ///< how reading ended
     std::string_view text{};     ///< the word or line, or what there is of it
   };
-  static constexpr std::size_t kLongestText = 4096;  ///< bytes
+  /// Bytes of the longest word or line. It only bounds the memory: answers are numbers and
+  /// messages.
+  static constexpr std::size_t kLongestText = 4096;
 
   /// The next word of the output, which white space precedes and follows.
   Reading read_word(Clock::time_point deadline);
@@ -79,23 +83,24 @@ class ChildProcess {
   /// need not be complete: state is kClosed, and `text` is what there is.
   Reading read_line(Clock::time_point deadline);
 
-  /// The last word that was read counts as not read: the next call reads it again.
+  /// Makes the next call read the last word again.
   void put_word_back() { at_ = word_start_; }
 
   /// The largest resident memory of the child so far [kB], without that of its own children; 0 if
   /// the child has ended.
   long peak_memory_kb() const;
 
-  /// Whether the child has written anything but white space that was not read yet.
+  /// True if the child has written something that was not read yet, other than white space.
   bool has_unread_output();
 
   /// Adds a line of the output that was read to last_lines().
   void keep(std::string_view line);
 
-  /// Closes the standard input of the child, waits for its end until `grace` has passed, and then
-  /// kills its process group. All its output that was not read is added to last_lines(). Returns
-  /// how it ended: "ended with status 3", "ended by signal 11 (Segmentation fault)", or "had to be
-  /// stopped". A stop request ends the waiting without an error.
+  /// Closes the standard input of the child, waits for the end of the child until `grace` has
+  /// passed, and then kills its process group. All output that was not read is added to
+  /// last_lines(). Returns how the child ended: "ended with status 3", "ended by signal 11
+  /// (Segmentation fault)", or "had to be stopped". A stop request ends the waiting without an
+  /// error.
   std::string finish(std::chrono::milliseconds grace);
 
   /// The last lines of the standard error, and of the output that keep() or finish() added.
@@ -113,9 +118,9 @@ class ChildProcess {
   StartedProcess child_;
   std::string to_send_;
   std::size_t sent_ = 0;        ///< bytes of to_send_ that the child has got
-  std::string output_;          ///< what came and may still be read
-  std::size_t at_ = 0;          ///< the first byte of output_ that was not read
-  std::size_t word_start_ = 0;  ///< the last word that was read
+  std::string output_;          ///< output that was received and may still be read
+  std::size_t at_ = 0;          ///< position in output_ of the first byte that was not read
+  std::size_t word_start_ = 0;  ///< position in output_ of the last word that was read
   LastLines last_lines_;
 };
 

@@ -50,6 +50,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
   }
 }
 
+/// How a child ended, and what it used.
 struct ChildEnd {
   int status = 0;  ///< status from wait4
   rusage usage{};

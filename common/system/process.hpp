@@ -1,4 +1,5 @@
-// Runs a child process to its end and collects its output (Linux).
+// Runs a child process to its end and collects its output (Linux): a row of FreeFEM, gnuplot,
+// sbatch. A change must keep that no child outlives this process.
 #pragma once
 
 #include <chrono>
@@ -24,9 +25,10 @@ struct ProcessResult {
 
 /// Runs the program arguments[0], which is looked up on PATH, with the other arguments and with
 /// `environment` ("NAME=value" each) added to the environment of this process. `input` is its
-/// standard input. `folder`, if not empty, is its working folder. `time_limit` is the longest time
-/// that the child may take. If it takes longer, its process group (the child and the processes that
-/// it started) is killed, and `timed_out` of the result is true.
+/// standard input. `folder` is its working folder; empty: that of this process. `time_limit` is the
+/// longest time that the child may take; without a value there is no limit. If the child takes
+/// longer, its process group (the child and the processes that it started) is killed, and
+/// `timed_out` of the result is true.
 ///
 /// If `stop` requests a stop, the child is killed and Error(kInterrupted) is thrown. The child also
 /// ends when the thread or the process that started it ends, even by SIGKILL.

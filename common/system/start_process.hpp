@@ -1,5 +1,6 @@
-// Starts a child process with sockets as its standard streams (Linux). It is what run_process and
-// ChildProcess share. A change must keep that the child ends with the thread that started it.
+// Starts a child process with sockets as its standard streams (Linux), for run_process
+// (process.hpp) and ChildProcess (child_process.hpp). A change must keep that the child ends with
+// the thread that started it.
 #pragma once
 
 #include <sys/types.h>
@@ -20,12 +21,13 @@ struct ProcessCommand {
   std::string folder{};  ///< working folder; empty: that of this process
 };
 
-/// Where the standard error of a child process goes.
+/// Where the standard error of a child process goes: into the stream of its standard output, or
+/// into a stream of its own.
 enum class ErrorStream { kWithOutput, kSeparate };
 
 /// A child process that runs. The child leads a process group of its own, whose number is `id`, so
-/// that kill(-id, SIGKILL) also ends the processes that it has started. Whoever starts it must wait
-/// for its end.
+/// that kill(-id, SIGKILL) also ends the processes that it has started. The caller of start_process
+/// must wait for the end of the child (waitpid).
 struct StartedProcess {
   pid_t id = -1;            ///< -1: there is no such program, or it cannot be run
   std::string failure;      ///< why it cannot be run
@@ -35,10 +37,11 @@ struct StartedProcess {
 };
 
 /// Starts the program. The child does not receive Ctrl-C of the terminal. It is ended by the kernel
-/// when the thread or the process that started it ends, even by SIGKILL.
+/// when the thread or the process that started it ends, even by SIGKILL. Throws std::system_error
+/// if the system has no more sockets.
 StartedProcess start_process(const ProcessCommand& command, ErrorStream errors);
 
-/// "ended by signal 11 (Segmentation fault)".
+/// The end of a process by a signal in words: "ended by signal 11 (Segmentation fault)".
 std::string end_by_signal_in_words(int signal);
 
 }  // namespace viscontact

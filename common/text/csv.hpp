@@ -1,5 +1,6 @@
 // CSV files as Viscontact writes them (docs/file-formats.md): lines "# key: value", a header line,
-// and rows of numbers. Published files must stay readable.
+// and rows of numbers. All readers of tables, trajectories and particles use this file. A change
+// must keep published files readable.
 #pragma once
 
 #include <algorithm>
@@ -56,9 +57,10 @@ std::string shortened(const std::string& text);
 /// Largest number of columns that can be requested from a file.
 constexpr std::size_t kMostCsvColumns = 16;
 
-/// Does the work of read_csv for any number of columns: calls `add_row` with the fields of each row
-/// and its line in the file. The library is instantiated in csv.cpp alone, because each number of
-/// columns costs seconds to compile.
+/// Does the work of read_csv, and throws its errors, for up to kMostCsvColumns columns: calls
+/// `add_row` with the fields of each row and the row's line in the file. The templates of the CSV
+/// library are instantiated in csv.cpp alone, because each number of columns takes seconds to
+/// compile.
 void read_csv_rows(
     const std::filesystem::path& path, std::span<const std::string> names, std::size_t required,
     CsvComments& comments, std::set<std::string>& contradictions,

@@ -1,4 +1,6 @@
-// Reads JSON texts (RFC 8259) in such a way that an error can name the line of a value.
+// Reads JSON texts (RFC 8259) and remembers the line of each value, so that an error can name it.
+// Readers of fit files, comparisons and provenance use it. A change must keep the order of keys,
+// in which files are written.
 #pragma once
 
 #include <filesystem>
@@ -36,8 +38,8 @@ class JsonDocument {
   std::map<std::string, int> lines_;
 };
 
-/// Text of an error of the JSON library, without the library's error name and without a position,
-/// shortened to about 200 characters.
+/// The cause that an error of the JSON library states, without the library's error name and without
+/// a position, shortened to about 200 characters.
 std::string cause_in_words(const Json::exception& error);
 
 /// Calls `read` with the JSON in the file at `path`. Throws Error(kBadInput), which names the file,

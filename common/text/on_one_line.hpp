@@ -1,4 +1,4 @@
-// Turns a text of several lines into one line.
+// Turns a text of several lines into one line, for journals and messages that have one line each.
 #pragma once
 
 #include <algorithm>

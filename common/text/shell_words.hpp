@@ -1,4 +1,5 @@
-// Splits command lines into words, and quotes words for a POSIX shell.
+// Splits command lines into words, and quotes words for a POSIX shell. The commands in messages, in
+// scripts of Slurm and in provenance are quoted by it.
 #pragma once
 
 #include <string>
@@ -6,11 +7,11 @@
 
 namespace viscontact {
 
-/// The words of a command line. Blanks separate them, except between ' or ". Throws
-/// Error(kWrongUsage) if a quote is not closed.
+/// The words of a command line. Blanks, tabs and line ends separate words, except between ' or ".
+/// A backslash has no special meaning. Throws Error(kWrongUsage) if a quotation mark is not closed.
 std::vector<std::string> split_words(const std::string& text);
 
-/// A word in the form in which a POSIX shell reads it as one word.
+/// The text with the quotation marks that it needs so that a POSIX shell reads it as one word.
 std::string shell_word(const std::string& text);
 
 }  // namespace viscontact

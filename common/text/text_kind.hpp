@@ -1,10 +1,10 @@
-// The kinds of files that Viscontact writes.
+// The kinds of files that Viscontact writes. The kind says where a file has its line of provenance
+// (results/provenance.hpp); a new kind needs such a place there.
 #pragma once
 
 namespace viscontact {
 
-/// A kind of file. A text is named by the form of its comment lines: "#" (CSV, Python), JSON, SVG,
-/// HTML, XML, C or Fortran; pictures are also PDF and PNG.
+/// A kind of file. kHashComment are texts whose comment lines begin with "#" (CSV, Python).
 enum class TextKind { kHashComment, kJson, kSvg, kHtml, kXml, kC, kFortran, kPdf, kPng };
 
 }  // namespace viscontact

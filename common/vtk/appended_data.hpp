@@ -1,6 +1,7 @@
 // The arrays of a VTK XML file with appended raw data (VTK's file formats, "XML file formats"):
 // writes them, and reads what was written on a machine with the same byte order. Numbers are copied
-// without conversion.
+// without conversion. particles/io and flow_vtk.cpp use it for frames and flows, which earlier
+// versions wrote, too; a change must keep them readable.
 #pragma once
 
 #include <fmt/format.h>
@@ -68,13 +69,14 @@ struct PolyCells {
     lines.insert(lines.end(), {first, second});
     line_ends.push_back(std::ssize(lines));
   }
-  /// The element that opens a piece with so many points.
+  /// The element that opens a piece with `points` points and the cells of this object.
   std::string opening(std::size_t points) const {
     return fmt::format(
         "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\">\n",
         points, vertex_ends.size(), line_ends.size());
   }
-  /// The elements of the places of the points, of the cells, and of the end of the piece.
+  /// The elements of the points, of the cells, and of the end of the piece. `points` has three
+  /// coordinates for each point.
   std::string closing(AppendedData& data, const std::vector<double>& points) const {
     std::string text = "<Points>\n" + data.array("Float64", "Points", 3, points);
     text += "</Points>\n<Verts>\n";

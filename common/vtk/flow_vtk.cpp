@@ -1,5 +1,5 @@
-// Writes and reads flows as VTK files (flow_vtk.hpp). The names of the arrays
-// must be kept, because the reader and users' pictures refer to them.
+// Writes and reads flows as VTK files (flow_vtk.hpp). A change must keep the names of the arrays,
+// because the reader and users' pictures refer to them.
 #include "viscontact/common/vtk/flow_vtk.hpp"
 
 #include <algorithm>
@@ -27,6 +27,7 @@ std::vector<double> vectors_of(const std::vector<double>& a, const std::vector<d
   return vectors;
 }
 
+/// The component d (0, 1 or 2) of each vector; `vectors` has three numbers for each.
 std::vector<double> component(const std::vector<double>& vectors, std::size_t d) {
   std::vector<double> values;
   values.reserve(vectors.size() / 3);

@@ -1,4 +1,5 @@
-// Numbers and sums of terms as code of C, Fortran and Python.
+// Numbers and sums of terms as code of C, Fortran and Python, for export_fit.cpp and
+// export_pair.cpp. A change must keep that the code reads back the same doubles.
 #pragma once
 
 #include <fmt/format.h>
@@ -39,7 +40,7 @@ inline std::string c_literal(double number) {
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-/// The text "weight * (formula) + ..." with a line for each term.
+/// The text "(weight) * (formula) ...", with the text `between` before each term but the first.
 inline std::string terms_text(const std::vector<WeightedTerm>& terms,
                               lubrication::Formula lubrication::Term::*formula, Literal literal,
                               std::string_view between) {
@@ -50,8 +51,8 @@ inline std::string terms_text(const std::vector<WeightedTerm>& terms,
   return text;
 }
 
-/// Lines that become comments of the code. A line end from a fit file must not start a line of
-/// code.
+/// The lines with blanks in place of control characters, for comments of the code. A line end in a
+/// text of a fit file would otherwise begin a line of code.
 inline std::vector<std::string> on_lines_of_comments(std::vector<std::string> lines) {
   for (auto& line : lines)
     std::ranges::replace_if(

@@ -1,5 +1,5 @@
-// The text of each target: the sums R and Gamma of physics.md (3.2) and (4.2) as code or numbers.
-// Units are those of the fit.
+// The text of each target: the resistance R and its primitive Gamma, sums of terms by physics.md
+// (3.2) and (4.2), as code or numbers. Lengths, masses and times are in the units of the fit.
 #include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>

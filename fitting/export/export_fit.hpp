@@ -1,6 +1,6 @@
-// Writes a fit as code or data for other programs, which can use it without Viscontact. Units are
-// those of the fit. A change must keep the order of the sums, so that the values agree with
-// LubricationForce.
+// Writes a fit as code or data for other programs, which can use it without Viscontact. Lengths,
+// masses and times are in the units of the fit. A change must keep the names of functions and keys,
+// and the order of the sums, so that the values agree with LubricationForce.
 #pragma once
 
 #include <span>
@@ -22,10 +22,11 @@ struct ExportTarget {
   std::string (*write)(const lubrication::Fit& fit, std::string_view source);
 };
 
-/// All targets: c-header, fortran, python, json, csv. Each contains the resistance R(q), the force
-/// -R(q) u and Gamma(q) = int_r^q R, and the interval, error and source of the fit. The sums have
-/// the order of LubricationForce, so that the values agree to the last digits. Outside the interval
-/// the code returns NaN (C, Fortran) or raises ValueError (Python).
+/// All targets: c-header, fortran, python, json, csv. Each contains, with the gap q, the velocity u
+/// and the radius r, the resistance R(q) [M/T], the force -R(q) u [M L/T^2] and Gamma(q) = int_r^q
+/// R [M L/T], and the interval, error and source of the fit. The sums have the order of
+/// LubricationForce, so that the values agree to the last digits. Outside the interval the code
+/// returns NaN (C, Fortran) or raises ValueError (Python).
 std::span<const ExportTarget> export_targets();
 
 /// The text for one target. `source` is the name of the fit's file, which the text states; it may

@@ -1,5 +1,5 @@
-// The lines of a journal, each for a finished or a failed row. Numbers are in the units of the
-// case. A change must keep journals of interrupted tabulations readable.
+// The lines of a journal (row_journal.hpp), each for a finished or a failed row. Numbers have the
+// units of the table's plan. A change must keep journals of interrupted tabulations readable.
 #pragma once
 
 #include <optional>
@@ -23,8 +23,8 @@ std::string write_journal_line(const std::string& hash, const JournalEntry& entr
 /// incomplete or damaged.
 std::optional<std::string> hash_of_journal_line(std::string_view line);
 
-/// Reads a line, without its line end, of a table whose rows have this shape. Nothing if the line is
-/// incomplete or damaged.
+/// Reads a line, without its line end, of a table whose rows have this shape. Nothing if the line
+/// is incomplete or damaged.
 std::optional<JournalEntry> read_journal_line(std::string_view line, const RowShape& shape);
 
 }  // namespace viscontact::freefem_axi

@@ -1,8 +1,9 @@
 // A journal stores the finished rows of a running tabulation on disk, so that no row is lost or
 // computed twice. Beside TABLE.csv there is TABLE.csv.rows for the tabulation on this machine, and
 // a TABLE.csv.rows.WRITER for each process of a cluster. Each file has one writer, because some
-// file systems do not support locks. This class must only append to a journal, so that earlier rows
-// are safe; row_record.hpp reads all journals together.
+// file systems do not support locks. tabulate.hpp writes journals, and row_record.hpp reads all of
+// them together. A change must keep that a journal is only appended to, so that earlier rows are
+// safe.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +30,8 @@ bool is_writer_name(const std::string& name);
 /// A journal that is open for appending. One process at a time has it.
 class RowJournal {
  public:
-  /// Opens the file, or makes it, for rows of the TablePlan with this hash. Throws Error(kBadInput) if it cannot be written or if another
-  /// process has locked it.
+  /// Opens the file, or makes it, for rows of the TablePlan with this hash. Throws Error(kBadInput)
+  /// if the file cannot be written or if another process has locked it.
   RowJournal(std::filesystem::path path, std::string hash);
 
   /// Appends a finished or failed row, which is on disk when the function returns. Throws

@@ -1,5 +1,7 @@
 // The finished and failed rows of a table, collected from the table and from the journals of all
-// processes that work on it. The journals must be read before the table, or rows may be missed.
+// processes that work on it. A change must keep that the journals are read before the table,
+// because the process that writes the table then removes the journals. Numbers have the units of
+// the plan.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +27,8 @@ std::vector<std::string> failures_of(const RowRecord& record, const std::vector<
 lubrication::FailedRows failed_rows(const RowRecord& record,
                                     const std::function<std::string(const RowPoint&)>& name_of);
 
-/// The failed rows that a table in a file names, by the points of `points` that it lacks.
+/// The failed rows that a table in a file names, and the reasons, by those of `points` that have
+/// these names.
 std::map<RowPoint, std::string> failed_points(
     const lubrication::FailedRows& failed, const std::vector<RowPoint>& points,
     const std::function<std::string(const RowPoint&)>& name_of);

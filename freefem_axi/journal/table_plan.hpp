@@ -1,7 +1,8 @@
 // What the journal and the commands need to know of a table whose rows FreeFEM computes one by one,
 // whatever its rows contain: forces on a sphere (force_table_plan.hpp), forces and torques in other
 // motions (motions/motion_table_plan.hpp), or resistance matrices of spheres on a line
-// (collinear_spheres.hpp).
+// (collinear_spheres.hpp). Times are in seconds; other numbers have the units that the plan
+// defines.
 #pragma once
 
 #include <cstddef>

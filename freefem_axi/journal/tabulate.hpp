@@ -1,5 +1,6 @@
-// Computes the rows of a tabulation with several FreeFEM processes at once. A change must keep each
-// finished row on disk before the next one starts.
+// Computes the rows of a tabulation with several FreeFEM processes at once, for the stage
+// `tabulate`. Times are in seconds. A change must keep that each finished row is on disk before its
+// process starts the next one.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +19,7 @@ struct TabulateProgress {
   double seconds_left = 0;    ///< [s], estimated from the finished rows; 0 before the first
 };
 
-/// Is told the progress.
+/// The function that is called with the progress.
 using TabulateReport = std::function<void(const TabulateProgress&)>;
 
 /// One of the processes that compute rows.
@@ -32,10 +33,10 @@ struct RowWorker {
 /// Computes those of `points` that neither this worker nor another one has finished; this is
 /// checked again before each row. Each finished row, and the reason of each failed one, is written
 /// at once to the worker's journal beside `table_path`. `report` is called after each row, never
-/// twice at once. A row that fails does not stop the others and is no error here: RowRecord::failed
-/// has it. Throws Error(kExternalProgram) if FreeFEM cannot be run at all, and Error(kInterrupted)
-/// if worker.freefem.stop requests a stop. The caller removes the journals after it has written the
-/// table.
+/// twice at once. A row that fails does not stop the others, and its failure is not thrown:
+/// RowRecord::failed contains it. Throws Error(kExternalProgram) if FreeFEM cannot be run at all,
+/// and Error(kInterrupted) if worker.freefem.stop requests a stop. The caller removes the journals
+/// after it has written the table.
 void compute_rows(const RowWorker& worker, const TablePlan& plan,
                   const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report);

@@ -1,6 +1,6 @@
 // The names of weights, losses and misfits in fit files, the fit object that stands for the exact
-// drag of a plane, and the fit for another viscosity. Units are those of fit.hpp. A change must
-// keep the names, because fit files contain them.
+// drag of a plane, and the fit for another viscosity. Lengths, masses and times are in the units of
+// the table. A change must keep the names, because fit files contain them.
 #include "viscontact/lubrication/fit/fit.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
-// A fit of the lubrication force: the coefficients of a basis at one velocity (physics.md (3.2)),
-// its interval of gaps and its diagnostics. Lengths, masses and times are in the units of the
-// table. A change must agree with docs/fit.schema.json.
+// A fit of the lubrication force F_lub(q, u0): the coefficients of a basis (terms.hpp) of functions
+// of the gap q at one velocity u0 (physics.md (3.2)), its interval of gaps and its diagnostics.
+// Lengths, masses and times are in the units of the table. fitting/ makes fits, and every model of
+// motion reads them. A change must agree with docs/fit.schema.json.
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@ namespace viscontact::lubrication {
 /// Which residuals the least squares minimises: kRelative, fit/force - 1; kAbsolute, fit - force.
 enum class Weights { kRelative, kAbsolute };
 
-/// The word for it in fit files: "relative" or "absolute".
+/// The word for the weights in fit files: "relative" or "absolute".
 std::string_view to_string(Weights weights);
 
 /// Translates "relative" or "absolute". Throws Error(kBadInput) for another word.
@@ -39,16 +40,16 @@ std::string_view to_string(Loss loss);
 /// The inverse of to_string(). Throws Error(kBadInput) for another word.
 Loss parse_loss(std::string_view word);
 
-/// What is known of a fitted resistance: kDrag, that it is positive and falls with the gap;
-/// kPositive; kAny, nothing.
+/// What a fitted resistance must be, according to theory, at all gaps of the interval: kDrag,
+/// positive and falling with the gap; kPositive, positive; kAny, anything.
 enum class FittedShape { kDrag, kPositive, kAny };
 
 /// One term of a fit with its coefficient.
 struct FitTerm {
   std::string name;        ///< name of a Term
   double coefficient = 0;  ///< [M L/T^2 over the dimension of the term]
-  /// Standard error of the coefficient, in the same dimension, >= 0. Its formula treats the misfit
-  /// as independent random noise, which it is not.
+  /// Standard error of the coefficient, in the same dimension, >= 0. Its formula treats the
+  /// residuals as independent random noise, although the misfit of a basis is not random.
   double standard_error = 0;
   /// True for a fixed coefficient: it was given and not fitted, and its standard error is 0.
   bool is_fixed = false;
@@ -74,11 +75,13 @@ struct Fit {
   double rms_relative_residual = 0;
   /// Condition number of the matrix of the scaled, weighted columns, >= 1.
   double condition_number = 1;
-  /// Covariance matrix of the coefficients, in the order of `terms`.
+  /// Covariance matrix of the coefficients, in the order of `terms`; entry (i, j) has the dimension
+  /// of coefficient i times coefficient j. Empty if the file has none.
   std::vector<std::vector<double>> covariance;
   /// What the sphere approaches, as the table says it; may be empty.
   std::string geometry;
-  /// Coefficient k of 1/q in R by lubrication theory [M L/T], if the table states it.
+  /// Coefficient k of 1/q in the resistance -F_lub/u0 by lubrication theory [M L/T], > 0, if the
+  /// table states it.
   std::optional<double> leading_coefficient{};
   std::optional<FitDiagnostics> diagnostics{};  ///< nothing in a fit that was written by hand
   std::string table_sha256;                     ///< checksum of the table file; may be empty
@@ -86,15 +89,15 @@ struct Fit {
 };
 
 /// The name that stands in place of a basis for the exact drag of a sphere near a plane in a
-/// half-space (plane_drag.hpp). It needs no terms and is known for every gap > 0.
+/// half-space (plane_drag.hpp). A fit with this name has no terms, and its force is known for every
+/// gap > 0.
 inline constexpr std::string_view kExactPlane = "exact_plane";
 
-/// A fit object without terms or misfit that stands for the exact drag of a plane. Its interval is
-/// the range of gaps for which doubles represent the drag. `viscosity` [M/(L T)] > 0, `radius` [L]
-/// > 0.
+/// A fit without terms and residuals that stands for the exact drag of a plane. Its interval is the
+/// range of gaps for which doubles represent the drag. `viscosity` [M/(L T)] > 0, `radius` [L] > 0.
 Fit exact_plane_fit(double viscosity, double radius);
 
-/// True if `fit` stands for the exact drag.
+/// True if `fit` stands for the exact drag of a plane.
 bool is_exact_plane(const Fit& fit);
 
 /// The fit for a fluid of another viscosity [M/(L T)] > 0. Stokes flow is linear in the viscosity,
@@ -108,7 +111,7 @@ Fit read_fit(const std::filesystem::path& path);
 /// Does the same with the text of a fit file. `file` is its name in messages.
 Fit parse_fit(const std::string& text, const std::string& file);
 
-/// The text of the fit file (JSON).
+/// The text of the fit file (JSON), without provenance.
 std::string write_fit(const Fit& fit);
 
 }  // namespace viscontact::lubrication

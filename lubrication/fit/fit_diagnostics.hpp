@@ -1,6 +1,7 @@
 // How far a fit can be trusted: what its residuals show when they are compared with the error
 // estimates of the table. Lengths and times are in the units of the table. Relative residuals, fit
-// over table minus 1, have no dimension.
+// over table minus 1, have no dimension. fitting/fit_force_table.cpp computes the diagnostics; the
+// keys of a fit file are those of docs/fit.schema.json.
 #pragma once
 
 #include <cstddef>
@@ -55,24 +56,24 @@ struct WorstToEstimate {
 struct FitDiagnostics {
   /// Number of rows of the table, outliers included.
   std::size_t rows = 0;
-  /// Rows that the table should have and has not, because they could not be computed.
+  /// Number of rows that the table lacks because they could not be computed.
   std::size_t failed_rows = 0;
-  /// Coefficients that were fitted, not fixed.
+  /// Number of coefficients that were fitted, not fixed.
   std::size_t free_coefficients = 0;
   /// Gap [L] of the row with the largest relative residual.
   double worst_gap = 0;
-  /// That residual, with its sign.
+  /// The relative residual at worst_gap, with its sign.
   double worst_relative_residual = 0;
   /// Largest relative error estimate of the table's rows; 0 if the table has none.
   double largest_error_estimate = 0;
   /// Largest |relative residual| of the rows that are not outliers.
   double largest_inlier_residual = 0;
   /// Root mean square and largest size of the relative residuals that each row has in the fit of
-  /// the other rows, r_i/(1 - h_i) with the leverage h_i (PRESS, Allen 1974). Nothing if a row is
-  /// needed to determine the coefficients.
+  /// the other rows, r_i/(1 - h_i) with the residual r_i and the leverage h_i of row i (PRESS,
+  /// Allen 1974). Nothing if the coefficients cannot be determined without one of the rows.
   std::optional<double> leave_one_out_rms{},  ///< the root mean square, >= 0
       leave_one_out_largest{};                ///< the largest size, >= 0
-  /// Gap [L] of the row with the largest of them.
+  /// Gap [L] of the row with the residual leave_one_out_largest.
   std::optional<double> leave_one_out_gap{};
   /// The inner row and the end row with the largest of these residuals. The fit of the other rows
   /// interpolates to an inner row and extrapolates to an end row, which is alone at the smallest or
@@ -82,8 +83,8 @@ struct FitDiagnostics {
       left_out_end{};                          ///< the end row
   /// Number of rows, without outliers, whose |residual| is larger than their own error estimate.
   std::size_t rows_beyond_estimate = 0;
-  /// Nothing if no row that is not an outlier has an error estimate, or if an earlier version of
-  /// Viscontact wrote the file.
+  /// The row with the largest ratio among those that are not outliers. Nothing if none of them has
+  /// an error estimate, or if an earlier version of Viscontact wrote the file.
   std::optional<WorstToEstimate> worst_to_estimate{};
   /// Sum of (relative residual/error estimate)^2 over the rows; nothing if a row has no estimate.
   std::optional<double> chi_squared{};
@@ -92,8 +93,9 @@ struct FitDiagnostics {
   /// distribution and rows_beyond_estimate > 0.
   Misfit misfit = Misfit::kUnknown;
   /// Akaike's information criterion with the correction for small samples (Hurvich & Tsai 1989),
-  ///     n ln(sum of squares/n) + 2 K + 2 K (K + 1)/(n - K - 1),   K = free coefficients + 1.
-  /// A smaller value is better. Only fits of the same rows with the same weights can be compared.
+  ///     n ln(sum of squares/n) + 2 K + 2 K (K + 1)/(n - K - 1),   K = free coefficients + 1,
+  /// with the number n of rows. A smaller value is better. Only fits of the same rows with the same
+  /// weights can be compared.
   /// Nothing if n <= K + 1, if all residuals are 0, or for a robust loss, because then the weights
   /// of the rows depend on the fit.
   std::optional<double> information_criterion{};

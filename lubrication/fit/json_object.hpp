@@ -1,5 +1,5 @@
-// Reads a JSON object key by key. Every error message names the file, the line, the key and what is
-// allowed there.
+// Reads a JSON object key by key, for the readers of the three kinds of fit files. Every error
+// message names the file, the line, the key and what is allowed there; a change must keep that.
 #pragma once
 
 #include <fmt/format.h>

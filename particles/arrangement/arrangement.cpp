@@ -63,7 +63,7 @@ class Places {
     return dx * dx + dy * dy <= radius_ * radius_;
   }
 
-  /// The same place in the box that is not repeated.
+  /// The image of `x` that is in the box, for an `x` less than a period outside.
   Point wrapped(Point x) const {
     for (const std::size_t d : {0U, 1U}) {
       if (periods_[d] == 0) continue;
@@ -118,13 +118,15 @@ class Places {
   std::array<double, 2> periods_{};
 };
 
-/// A particle that an arrangement finds in its domain, and the least distance of centres from it.
+/// A particle that is in the domain before the new discs are placed, and the least distance of
+/// their centres from it [L].
 struct Obstacle {
   Point centre;
   double distance;
 };
 
-/// Discs in cells that are at least as wide as the least distance of two centres.
+/// The discs that are placed so far, sorted into cells that are at least as wide as the least
+/// distance of two centres, so that only discs in neighbouring cells can be too close.
 class Discs {
  public:
   Discs(const Places& places, double distance, std::size_t most, std::vector<Obstacle> obstacles)
@@ -156,9 +158,9 @@ class Discs {
     numbers_[now].push_back(k);
   }
 
-  /// Calls `visit` with the vector from `x` to each disc but disc `self`, and to each obstacle,
-  /// that is closer than `factor` times its least distance, with its number (obstacles: none) and
-  /// its least distance. Ends early if `visit` returns true; then returns true.
+  /// Calls `visit` for each disc except disc `self`, and for each obstacle, that is closer to `x`
+  /// than `factor` times its least distance: with the vector from `x` to it [L], its least distance
+  /// [L] and its number (obstacles have none). Ends early and returns true if `visit` returns true.
   template <class Visit>
   bool any_close(const Point& x, std::optional<std::size_t> self, double factor,
                  const Visit& visit) const {
@@ -220,15 +222,15 @@ class Discs {
 /// Pushes discs apart that are too close, in up to `rounds` rounds over all discs. True if all gaps
 /// are large enough then.
 bool push_apart(Discs& discs, const Places& places, int rounds) {
-  // Discs are pushed slightly further apart than they must be, because the pushes bring them to
-  // that distance only in the limit.
+  // Discs are pushed to 1.001 times the distance that they must have, because the pushes approach
+  // the distance that they aim at without reaching it.
   constexpr double kFurther = 1 + 1e-3;
   for (int round = 0; round < rounds; ++round) {
     bool all_free = true;
     for (std::size_t k = 0; k < discs.centres().size(); ++k) {
       all_free = all_free && discs.is_free(discs.centres()[k], k);
-      // Each close disc pushes by half of what is missing; an obstacle, which does not move, by
-      // all.
+      // Each of two close discs moves by half of the missing distance. Beside an obstacle, which
+      // does not move, the disc moves by all of it.
       Point push{};
       const Point x = discs.centres()[k];
       discs.any_close(x, k, kFurther, [&](const Point& apart, double distance, auto number) {
@@ -255,7 +257,8 @@ void shuffle(Discs& discs, const Places& places, double area, SplitMix64& random
   const double span = std::min({0.5 * places.length(0), 0.5 * places.length(1), lattice});
   const double step =
       std::min(span, std::max(0.5 * (lattice - discs.distance()), 0.01 * discs.distance()));
-  // 500 moves of each disc forget the start; a million discs make fewer moves, for the time's sake.
+  // After 500 moves of each disc the arrangement no longer depends on the start. At most 20 million
+  // moves are made in all, which bounds the time, but at least 20 of each disc.
   constexpr std::size_t kMoves = 20000000, kMost = 500, kLeast = 20;
   const std::size_t moves = count * std::clamp(kMoves / count, kLeast, kMost);
   for (std::size_t move = 0; move < moves; ++move) {
@@ -302,8 +305,8 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
   for (const std::size_t d : {0U, 1U})
     if (places.period(d) > 0 && places.period(d) < distance)
       refuse("a period is shorter than one disc with its gap");
-  // Discs of radius distance/2 that do not overlap cover at most the fraction of the triangular
-  // lattice. They may reach over each wall by half of the smallest gap at most, which is outside.
+  // Discs of radius distance/2 (with half of the gap around each) that do not overlap cover at most
+  // the fraction pi/sqrt(12) of the area, which the triangular lattice covers.
   constexpr double kDensest = 0.9068996821171089;  // pi/sqrt(12)
   if (static_cast<double>(asked.count) * std::numbers::pi * distance * distance / 4 >
       kDensest * area)
@@ -315,7 +318,7 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
     obstacles.push_back({{x[0], x[1]}, present.radii[k] + asked.radius + asked.smallest_gap});
   }
   SplitMix64 random(asked.seed);
-  // Pushing may end in a corner with no room; another beginning then helps.
+  // Pushing can fail although there is an arrangement. Then it begins again from other places.
   constexpr int kBeginnings = 10, kTries = 1000, kRounds = 2000;
   for (int beginning = 0; beginning < kBeginnings; ++beginning) {
     Discs discs(places, distance, asked.count, obstacles);

@@ -1,4 +1,5 @@
-// Free motion and constrained motion of rigid bodies (body_step.hpp).
+// Free motion and constrained motion of rigid bodies (body_step.hpp). Lengths, masses and times are
+// in the units of the case.
 #include "viscontact/particles/bodies/body_step.hpp"
 
 #include <algorithm>
@@ -15,11 +16,12 @@ Matrix3 scaled(double factor, Matrix3 a) {
   return a;
 }
 
-/// Turn [rad] of the implicit midpoint rule in space: the fixed point of t = h I(t/2)^-1 L.
+/// Turn [rad] of the implicit midpoint rule in space: the fixed point of turn = h I^-1 L, with the
+/// angular momentum L and the moment of inertia I after half of the turn.
 Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, double h) {
   Vector turn = h * (inverse_of(present_inertia(body, 3)) * angular_momentum);
-  // Each iteration gains about a factor of the turn itself; a body that turns by a radian in a step
-  // is not resolved anyway.
+  // Each iteration multiplies the error by about the turn in radians. A step in which a body turns
+  // by a radian does not resolve the motion, so that its iteration need not converge.
   constexpr int kMost = 50;
   constexpr double kExact = 4 * std::numeric_limits<double>::epsilon();
   for (int n = 0; n < kMost; ++n) {

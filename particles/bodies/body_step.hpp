@@ -1,4 +1,7 @@
-// The motion of rigid bodies in a time step, docs/physics.md (5.11). Units are those of the case.
+// The motion of rigid bodies in a time step, docs/physics.md (5.11). Lengths, masses and times are
+// in the units of the case. `dimension` is 2 or 3; in the plane only the third component of turns,
+// torques and angular momenta is used. Without constraints, momentum and angular momentum must stay
+// constant to rounding errors where no force and torque acts.
 #pragma once
 
 #include <vector>
@@ -8,32 +11,35 @@
 
 namespace viscontact::particles {
 
-/// Forces and torques on a body, about its centre, which act for a time [T] on its velocities.
+/// Mean force on a body in a step, and mean torque about its centre.
 struct BodyLoad {
   Vector force{};   ///< [M L/T^2]
   Vector torque{};  ///< [M L^2/T^2]
 };
 
-/// The motion of a body in a step of length h: first the one without constraints, then that of the
-/// solution.
+/// The motion of a body in a step of length h, with its velocity u, angular velocity w, mass m and
+/// moment of inertia I: first the motion without constraints, then that of the solution.
 struct BodyStep {
   Vector displacement{};      ///< h u of the centre [L]
   Vector turn{};              ///< h w [rad]; of discs value[2]
   Vector angular_momentum{};  ///< at the end [M L^2/T]
-  /// What blows within the step (impacts/) gave the velocity beyond displacement/h [L/T], because
-  /// they came late in it.
+  /// Velocity of the centre at the end of the step less displacement/h [L/T]. It is 0 unless blows
+  /// (impacts/) changed the velocity within the step.
   Vector late_velocity{};
-  Vector late_momentum{};           ///< the same of the angular momentum, in the plane [M L^2/T]
+  /// In the plane: angular momentum at the end of the step less I turn/h [M L^2/T]; 0 without
+  /// blows.
+  Vector late_momentum{};
   double mobility = 0;              ///< h/m [T/M]
   Matrix3 turn_mobility{};          ///< h I^-1 [T/(M L^2)]; discs use only the last entry
-  Matrix3 inverse_turn_mobility{};  ///< I/h
+  Matrix3 inverse_turn_mobility{};  ///< I/h [M L^2/T]
 };
 
 /// The motion without constraints of a body with mass and inertia in a step of length `h`, where
 /// `load` acts on its velocities for the time `kick` [T].
 ///
 /// In space the turn is that of the implicit midpoint rule: h w = h I^-1 L, with the moment of
-/// inertia of half the turn and the angular momentum L, which is constant where no torque acts.
+/// inertia I after half of the turn and the angular momentum L, which is constant where no torque
+/// acts.
 BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double kick,
                    int dimension);
 
@@ -46,7 +52,8 @@ void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, i
 Vector displacement_at(const Vector& displacement, const Vector& turn, const Vector& arm,
                        int dimension);
 
-/// Moves a body by a step of length h > 0 [T]. Its members stay where they are (place_members).
+/// Moves a body by a step of length h > 0 [T]. Its members stay where they are until
+/// place_members() is called.
 void move_body(RigidBody& body, const BodyStep& step, double h, int dimension);
 
 }  // namespace viscontact::particles

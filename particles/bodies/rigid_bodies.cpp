@@ -1,4 +1,5 @@
-// Mass, inertia and places of rigid bodies (rigid_bodies.hpp).
+// Mass, inertia and places of rigid bodies (rigid_bodies.hpp). Lengths, masses and times are in the
+// units of the case.
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// The part of a point mass in the inertia: m (|r|^2 - r r^T).
+/// Adds the inertia of the point mass m at the vector r from the centre: m (|r|^2 - r r^T).
 void add_point_mass(Matrix3& inertia, double mass, const Vector& r) {
   const double square = dot(r, r);
   for (std::size_t i = 0; i < 3; ++i)
@@ -32,16 +33,16 @@ void set_turn(std::vector<double>& values, std::size_t k, int dimension, const V
   for (std::size_t d = 0; d < 3; ++d) values[3 * k + d] = to[d];
 }
 
-/// The members of a body along one axis of a periodic cell, between two of which the body ends.
+/// Where a body begins and ends along one axis of a periodic cell.
 struct Cut {
-  std::vector<double> periods;  ///< by which each member lies beyond its image in the body
-  double widest = 0;  ///< largest distance between neighbours, across which the body ends [L]
+  std::vector<double> periods;  ///< number of periods from the image in the body to each member
+  double widest = 0;  ///< largest distance between neighbours, which the body does not bridge [L]
   int count = 0;      ///< number of distances that are as large; 1 if the images are determined
 };
 
-/// Cuts the circle of the members along axis `axis`, which has a period, at the largest distance
-/// between neighbours. This makes the body as short as it can be, and depends neither on the order
-/// of the members nor on where the cell begins.
+/// Along axis `axis`, which has a period, the members and their images lie on a circle. It is cut
+/// at the largest distance between neighbours. This makes the body as short as it can be, and
+/// depends neither on the order of the members nor on where the cell begins.
 Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::size_t axis) {
   const double period = p.cell.lengths[axis];
   const auto first = p.position(index_of(members[0]));
@@ -61,7 +62,8 @@ Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::si
                                               : sorted[0] + period - sorted[m]);
   const auto widest = std::ranges::max_element(distances);
   cut.widest = *widest;
-  // Far above the rounding errors of positions, far below what a user would distinguish.
+  // Distances that differ by less than a billionth of the period count as equal: far more than the
+  // rounding errors of positions, and far less than a user would distinguish.
   constexpr double kEqual = 1e-9;
   cut.count = static_cast<int>(std::ranges::count_if(
       distances, [&](double distance) { return distance >= cut.widest - kEqual * period; }));
@@ -69,8 +71,8 @@ Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::si
   const double from = begin < sorted.size() ? sorted[begin] : 0;
   for (std::size_t m = 0; m < places.size(); ++m)
     if (places[m] < from) cut.periods[m] -= 1;
-  // The body is where its first member is, so that members that need no images keep their places
-  // bit for bit.
+  // Images are chosen such that the first member is its own image. Members of a body that does not
+  // cross a side of the cell then keep their places bit for bit.
   const double shift = cut.periods[0];
   for (auto& periods : cut.periods) periods -= shift;
   return cut;
@@ -247,8 +249,8 @@ void place_members(Particles& p) {
     for (std::size_t m = 0; m < body.members.size(); ++m) {
       const auto k = index_of(body.members[m]);
       const Vector offset = present_offset(body, m, p.dimension);
-      // Of the images of a member that is taken which is near its last position, so that the
-      // neighbour list, which knows images of particles, stays valid.
+      // The member is put at the image of its new place that is nearest to its last position,
+      // because the pairs of the neighbour list have the image of a particle at that position.
       const auto periods = periods_of_member(body, m, p);
       const Vector x = body.centre + offset - shift_of(p.cell, periods);
       const Vector v = body.velocity + cross(w, offset) - velocity_of_image(p.cell, periods);

@@ -82,17 +82,18 @@ struct RigidBodyRequest {
 /// centre of mass of the members (the mean of their centres if none has a mass), its velocity and
 /// angular momentum are those of the members together, and their velocities become those of the
 /// rigid motion. In a periodic cell (Particles::cell) those images of the members make the body
-/// with which it is shortest along each axis: it ends across the largest distance between
-/// neighbours. It must be smaller than the cell (diameter()). If two distances are the largest
-/// (ambiguous_images()), the images depend on the order of the particles. The velocities are those
-/// of the images. The particles must turn (add_rotation), unless their dimension is 1, and belong
-/// to no other body.
+/// with which it is shortest along each axis: along the axis the members, with their images, leave
+/// distances between neighbours, and the body does not reach across the largest one. It must be
+/// smaller than the cell (diameter()). If two distances are the largest (ambiguous_images()), the
+/// images depend on the order of the particles. The velocities are those of the images. The
+/// particles must turn (add_rotation), unless their dimension is 1, and belong to no other body. No
+/// argument is checked.
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request);
 
 /// An axis of a periodic cell along which members do not determine which images make the body.
 struct AmbiguousImages {
   std::size_t axis = 0;  ///< 0: x, 1: y
-  double distance = 0;   ///< between neighbours, which is the largest more than once [L]
+  double distance = 0;   ///< largest distance between neighbours, which occurs repeatedly [L]
 };
 
 /// The first axis along which particles that shall be a body do not determine their images
@@ -103,19 +104,20 @@ std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
 /// Diameter of the circle or sphere about the centre of a body that contains its members [L].
 double diameter(const RigidBody& body, const Particles& particles);
 
-/// Periods from the present place of member number `m` to its image at the place in the body.
+/// Numbers of periods from the present place of member number `m` to its image at the place in the
+/// body.
 Periods periods_of_member(const RigidBody& body, std::size_t m, const Particles& particles);
 
 /// Vector from the centre of a body to the centre of its member number `m` [L].
 Vector present_offset(const RigidBody& body, std::size_t m, int dimension);
 
-/// The number of a particle among the members of its body.
+/// The number of a particle, from 0, among the members of its body.
 std::size_t member_number(const RigidBody& body, std::int32_t particle);
 
 /// Vector from the centre of its body to the centre of a particle [L]; 0 without a body.
 Vector offset_in_body(const Particles& particles, std::int32_t particle);
 
-/// A vector of the body at the start in its present orientation.
+/// The vector `at_start`, which is fixed to the body, in the present orientation of the body.
 Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension);
 
 /// The present moment of inertia about the centre in the axes of space [M L^2]; discs use only the

@@ -1,5 +1,7 @@
 // Contact of a pair: its gap and normal, docs/physics.md (5.1), and whether given displacements
-// close the gap. Units are any one consistent system.
+// close the gap. Lengths, masses and times are in any one consistent system of units. The
+// projection, the fluid and the blows share these functions; D is the number of dimensions, 1
+// (spheres on an axis), 2 (discs) or 3 (spheres).
 #pragma once
 
 #include <algorithm>
@@ -26,20 +28,22 @@ struct Contact {
   /// D_ij at the beginning of the step, plus `tolerated` [L]. A plane is taken at its position at
   /// the end of the step.
   double gap = 0;
-  double lowest = 0;  ///< lower bound of the impulse [M L/T], <= 0: gamma_ij^n
-  /// p_ij = h lambda_ij [M L/T], >= lowest: before the solution a guess, then the solution.
+  double lowest = 0;  ///< lower bound of the impulse [M L/T], <= 0: gamma before the step
+  /// Impulse of the contact in the step [M L/T], >= lowest, > 0 where it pushes: before the
+  /// solution a guess, then the solution.
   double impulse = 0;
   /// Largest residual with which the contact counts as converged [L], > 0.
   double allowed = 0;
   double tolerated = 0;       ///< overlap that is left as it is [L], >= 0
   std::int32_t image = 0;     ///< Pair::image
   std::int32_t obstacle = 0;  ///< number of the obstacle, if `first` is negative
-  /// Change of the gap per impulse of this contact [T/M]: h (1/m_i + 1/m_j) without a fluid.
+  /// Change of the gap per impulse of this contact [T/M]: without a fluid h (1/m_i + 1/m_j), with
+  /// the length h of the step and the masses of both particles.
   double w = 0;
 };
 
-/// Residual of the contact conditions gap >= 0, p >= lowest, one of them with equality: 0 for a
-/// solution. `slack` is w (p - lowest), in the unit of the gap.
+/// Residual of the contact conditions gap >= 0, impulse >= lowest, one of them with equality: 0 for
+/// a solution [L]. `slack` is Contact::w times (impulse - lowest) [L].
 inline double contact_residual(double gap_after, double slack) {
   return std::abs(std::min(gap_after, slack));
 }
@@ -91,7 +95,8 @@ Contact<D> contact_of(const Particles& p, const Pair& pair, std::span<const Plan
   return contact;
 }
 
-/// Linearised gap D + h G v [L] after the displacements h v, a flat array [L].
+/// Linearised gap [L] after the displacements of all particles in the step, a flat array [L]: the
+/// gap at the beginning and the relative displacement along the normal.
 template <int D>
 double gap_after(const Contact<D>& contact, std::span<const double> displacements) {
   const double* wj = &displacements[index_of(contact.second) * D];
@@ -156,10 +161,10 @@ bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> 
 
 /// Largest tangential displacement of a pair in a step, divided by the sum of its radii, for which
 /// the linearised gap may stand for the gap. Gap and linearised gap differ by half the square of
-/// this ratio, times the sum of the radii.
+/// this ratio, times the sum of the radii: at most by an eighth of this sum.
 inline constexpr double kLargestTurn = 0.5;
 
-/// Displacement of the second particle relative to the first [L].
+/// Displacement of the second particle relative to the first [L]; the first is not an obstacle.
 template <int D>
 std::array<double, D> relative_displacement(const Contact<D>& contact,
                                             std::span<const double> displacements) {

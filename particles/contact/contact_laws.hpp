@@ -1,7 +1,8 @@
 // The laws that all contacts of a case obey, together: what they make of a pair before a step, and
 // what they remember after it. A new law is a class of its own (film_law.hpp, friction_law.hpp,
 // restitution_law.hpp), a member here, and, if it remembers something, a row in pair_memory.hpp.
-// Units are those of film_law.hpp.
+// Lengths, masses and times are in any one consistent system of units; gamma and impulses of discs
+// in a fluid are per length [M/T], all others [M L/T].
 #pragma once
 
 #include <limits>
@@ -19,7 +20,8 @@ namespace viscontact::particles {
 
 /// Radii of both surfaces of a pair [L].
 struct PairRadii {
-  /// Of the first: infinite for a plane, and minus the radius of a circle around the particle.
+  /// Radius of the first surface: infinite for a plane, and minus the radius of a circle around the
+  /// particle.
   double first = std::numeric_limits<double>::infinity();
   double second = 0;  ///< of a particle, > 0
 };
@@ -48,8 +50,8 @@ struct ContactLaws {
     return film.lowest_gamma(radii.second, radii.first);
   }
 
-  /// Takes over the impulse of a pair after a step of length `h` [T]: gamma, and the memories of the
-  /// laws. `impulse_error` is that of FilmLaw::absorb().
+  /// Takes over the impulse of a pair after a step of length `h` [T]: gamma, and the memories of
+  /// the laws. `impulse_error` is that of FilmLaw::absorb().
   void remember(Pair& pair, PairMemories& memories, const PairRadii& radii, double impulse_error,
                 double /*h*/) const {
     FilmLaw::absorb(pair, impulse_error, lowest_gamma(pair, memories.of(pair.memory), radii));

@@ -1,7 +1,7 @@
-// The gluey film between two surfaces, and the value gamma_min at which it gives way to solid contact
-// (Maury 2007, Lefebvre 2008): docs/physics.md (5.2), (5.5) and (6.8). Lengths, masses and times are
-// in any one consistent system of units. Solvers take the bounds of a contact's impulse from here; a
-// simulation changes gamma by absorb() alone.
+// The gluey film between two surfaces, and the value gamma_min at which it gives way to solid
+// contact (Maury 2007, Lefebvre 2008): docs/physics.md (5.2), (5.5) and (6.8). Lengths, masses and
+// times are in any one consistent system of units. Solvers take the bounds of a contact's impulse
+// from here; a simulation changes gamma by absorb() alone.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,8 @@
 namespace viscontact::particles {
 
 /// The film between two surfaces that approach each other: its resistance R to leading order at
-/// small gaps q, by Reynolds' equation.
+/// small gaps q, by Reynolds' equation. mu is the viscosity, and r_eff the effective radius
+/// (FilmLaw::effective_radius()).
 enum class FilmShape {
   /// Spheres: R = 6 pi mu r_eff^2/q [M/T]. Discs without a fluid count as spheres whose centres
   /// stay in a plane.
@@ -25,9 +26,9 @@ enum class FilmShape {
   kDiscs,
 };
 
-/// Gamma(`to`) - Gamma(`from`), the integral of R over the gap: < 0 if the gap closes. For spheres
-/// [M L/T], for discs [M/T], which is an impulse per length. Viscosity, r_eff and both gaps
-/// are > 0.
+/// Integral of the resistance R over the gap, between the gaps `from` and `to` [L]: < 0 if the gap
+/// closes. It is Gamma(to) - Gamma(from) for a primitive Gamma of R; for spheres [M L/T], for discs
+/// [M/T], which is an impulse per length. Viscosity [M/(L T)], r_eff [L] and both gaps are > 0.
 inline double impulse_of_film(FilmShape shape, double viscosity, double r_eff, double from,
                               double to) {
   using std::numbers::pi;
@@ -38,8 +39,10 @@ inline double impulse_of_film(FilmShape shape, double viscosity, double r_eff, d
 
 /// The film obeys
 ///
-///     dgamma/dt = -lambda,   gamma_min <= gamma <= 0,   p = h lambda >= gamma^n.
+///     dgamma/dt = -lambda,   gamma_min <= gamma <= 0,   p = h lambda >= gamma^n,
 ///
+/// where lambda is the force of the contact, > 0 where it pushes, p its impulse in a step of length
+/// h, and gamma^n the value of gamma before the step.
 /// Either gamma_min is set, or both viscosity and roughness, or nothing (smooth particles without
 /// solid contact). gamma_min = 0 leaves no film, so that contact is plain inelastic contact.
 struct FilmLaw {
@@ -57,8 +60,8 @@ struct FilmLaw {
   static double effective_radius(double r_i, double r_j) { return r_i / (1 + r_i / r_j); }
 
   /// gamma_min,ij <= 0, in the unit of gamma_min; minus infinity for smooth particles. With the
-  /// roughness it is Gamma(2 s) - Gamma(q) where the film begins at the gap q, and 0 if 2 s >= q. The
-  /// radii are those of effective_radius().
+  /// roughness s it is impulse_of_film() from the gap at which the film begins to 2 s, and 0 if 2 s
+  /// is not below that gap. The radii are those of effective_radius().
   double lowest_gamma(double r_i, double r_j) const {
     if (gamma_min) return *gamma_min;
     if (!viscosity) return -std::numeric_limits<double>::infinity();
@@ -67,10 +70,10 @@ struct FilmLaw {
         0.0, impulse_of_film(shape, *viscosity, r_eff, begins_at.value_or(r_eff), 2 * *roughness));
   }
 
-  /// The film takes up the impulse p = h lambda of a pair (Pair::impulse): gamma^{n+1} = gamma^n - p,
-  /// within [`lowest`, 0]. The solids take the rest. A gamma that is 0 within the rounding error of
-  /// this difference is set to 0: the film has given back all that it had absorbed. `impulse_error`
-  /// >= 0 is the residual of the impulse; all are impulses, in the unit of gamma.
+  /// The film takes up the impulse p = h lambda of a pair (Pair::impulse): gamma^{n+1} = gamma^n -
+  /// p, within [`lowest`, 0]. The solids take the rest. A gamma that is 0 within the rounding error
+  /// of this difference is set to 0: the film has given back all that it had absorbed.
+  /// `impulse_error` >= 0 is the residual of the impulse; all are impulses, in the unit of gamma.
   static void absorb(Pair& pair, double impulse_error, double lowest) {
     const double gamma = pair.gamma - pair.impulse;
     const double rounding =

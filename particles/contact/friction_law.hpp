@@ -9,12 +9,14 @@ namespace viscontact::particles {
 /// How the law is solved in a step.
 enum class FrictionMethod {
   kFixedPoint,  ///< Coulomb's law; sliding contacts stay closed
-  /// The convex relaxation (5.9), in which a sliding contact opens by h mu_s |v_t| in a step.
+  /// The convex relaxation (5.9), in which a contact that slides at the velocity v_t opens by
+  /// h mu_s |v_t| in a step of length h.
   kConvex,
 };
 
-/// Coulomb's friction of all contacts. Only the part p_s of the normal impulse p_n rubs that the
-/// solids carry, because a film leaves no friction:
+/// Coulomb's friction of all contacts. It is bounded by the part p_s of the normal impulse p_n that
+/// the solids carry, because the part that the film carries causes no friction. p_t is the impulse
+/// of friction, and gamma^n and gamma_min are those of film_law.hpp:
 ///
 ///     p_s = max(p_n - (gamma^n - gamma_min), 0),   |p_t| <= mu_s p_s,
 ///     p_t = -mu_s p_s v_t/|v_t| if the surfaces slip with the velocity v_t.

@@ -1,5 +1,6 @@
 // Restitution of solids that touch through a film, docs/physics.md (5.15) (Poisson's law: what the
-// solids give back is a share of the impulse that they took). Units are those of film_law.hpp.
+// solids give back is a share of the impulse that they took). Impulses and gamma [M L/T] are in the
+// units of the case. impacts/ applies the law to each blow.
 #pragma once
 
 #include <algorithm>
@@ -32,10 +33,10 @@ struct RestitutionLaw {
     return gamma_c + coefficient * solid_impulse;
   }
 
-  /// gamma_c + e_d s - p' [M L/T], gamma after a blow, within [`gamma_min`, 0], for the impulse `p`
-  /// of the restitution phase and `lowest` = gamma_c + e_d s. Both may contain the impulse of the
-  /// compression. A film that is left with the rounding error of this difference has given back
-  /// all: it is 0. `gamma` is that before the blow.
+  /// gamma after a blow [M L/T], within [`gamma_min`, 0]: gamma_c + e_d s - p' for the impulse `p`
+  /// = p' of the restitution phase and `lowest` = gamma_c + e_d s. Both arguments may contain the
+  /// impulse of the compression. The result is 0 if it is 0 within the rounding error of this
+  /// difference, because the film has then given back all. `gamma` is that before the blow.
   static double gamma_after(double lowest, double p, double gamma_min, double gamma) {
     const double left = lowest - p;
     const double rounding =

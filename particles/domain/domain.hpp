@@ -1,5 +1,6 @@
 // The domain that holds the particles and, if there is one, the fluid: a disc, a box that may be
-// periodic, or a cylinder with the particles on its axis. Lengths are in the unit of the case.
+// periodic, or a cylinder with the particles on its axis. Lengths [L] are in the unit of the case.
+// case_file/ checks the values. A change must keep the numbers of the obstacles, which files have.
 #pragma once
 
 #include <array>
@@ -44,8 +45,8 @@ inline std::array<double, 2> periods_of(const Domain& domain) {
 }
 
 /// The walls of a domain, at rest, in the order of the obstacles above. The wall of a disc is a
-/// circle that is seen from inside. The side of a cylinder is parallel to the axis of the particles:
-/// its gap is the distance from it, and its normal has no component along the axis.
+/// circle that is seen from inside. The side of a cylinder is parallel to the axis of the
+/// particles: its gap is the distance from it, and its normal has no component along the axis.
 std::vector<Plane> obstacles_of(const Domain& domain);
 
 }  // namespace viscontact::particles

@@ -52,7 +52,7 @@ constexpr std::array<int, 2> periods_of_image(std::int32_t image) {
 /// Largest number of an image.
 inline constexpr std::int32_t kLargestImage = 4;
 
-/// Velocity of an image relative to its particle, if its shift at the start is `shift` [L/T].
+/// Velocity of an image relative to its particle [L/T], if its shift at the start is `shift` [L].
 inline Vector velocity_at(const PeriodicCell& cell, const Vector& shift) {
   const auto& g = cell.gradient;
   return {g[0] * shift[0] + g[1] * shift[1], g[2] * shift[0] + g[3] * shift[1], 0};
@@ -84,8 +84,9 @@ inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
   return shift_of(cell, Periods{double(x), double(y)});
 }
 
-/// The vector [L] whose image is `apart` after the cell has moved for `moved_for`: the shifts of
-/// the images are (1 + moved_for gradient) times those of the start. Only x and y.
+/// The vector at the start [L], x and y only, that has become `apart` [L] by the motion of the
+/// cell: (1 + moved_for gradient)^-1 apart. The motion takes each shift of an image to
+/// (1 + moved_for gradient) times its value at the start.
 inline std::array<double, 2> before_the_motion(const PeriodicCell& cell, const Vector& apart) {
   const double t = cell.is_sheared() ? cell.moved_for : 0;
   const auto& g = cell.gradient;

@@ -1,5 +1,5 @@
 // Computes the position of a plane at a given time: a rotation about its pivot, then a translation.
-// Units are those of plane.hpp.
+// Lengths and times are in any one consistent system of units.
 #include "viscontact/particles/domain/plane.hpp"
 
 #include <cmath>

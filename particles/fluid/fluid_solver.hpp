@@ -5,12 +5,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "viscontact/common/stop_token.hpp"
 #include "viscontact/common/vtk/flow_field.hpp"
+#include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
@@ -132,5 +137,11 @@ class FluidSolver {
 inline void FluidSolver::keep_flow(bool /*at_rest*/, std::span<const double> /*motions*/) {}
 inline std::string FluidSolver::saved_flow() { return {}; }
 inline void FluidSolver::load_flow(const std::string& /*flow*/) {}
+
+/// Starts a solver of the fluid in `domain` around particles with `radii` [L] in `dimension` (2 or
+/// 3) dimensions, and waits until it is ready. freefem_flow::start_fluid_solver is such a function.
+using StartFluidSolver = std::function<std::unique_ptr<FluidSolver>(
+    const Fluid& fluid, const Domain& domain, std::span<const double> radii, int dimension,
+    const StopToken& stop)>;
 
 }  // namespace viscontact::particles

@@ -1,4 +1,5 @@
-// Finds the blows of a step in the order of their times (impacts.hpp). Units are those of the case.
+// Finds the blows of a step in the order of their times (impacts.hpp). Lengths, masses and times
+// are in the units of the case; times within the step are counted from its beginning.
 #include "viscontact/particles/impacts/impacts.hpp"
 
 #include <algorithm>
@@ -18,7 +19,8 @@ namespace {
 // decided together although their times differ by rounding errors.
 constexpr double kSameTime = 1e-9;
 
-/// The root of a function that is positive at `from` and not at `until`, by the Illinois method.
+/// A root of a continuous function that is > 0 at `from` and <= 0 at `until`, by the Illinois
+/// method (a bracketing secant method).
 template <class Function>
 double root_of_falling(const Function& f, double from, double until) {
   double low = from, high = until, at_low = f(low), at_high = f(high);
@@ -68,22 +70,22 @@ const typename Impacts<D>::Flight& Impacts<D>::flight_or_none(std::int32_t k) co
   return is_touched(k) ? flights_[index_of(flight_of_[index_of(k)])] : kNone;
 }
 
-/// u* of a particle; 0 of an obstacle.
+/// Velocity u* of a particle without contacts [L/T]; 0 for an obstacle.
 template <int D>
 Vector Impacts<D>::free_velocity(std::int32_t k) const {
   if (k < 0) return {};
   return (1 / step_.h) * point_of(step_.displacements.data(), index_of(k), D);
 }
 
-/// The mean acceleration of a particle by its forces.
+/// The mean acceleration of a particle by its forces in the step [L/T^2]; 0 for an obstacle.
 template <int D>
 Vector Impacts<D>::acceleration(std::int32_t k) const {
   if (k < 0) return {};
   return (1 / step_.kick) * (free_velocity(k) - state_.particles.velocity(index_of(k)));
 }
 
-/// Angular velocity before and after a blow apart from it, of discs about the third axis. Torques
-/// act evenly in the step.
+/// Angular velocity of a particle with its blows so far [1/T]; of discs only the third component.
+/// It contains the torques of the whole step, at whatever time of the step.
 template <int D>
 Vector Impacts<D>::spin(std::int32_t k) const {
   if (k < 0 || step_.turns.empty()) return {};
@@ -190,7 +192,7 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   const Vector n = normal_of(approach, from), v = velocity_of(approach, from);
   if (obstacle != nullptr &&
       (obstacle->start.is_curved() || norm(obstacle->angular_velocity) > 0)) {
-    // What leaves the free side and comes back in one step is not seen.
+    // A particle that leaves the free side and comes back in the same step is not found.
     if (gap_of(approach, until) > 0) return std::nullopt;
     return root_of_falling([&](double t) { return gap_of(approach, t); }, from, until);
   }
@@ -202,7 +204,7 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
     const double t = from + gap * (norm(c) + approach.sum) / (-along + std::sqrt(root));
     return t <= until ? std::optional(t) : std::nullopt;
   }
-  // Of the gap along the present direction: gap + rate t + curvature t^2 = 0.
+  // With the normal at `from`, the gap after the time t is gap + rate t + curvature t^2.
   const double rate = dot(n, v), curvature = dot(n, approach.b);
   const double root = rate * rate - 4 * curvature * gap;
   if (root < 0) return std::nullopt;
@@ -210,7 +212,8 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   if (!(denominator > 0)) return std::nullopt;
   double t = from + 2 * gap / denominator;
   if (obstacle != nullptr) return t <= until ? std::optional(t) : std::nullopt;
-  // The direction of two particles changes on the way; then Newton's method.
+  // The normal of two particles changes on the way, so that Newton's method improves the time. It
+  // converges quadratically from the guess, and 20 steps are far more than it needs.
   constexpr int kMostSteps = 20;
   for (int i = 0; i < kMostSteps; ++i) {
     const double falls = dot(normal_of(approach, t), velocity_of(approach, t));
@@ -237,16 +240,17 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   const double pull = acceleration_of_gap(approach, time);
   const double ended =
       std::max(kShortestFlight * -step_.h * pull / (2 * step_.laws.restitution.coefficient), 0.0);
-  // `unseen`: an approach that moves the particles by less than a thousandth of `touching` in the
-  // step, or is a rounding error.
+  // `unseen` is the speed of an approach that moves the particles by less than a thousandth of
+  // `touching` in the step, or is within rounding errors.
   constexpr double kUnseen = 1e-3, kRounding = 1e-12;
   const double speeds = norm(free_velocity(of.first)) + norm(free_velocity(of.second)) +
                         norm(flight_or_none(of.first).change) +
                         norm(flight_or_none(of.second).change);
   const double unseen = std::max(kUnseen * step_.touching / step_.h, kRounding * speeds);
-  // `rests`: the pair touched at the beginning of the step and hardly approached, or it bore a
-  // load. Only a blow that is faster than `pulled` hits it, because slower ones would keep a
-  // packing shaking.
+  // `rests` is true if the pair touched at the beginning of the step and hardly approached; if it
+  // bore a load, it may have approached by `pulled`. Only a blow that is faster than `pulled`, five
+  // times the velocity that its load gives it in a step, hits such a pair, because slower ones
+  // would keep a packing shaking.
   const double pulled = 5 * step_.h *
                         std::max({std::abs(dot(normal, acceleration(of.second))),
                                   std::abs(dot(normal, acceleration(of.first))), std::abs(pull)});
@@ -266,12 +270,14 @@ void Impacts<D>::expect(std::size_t k, double from) {
   const auto& of = pair(k);
   const std::array versions = {version(of.first), version(of.second)};
   if (!hits_of_.empty()) {
-    // Blows that go to and fro without end between pairs under load are left to the projection.
+    // A pair that is hit more often in a step is left to the projection, because blows under load
+    // can go to and fro without end. Both numbers bound the computing time of a step.
     constexpr int kMostHits = 1000, kMostUnderLoad = 30;
     if (hits_of_[k] >= (of.impulse == 0 ? kMostHits : kMostUnderLoad)) return;
   }
   const auto approach = approach_of(k);
-  // Between jumps of the velocity of an obstacle.
+  // Each pass looks from `begin` to the next jump of the velocity of the obstacle, or to the end of
+  // the step.
   for (double begin = from, end = 0; begin < step_.h; begin = end) {
     constexpr double kBeyondRounding = 1e-12;
     // Blows at the end of the step that differ by rounding errors are one.

@@ -1,7 +1,8 @@
 // The blows of a step between solids that rebound, at their times within the step: docs/physics.md
 // (5.15) and (5.16). The projection of the step (projection/) follows with the motions that the
-// blows leave. Lengths, masses and times are in any one consistent system of units. The results
-// must not depend on the order of the particles, but for the order of sums.
+// blows leave. A blow is an impact with all its contacts. Lengths, masses and times are in
+// any one consistent system of units. Results must depend on the order of the particles by rounding
+// errors only.
 #pragma once
 
 #include <array>
@@ -24,8 +25,9 @@
 
 namespace viscontact::particles {
 
-/// The step that the blows belong to. Arrays are those of the simulation and hold the motion
-/// without contacts; run() adds what the blows change.
+/// The step that the blows belong to. u* and w* are the velocities and angular velocities at its
+/// end without contacts. Arrays are those of the simulation and hold the motion without contacts;
+/// run() adds what the blows change.
 struct ImpactStep {
   const ContactLaws& laws;           ///< of all contacts
   std::span<const Plane> obstacles;  ///< they may move
@@ -53,7 +55,8 @@ struct ImpactStep {
 /// so that a row of equal spheres passes a blow on (Newton's cradle).
 ///
 /// The projection takes over when a bounce would last less than a twentieth of the step, and after
-/// 1000 hits of a pair in a step (30 if it bore a load).
+/// 1000 hits of a pair in a step (30 if it bore a load). Nothing is thrown: what is not solved is
+/// reported by converged().
 template <int D>
 class Impacts {
  public:
@@ -84,11 +87,12 @@ class Impacts {
   void add_late_changes(Particles& particles) const;
 
  private:
-  // What blows change in the motion of a particle: the sum of the changes and that of the changes
-  // times their times. Turns have their own.
+  // What blows change in the motion of a particle: the sum of the changes of its velocity [L/T],
+  // and in `late` the sum of the changes times the times of the blows [L]; for turns [1/T] and
+  // [rad].
   struct Flight {
     Vector change{}, late{}, turn_change{}, late_turn{};
-    Vector displacement{};  // with all blows
+    Vector displacement{};  // in the step, with all blows [L]
     int version = 0;        // number of blows
   };
   // A blow that is expected at `time`, unless one of the particles is changed before.
@@ -108,7 +112,7 @@ class Impacts {
     double sum = 0;  // of the radii; of the second particle alone at an obstacle [L]
     const Plane* obstacle = nullptr;  // if the first is one
     Vector before{};                  // relative velocity before the step [L/T]
-    Vector at_rest{};  // the same with the blows so far, without the load of the step
+    Vector at_rest{};  // `before` and the changes by the blows so far, without the load of the step
     Vector place(double t) const { return c + t * a + (t * t) * b; }
   };
   // A contact of a blow.
@@ -116,8 +120,7 @@ class Impacts {
     std::size_t pair;
     Vector normal;
     double approach;  // velocity at which the gap closes, < 0 [L/T]
-    Vector
-        relative;  // velocity of the second centre relative to the first, or to the obstacle [L/T]
+    Vector relative;  // velocity of the second centre relative to the first or the obstacle [L/T]
   };
 
   Pair& pair(std::size_t k) {

@@ -1,4 +1,5 @@
-// A blow between solids that rebound, for rebounds.csv. Units are those of the case.
+// A blow between solids that rebound, for rebounds.csv. Lengths, masses and times are in the units
+// of the case.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +11,9 @@ struct Rebound {
   double time = 0;               ///< of the blow [T]
   std::int32_t first = -1;       ///< number of a particle, or -1 - k for obstacle k
   std::int32_t second = 0;       ///< number of a particle
-  double approach_velocity = 0;  ///< at which the gap opens before the blow [L/T], < 0
-  double solid_impulse = 0;      ///< s that the solids took in the compression [M L/T], > 0
-  double velocity = 0;           ///< at which the gap opens after the blow [L/T], >= 0
+  double approach_velocity = 0;  ///< rate of the gap before the blow [L/T], < 0
+  double solid_impulse = 0;      ///< impulse that the solids took in the compression [M L/T], > 0
+  double velocity = 0;           ///< rate of the gap after the blow [L/T], >= 0
 };
 
 }  // namespace viscontact::particles

@@ -1,4 +1,6 @@
-// Solves the blows of a step, each in its two phases (impacts.hpp). Units are those of the case.
+// Solves the blows of a step, each in its two phases (impacts.hpp). Lengths, masses and times are
+// in the units of the case. A change must keep the momentum to rounding errors, and must not let
+// the energy grow.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,8 +58,8 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       unit_of.push_back(k);
       if (body < 0) {
         const std::array<double, 3> still{};
-        // Particles that do not turn have no moments but rounding errors, which this mobility
-        // leaves small in every unit.
+        // The moments on particles that do not turn are rounding errors. A mobility of the right
+        // dimension keeps the turns that follow from them small in every unit.
         const double r = p.radii[index_of(k)], moves = step_.mobilities[index_of(k)];
         const double turns =
             step_.turns.empty() ? moves / (r * r) : step_.turn_mobilities[index_of(k)];
@@ -130,8 +132,8 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
   step.displacement = step.displacement + rest * velocity;
   step.late_velocity = step.late_velocity + (time / step_.h) * velocity;
   step.turn = step.turn + rest * turn;
-  // I (time/h) turn is what the angular momentum has beyond I turn/h in the plane; in space the
-  // step holds the whole of it.
+  // In space `angular_momentum` takes the whole change. In the plane constrain() computes it anew
+  // as I turn/h + late_momentum, so that late_momentum takes the part that turn/h does not have.
   const Vector momentum = step_.h * (step.inverse_turn_mobility * turn);
   step.angular_momentum = step.angular_momentum + momentum;
   step.late_momentum = step.late_momentum + (time / step_.h) * momentum;
@@ -140,7 +142,8 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
 /// The two phases of a blow, (5.15), and what follows from it.
 template <int D>
 void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
-  // Residuals as a share of the approach: what is asked for, and what still counts as solved.
+  // Residuals divided by the speed of the approach: the tolerance of the solver, near the rounding
+  // errors of a double, and the largest residual with which a blow still counts as solved.
   constexpr double kExact = 1e-13, kSolved = 1e-8;
   const auto& laws = step_.laws;
   std::vector<std::int32_t> unit_of;
@@ -167,9 +170,9 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
   };
   keep_normal_rows(compression);
   // Where several contacts share a body, only sums of their impulses are determined. What each of
-  // them takes, and with it what its solids give back, must not depend on their order. Where
-  // spheres rub, Newton's method may cycle. Sweeps then solve the blow, whose impulses may depend
-  // on the order.
+  // them takes, and with it what its solids give back, must not depend on their order; the solution
+  // of least impulses does not. Where spheres have friction, Newton's method may cycle. Sweeps then
+  // solve the blow, and its impulses may depend on the order.
   const auto solve = [&](ConstraintProblem<D>& of) {
     const auto guess = of.impulses;
     const auto is_solved = [&](ConstraintStart start, int most_iterations) {
@@ -211,7 +214,8 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     block.allowed_slip = kExact * step_.h * fastest_slip;
     const bool rubs = laws.friction && phase.solid > 0;
     block.friction = rubs ? laws.friction->coefficient : 0;
-    // The impulse beyond which friction grows: the solids carry (1 + e_d) s of the expected one.
+    // Friction grows with the impulse beyond `capacity`. It is such that the solids carry (1 + e_d)
+    // s at the expected impulse of the whole blow.
     block.capacity = phase.compressed + std::max(phase.lowest, 0.0) - (1 + e) * phase.solid;
     problem.impulses[block.row] = block.lowest;
   }
@@ -271,7 +275,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
                            std::abs(after) <= kExact * fastest ? 0 : after});
     ++hits_of_[hits[c].pair];
   }
-  // All that the changed particles may meet is expected anew.
+  // The next blows of all pairs of the changed particles are expected anew.
   std::vector<std::int32_t> changed;
   for (const auto k : unit_of) {
     const auto body = state_.particles.bodies.body_of(k);

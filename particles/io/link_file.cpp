@@ -1,4 +1,5 @@
-// Writes bodies.csv, hinges.csv, springs.csv and arms.csv (link_file.hpp).
+// Writes bodies.csv, hinges.csv, springs.csv and arms.csv (link_file.hpp). Lengths, masses and
+// times are in the units of the case. A change must keep the columns, which scripts of users read.
 #include "viscontact/particles/io/link_file.hpp"
 
 #include <fmt/format.h>
@@ -19,8 +20,8 @@ std::string row(double time, std::size_t id, const std::vector<double>& values,
   return text + further + "\n";
 }
 
-/// In a fluid, the field of the error of the force at `place`, or of a vector of two forces there;
-/// empty if no error is known.
+/// In a fluid, a comma and the field of the error of the force at `place` in State::link_forces, or
+/// of the vector of the `count` forces from there; the field is empty if no error is known.
 std::string error_field(const Setting& setting, std::span<const double> errors, std::size_t place,
                         std::size_t count = 1) {
   if (!setting.fluid) return "";

@@ -1,5 +1,6 @@
 // The motion of rigid bodies, and the forces of links, as CSV tables over time. Lengths, masses and
-// times are in the units of the case. A change must keep the names of the columns.
+// times are in the units of the case. A change must keep the names of the columns, which scripts of
+// users read.
 #pragma once
 
 #include <span>
@@ -15,7 +16,8 @@ struct TimeTable {
   std::string name;       ///< of its file
   std::string header;     ///< line with the names of its columns
   std::size_t count = 0;  ///< number of rows at each time
-  /// The rows of a state. `force_errors` are those of State::link_forces; empty: not known.
+  /// The rows of a state. `force_errors` are estimates of the errors of State::link_forces, as many
+  /// and in the same units; empty: not known.
   std::string (*rows)(const Setting& setting, const State& state,
                       std::span<const double> force_errors);
 };
@@ -29,8 +31,8 @@ struct TimeTable {
 /// - arms.csv: time,id,length,force,power
 ///
 /// In a fluid the tables of links end with the column force_error_estimate, that of hinges also
-/// with torque_error_estimate: errors of one mesh in the units of the results, empty where not
-/// known.
+/// with torque_error_estimate: estimates of the errors that the mesh causes, in the units of the
+/// results, and empty where they are not known.
 ///
 /// Ids are numbers from 0 in the order of the case. The force of a hinge is that on its body; the
 /// forces of springs and arms are positive where they push the ends apart. Forces are those of the

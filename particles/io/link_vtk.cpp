@@ -1,4 +1,5 @@
-// Writes hinges, springs and arms as VTK PolyData (link_vtk.hpp).
+// Writes hinges, springs and arms as VTK PolyData (link_vtk.hpp). Lengths [L] and forces [M L/T^2]
+// are in the units of the case. A change must keep the numbers of Kind, which files contain.
 #include "viscontact/particles/io/link_vtk.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // The links of a state as a VTK file for ParaView. Lengths, masses and times are in the units of
-// the case.
+// the case. A change must keep the names and numbers, which users' ParaView states contain.
 #pragma once
 
 #include <string>

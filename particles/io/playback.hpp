@@ -1,4 +1,5 @@
-// The frames of a simulation, kept in memory for pages and pictures. Units are those of the case.
+// The frames of a simulation, kept in memory for pages and pictures (report/particles). Lengths,
+// masses and times are in the units of the case.
 #pragma once
 
 #include <array>

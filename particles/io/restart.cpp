@@ -1,4 +1,4 @@
-// Writes and reads the binary restart file (restart.hpp). Files of versions 1 to 5 must stay
+// Writes and reads the binary restart file (restart.hpp). Files of versions 1 to 7 must stay
 // readable; a change of the fields of State or Pair needs a new version.
 #include "viscontact/particles/io/restart.hpp"
 
@@ -47,8 +47,9 @@ struct StoredArrays {
   std::vector<Vector> frictions;     ///< of pairs and walls; empty if all are 0
   std::vector<double> carried;       ///< as `frictions`
   std::vector<StoredBody> bodies;
-  /// The further memories of pairs and walls that are not 0: their names, each with a line break, and
-  /// their numbers one after the other. Each memory has as many numbers as there are pairs and walls.
+  /// The further memories of pairs and walls that are not 0: their names, each with a line break,
+  /// and their numbers one after the other. Each memory has as many numbers as there are pairs and
+  /// walls.
   std::vector<char> names;
   std::vector<double> memories;
 };

@@ -1,5 +1,6 @@
 // Frames of a simulation as VTK files for ParaView. Lengths, masses and times are in the units of
-// the case.
+// the case. A run that continues reads its own frames again, so that a change must keep the names
+// of the arrays.
 #pragma once
 
 #include <filesystem>
@@ -27,9 +28,9 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
 struct VtpContent {
   /// Flat array [L], `dimension` numbers for each particle.
   std::vector<double> positions;
-  /// Of each particle, counter-clockwise [rad], [1/T]; empty if they do not turn, or are in space.
-  std::vector<double> angles,  ///< of each particle [rad]
-      angular_velocities;      ///< of each particle [1/T]
+  // Of discs, counter-clockwise; empty if they do not turn, and of spheres.
+  std::vector<double> angles,  ///< of each disc [rad]
+      angular_velocities;      ///< of each disc [1/T]
   /// Unit quaternions (w, x, y, z) of spheres in space; empty if they do not turn.
   std::vector<double> orientations;
   /// In the order of contacts_of: first pairs of particles, then particles at obstacles.

@@ -1,5 +1,6 @@
-// Reads the files that vtk.cpp writes, so that an interrupted run can be continued. Units are those
-// of vtk.hpp. It understands only that layout, not VTK's formats in general.
+// Reads the files that vtk.cpp writes, so that an interrupted run can be continued. Lengths, masses
+// and times are in the units of the case. The reader understands only that layout, not VTK's
+// formats in general.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -51,8 +52,9 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
   const auto images = numbers_or_zeros(reader, "image", gaps.size());
   const auto frictions = numbers_or_zeros(reader, "friction", gaps.size());
   const auto memories = read_memories(reader, gaps.size());
-  // These are numbers of particles, which differ from their ids: one vertex for each contact with a
-  // plane, then one line for each contact of two particles.
+  // Entries are places in the list of points, the numbers of particles in State, and not their ids.
+  // A contact with a plane has one vertex; a contact of two particles has one line with two
+  // entries.
   const auto vertices = reader.array<std::int64_t>("Verts", "connectivity");
   const auto lines = reader.array<std::int64_t>("Lines", "connectivity");
   const auto walls = vertices.size(), pairs = lines.size() / 2;

@@ -1,4 +1,5 @@
-// Piecewise linear and sinusoidal lengths of arms (arm_length.hpp).
+// Piecewise linear and sinusoidal lengths of arms (arm_length.hpp). Lengths [L] and times [T] are
+// in the units of the case.
 #include "viscontact/particles/links/arm_length.hpp"
 
 #include <algorithm>
@@ -11,7 +12,8 @@
 namespace viscontact::particles {
 namespace {
 
-// More times than these decide nothing that a reader of a case could check.
+// Bounds the time of the checks of a case. A periodic length is checked at about its first 10000
+// times.
 constexpr std::size_t kMostTimes = 10000;
 
 /// The linear piece that holds at a time, between two points (time, length).

@@ -1,4 +1,5 @@
-// Makes the equations of links (link_rows.hpp).
+// Makes the equations of links (link_rows.hpp). Lengths, masses and times are in the units of the
+// case.
 #include "viscontact/particles/links/link_rows.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +45,7 @@ double unit_spin(const Particles& p, std::int32_t particle) {
 }
 
 /// The image of `second` that is nearest to `first`: the vector from the centre of `first` [L], and
-/// the periods from `second`.
+/// the numbers of periods by which `second` is shifted.
 struct NearestImage {
   Vector apart{};
   Periods periods{};
@@ -70,9 +71,10 @@ LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
   return row;
 }
 
-/// What Newmark's method makes of a spring: with the extension e and its rate, the impulse is
-/// -kick stiffness (e + beta (change of e in this step - change in the last one)). Before the first
-/// step, the change in the last one is 2 h rate - change in this step.
+/// Sets the row of a spring by Newmark's method. With the extension e before the step and its rate,
+/// the impulse is -kick stiffness (e + beta (change of e in this step - change in the step
+/// before)). In the first step, the change in the step before is taken as 2 h rate - change in this
+/// step.
 void make_spring(LinkRow& row, double extension, double rate, double stiffness,
                  const LinkTimes& times) {
   const double beta = times.is_first ? 2 * kBeta : kBeta;

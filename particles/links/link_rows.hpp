@@ -1,5 +1,7 @@
-// The equations of hinges, springs and arms in a time step, docs/physics.md (5.12) to (5.14). Units
-// are those of the case.
+// The equations of hinges, springs and arms in a time step, docs/physics.md (5.12) to (5.14).
+// Lengths, masses and times are in the units of the case. Equations of displacements [L] have
+// impulses [M L/T], equations of turns [rad] moments of impulses [M L^2/T]; where a member has two
+// dimensions, the first is that of displacements. constraints/ and fluid/ solve the equations.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +14,15 @@
 
 namespace viscontact::particles {
 
-/// Part of an equation: `direction` . displacement of a point at `arm` from the centre of a unit (a
-/// particle without a body, or a rigid body), or the turn about z of the unit.
+/// Part of an equation. A unit is a particle without a body, or a rigid body. The part is the inner
+/// product of `direction` and the displacement of the point at `arm` from the centre of a unit, or
+/// the turn of the unit about z.
 struct LinkPart {
-  std::int32_t particle = 0;  ///< of the unit
+  std::int32_t particle = 0;  ///< number of the particle, or of a member of the body
   Vector direction{};         ///< a unit vector; with `is_turn`, not used
   Vector arm{};               ///< [L]
   bool is_turn = false;       ///< true: the turn about z; false: the displacement
-  /// Periods from the particle to its image that the equation means.
+  /// Numbers of periods from the particle to the image of it that the equation means.
   Periods image{};
 };
 
@@ -27,11 +30,13 @@ struct LinkPart {
 /// parts are motions of images: in a sheared cell, those of the particles and image_rate().
 struct LinkRow {
   std::vector<LinkPart> parts;  ///< of all units that the link holds; what is fixed has none
-  double value = 0;             ///< before the step, with the length at its end [L], or angle [rad]
-  double compliance = 0;        ///< [T/M]; 0: the equation holds whatever impulse it needs
-  // Of springs: what value and compliance follow from.
-  double extension = 0;  ///< [L], [rad]
-  double stiffness = 0;  ///< [M/T^2], [M L^2/T^2]
+  /// What is left of the equation at the places before the step, with the length that an arm has at
+  /// the end of the step [L, rad].
+  double value = 0;
+  double compliance = 0;  ///< [T/M, T/(M L^2)]; 0: the equation holds whatever impulse it needs
+  // Of springs: value and compliance follow from these two.
+  double extension = 0;  ///< before the step [L, rad]
+  double stiffness = 0;  ///< [M/T^2, M L^2/T^2]
 };
 
 /// The equations of one link, and what they are called. All have parts of the same units in the
@@ -49,13 +54,13 @@ struct LinkEquations {
   const std::vector<LinkPart>& parts() const { return rows.front().parts; }
 };
 
-/// The times of a step that links depend on.
+/// The times of a step on which the equations of links depend.
 struct LinkTimes {
   double h = 0;     ///< length of the step [T]
   double kick = 0;  ///< time for which forces act on the velocities in it [T]
   double end = 0;   ///< time at its end [T]
-  /// Whether it is the first step of a simulation, before which the particles are taken to have
-  /// moved as if time ran backwards.
+  /// Whether it is the first step of a simulation. There is no step before it, so that Newmark's
+  /// method takes the change of an extension in that step from the rate at the start.
   bool is_first = false;
 };
 
@@ -65,10 +70,11 @@ struct LinkTimes {
 std::vector<LinkEquations> link_equations(const Links& links, const Particles& particles,
                                           const LinkTimes& times);
 
-/// Periods from a particle to its image at the place in its body; 0 without a body.
+/// Numbers of periods from a particle to its image at the place in its body; 0 without a body.
 Periods periods_in_unit(const Particles& particles, std::int32_t particle);
 
-/// Rate of the sum of the parts of a row because their images move relative to the particles [L/T].
+/// Rate at which the sum of the parts of a row changes [L/T] because images move relative to their
+/// particles; 0 unless the cell is sheared.
 double image_rate(const LinkRow& row, const PeriodicCell& cell);
 
 /// Displacements and turns of the unit of a particle: 3 numbers each, of discs in the plane.
@@ -80,7 +86,7 @@ struct UnitMotion {
 // In the following, `motions` are those of the units of a link, in the order of its parts. The
 // units are the images that the rows mean, and turn by finite angles.
 
-/// Value of a part after the linear motion of its unit [L], [rad].
+/// Value of a part for the motion of its unit, to first order in the turn [L, rad].
 double value_of(const LinkPart& part, const UnitMotion& motion);
 
 /// The equations with the directions and arms that they have after these motions. Nothing else
@@ -88,12 +94,12 @@ double value_of(const LinkPart& part, const UnitMotion& motion);
 LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
                                const Particles& particles, std::span<const UnitMotion> motions);
 
-/// Values of the rows of a link after these motions, without the part of the compliance.
+/// Values of the rows of a link after these motions [L, rad], without compliance times impulse.
 std::vector<double> values_after(const LinkEquations& equations, const Links& links,
                                  const Particles& particles, const LinkTimes& times,
                                  std::span<const UnitMotion> motions);
 
-/// Extension of a spring after these motions [L].
+/// Extension of a spring after these motions [L], of a torsion spring [rad].
 double extension_after(const LinkEquations& spring, const Links& links, const Particles& particles,
                        std::span<const UnitMotion> motions);
 

@@ -1,5 +1,6 @@
 // Hinges, springs and arms that hold particles and rigid bodies. Lengths, masses and times are in
-// the units of the case.
+// the units of the case. case_file/ checks the values. A change must keep the order of the forces
+// in State::link_forces, which restart files contain.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +14,10 @@ namespace viscontact::particles {
 
 /// A point that moves with a particle or with its rigid body.
 struct LinkedPoint {
-  std::int32_t particle =
-      0;  ///< number of a particle; if it belongs to a body, the point does, too
-  /// From the centre of the body, as it is at the start, or from the centre of the particle if it
-  /// has no body, as it is at the angle 0 [L].
+  /// Number of a particle. If it belongs to a body, the point moves with the body.
+  std::int32_t particle = 0;
+  /// Vector to the point [L]: from the centre of the body, in the orientation of the start, or from
+  /// the centre of a particle without a body, in the orientation in which its angle is 0.
   Vector offset{};
 };
 
@@ -29,7 +30,7 @@ struct Hinge {
   /// Angle at which the spring is relaxed [rad]. The angle of a body is 0 at the start, that of a
   /// particle is its own.
   double rest_angle = 0;
-  std::int32_t body = -1;  ///< number of the body, -1: of a particle; names the hinge in messages
+  std::int32_t body = -1;  ///< number of the body for messages; -1: the hinge holds a particle
 };
 
 /// Pulls or pushes the centres of two particles with the force stiffness * (distance - length).
@@ -56,8 +57,8 @@ struct Links {
   /// True if there are no links.
   bool empty() const { return hinges.empty() && springs.empty() && arms.empty(); }
   /// Number of forces in State::link_forces, in `dimension` dimensions: those of all hinges
-  /// (`dimension` components and, in the plane, the torque of the spring), of all springs and of all
-  /// arms.
+  /// (`dimension` components and, in the plane, the torque of the spring), of all springs and of
+  /// all arms.
   std::size_t force_count(int dimension) const {
     return hinges.size() * forces_of_hinge(dimension) + springs.size() + arms.size();
   }

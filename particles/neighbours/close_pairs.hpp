@@ -1,6 +1,6 @@
 // Finds all pairs of close particles by cell lists, for any ratio of radii. Memory grows with the
 // number of particles and pairs, and time also with the number of grids. All lengths are in one
-// unit.
+// unit. A change must keep the order of the pairs, on which the results of a simulation depend.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,9 @@ struct ClosePair {
   bool operator==(const ClosePair&) const = default;
 };
 
-/// All pairs with |x_i - x_j| < e_i + e_j, in order of first, then second. `positions`: a flat
-/// array of `dimension` (1, 2 or 3) finite numbers for each particle [L]. `extents`: e > 0 of each
-/// particle [L].
+/// All pairs of particles i and j with |x_i - x_j| < e_i + e_j, in order of first, then second,
+/// where x are the positions and e the extents. `positions` is a flat array of `dimension` (1, 2 or
+/// 3) finite numbers for each particle [L]. `extents` has a number > 0 for each particle [L].
 ///
 /// Particles whose extents are within the same factor of 2 share a grid, whose cells are twice as
 /// wide as the largest of these extents. Each particle looks for neighbours in its own grid and in

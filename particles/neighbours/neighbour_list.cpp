@@ -1,5 +1,6 @@
 // Checks whether the list of close pairs is still valid, and makes it again (docs/particles.md).
-// Units are those of neighbour_list.hpp.
+// Lengths are in the unit of the case. A change must keep the order of the pairs, on which the
+// results of a simulation depend.
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
 #include <fmt/format.h>
@@ -52,9 +53,9 @@ double half_shortest_period(const PeriodicCell& cell) {
   return shortest / 2;
 }
 
-/// The skin of particle k, at most as long as each pair of the list stays closer than a period, so
-/// that periods.hpp has a number for its image: r_i + 2 s_i + r_j + 2 s_j <= period. Throws
-/// Error(kNotConverged) if the particle moves further than this skin.
+/// The smaller of `skin` and the largest skin with which each pair of the list stays closer than a
+/// period, r_i + 2 skin_i + r_j + 2 skin_j <= period, so that periods.hpp has a number for its
+/// image. Throws Error(kNotConverged) if the particle moves further than this skin.
 double skin_within_period(const Particles& p, std::size_t k, double half_period, double skin,
                           double moved) {
   // A little less, because the rounding errors of positions add to the sum.
@@ -111,7 +112,8 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
           skin_within_period(p, k, half_period, state.skins[k], norm(displacement(k) - common));
     extents[k] = p.radii[k] + state.skins[k];
   }
-  // Of most pairs there is nothing to keep. Their memory is free while the search needs its own.
+  // Most pairs have nothing to keep. Only the others are copied, so that the memory of the old list
+  // is free while the search needs its own.
   std::vector<Pair> before;
   std::ranges::copy_if(state.pairs, std::back_inserter(before), [](const Pair& pair) {
     return pair.gamma < 0 || pair.impulse != 0 || pair.memory != PairMemories::kNone;

@@ -1,5 +1,6 @@
 // The pairs of a state as a graph of particles. When some gaps close, it serves to find which
-// further gaps may close in turn.
+// further gaps may close in turn. It holds numbers of pairs and particles only. The projection, the
+// fluid and the blows use it.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +34,8 @@ class PairsOfParticles {
     for_particles([&](std::size_t k, std::size_t f) { pairs_of_[next[k]++] = f; });
   }
 
-  /// The pairs of a particle. Pairs have their numbers in state.pairs; walls follow after them.
+  /// The numbers of the pairs of a particle. A pair has its number in state.pairs, from 0 on; the
+  /// numbers of state.walls follow after them.
   std::span<const std::size_t> of(std::int32_t particle) const {
     const auto k = index_of(particle);
     return std::span(pairs_of_).subspan(offsets_[k], offsets_[k + 1] - offsets_[k]);

@@ -1,4 +1,5 @@
-// Checks a case for errors before the tabulation starts, which can take hours.
+// Checks a case for errors before the tabulation starts, which can take hours. The main job calls
+// the checks. Gaps [L] are in the unit of the case.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// The copies of case, force files and fit in a run's folder.
+// The copies of case, force files and fit in a run's folder, so that the folder alone repeats the
+// run. A change must never let a copy replace a file of the user.
 #pragma once
 
 #include "viscontact/case_file/case_file.hpp"
@@ -16,7 +17,8 @@ bool holds_a_run(const results::RunFolder& run);
 /// with a run, that file is the copy that the earlier run made, and it may be replaced.
 void check_case_copies(const results::RunFolder& run, const case_file::Case& c);
 
-/// The same check for the copy of the fit.
+/// Throws Error(kBadInput) if a copy of the fit with this text would replace a file of the user, as
+/// check_case_copies() does for the case.
 void check_fit_copy(const results::RunFolder& run, const std::string& fit_text);
 
 /// Makes the folder of trajectories, then writes the copies. This order is needed, because

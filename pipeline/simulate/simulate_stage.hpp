@@ -1,5 +1,6 @@
 // The stage simulate: runs the models of motion on a case with a fit, and writes trajectories and
-// the record of failed models into a run's folder.
+// the record of failed models into a run's folder. Lengths, masses and times are in the units of
+// the case. The main job and the command `simulate` call it.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +19,8 @@ namespace viscontact::pipeline {
 
 /// A fit file: its path for messages, and its text.
 struct FitFile {
-  std::filesystem::path path;
-  std::string text;
+  std::filesystem::path path;  ///< of the file
+  std::string text;            ///< content of the file
 };
 
 /// The case file and the files of sampled forces that its motion reads.
@@ -34,8 +35,8 @@ std::vector<std::string> models_to_run(const case_file::Case& c,
 struct Simulated {
   std::string fit_text;   ///< text of the fit file
   CsvComments made_from;  ///< comments that identify case, fit and version (made_from.hpp)
-  std::vector<reduced_model::Trajectory> trajectories;
-  std::vector<results::FailedModel> failed;  ///< models without a trajectory
+  std::vector<reduced_model::Trajectory> trajectories;  ///< of the models that did not fail
+  std::vector<results::FailedModel> failed;             ///< models without a trajectory
   /// Effect of the fit's errors on the motion without inertia (JSON); empty if the fit is exact or
   /// the effect cannot be computed.
   std::string uncertainty;
@@ -66,11 +67,11 @@ struct SimulateRequest {
   /// Path of the fit. If it is empty, the fit is the one that the case names, or the exact drag if
   /// the case asks for it, or fit.json in `folder`.
   std::string fit;
-  std::filesystem::path folder;     ///< the run's folder
-  std::vector<std::string> models;  ///< names of models; empty: see models_to_run
-  lubrication::OutsideInterval outside;
-  StopToken stop{};
-  std::string remedy{};  ///< what the error says that the user can do if there is no fit
+  std::filesystem::path folder;          ///< the run's folder
+  std::vector<std::string> models;       ///< names of models; empty: see models_to_run
+  lubrication::OutsideInterval outside;  ///< drag outside the interval of the fit
+  StopToken stop{};                      ///< a stop throws Error(kInterrupted)
+  std::string remedy{};  ///< what the user can do if there is no fit, for the message
 };
 
 /// Runs the models and writes their trajectories and the copies of case and fit into the run's

@@ -11,10 +11,10 @@
 
 namespace viscontact::pipeline {
 
-/// The gaps of the case that are meant by `asked`, in the same order: each of these has a relative
-/// difference of at most 1e-6 to a gap of the case. If `asked` is empty, the result is the
-/// smallest, the middle and the largest gap. Throws Error(kBadInput) that names the nearest gap for
-/// a number that is not a gap of the case.
+/// The gaps of the case that the numbers `asked` [L] mean, in the same order. A number means a gap
+/// from which it differs by at most 1e-6 of it, because names of files have seven digits. If
+/// `asked` is empty, the result is the smallest, the middle and the largest gap. Throws
+/// Error(kBadInput), which names the nearest gap, for a number that is not a gap of the case.
 std::vector<double> gaps_to_picture(const freefem_axi::Tabulation& tabulation,
                                     const std::vector<double>& asked);
 

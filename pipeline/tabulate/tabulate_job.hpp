@@ -1,4 +1,5 @@
-// Submits a tabulation to the workload manager Slurm as one array job (docs/cluster.md).
+// Submits a tabulation to the workload manager Slurm as one array job (docs/cluster.md). The
+// command `tabulate --launcher slurm` calls it.
 #pragma once
 
 #include <vector>

@@ -5,18 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
-#include <map>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
-#include "viscontact/freefem_axi/collinear_spheres.hpp"
 #include "viscontact/freefem_axi/force_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
-#include "viscontact/freefem_axi/motions/motion_table_plan.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/terminal/progress.hpp"
 
@@ -172,33 +168,6 @@ RowFailure for_each_table(const std::vector<CaseTable>& tables, const StopToken&
   return all;
 }
 
-/// The tables of all motions of a tabulation.
-std::vector<CaseTable> tables_of(const fs::path& case_path, const std::string& text,
-                                 const freefem_axi::Tabulation& tabulation,
-                                 const MotionTablePath& path_of) {
-  using lubrication::MotionKind;
-  std::vector<CaseTable> tables;
-  if (std::ranges::find(tabulation.motions, MotionKind::kApproach) != tabulation.motions.end())
-    tables.push_back({case_path,
-                      text,
-                      path_of(MotionKind::kApproach),
-                      freefem_axi::force_table_plan(tabulation),
-                      tabulation,
-                      {{MotionKind::kApproach, path_of(MotionKind::kApproach)}}});
-  for (const auto group : freefem_axi::motion_groups(tabulation)) {
-    const auto asked = freefem_axi::asked_motions(tabulation, group);
-    auto& one =
-        tables.emplace_back(CaseTable{case_path,
-                                      text,
-                                      path_of(asked.front()),
-                                      freefem_axi::motion_table_plan(tabulation, group, path_of),
-                                      tabulation,
-                                      {}});
-    for (const auto motion : asked) one.motions.emplace_back(motion, path_of(motion));
-  }
-  return tables;
-}
-
 }  // namespace
 
 CaseTable case_table(const case_file::Case& c, const fs::path& table) {
@@ -212,64 +181,6 @@ CaseTable case_table(const case_file::Case& c, const fs::path& table) {
   return {c.path,     c.text,
           table,      freefem_axi::force_table_plan(tabulation),
           tabulation, {{lubrication::MotionKind::kApproach, table}}};
-}
-
-CaseTable case_table(const case_file::SwimmerCase& c, const fs::path& table) {
-  return {c.path, c.text, table, freefem_axi::resistance_table_plan(c.spheres, c.gaps), {}, {}};
-}
-
-std::vector<CaseTable> case_tables(const case_file::RollingCase& c,
-                                   const MotionTablePath& path_of) {
-  return tables_of(c.path, c.text, c.tabulation.value(), path_of);
-}
-
-std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
-                                        const fs::path& output,
-                                        const std::vector<std::string>& motions) {
-  const auto name_of = [&](const std::string& file) {
-    return case_files.size() == 1 ? output : output / fs::path(file).stem();
-  };
-  const auto csv_of = [&](const std::string& file) {
-    return case_files.size() == 1 ? output : fs::path(name_of(file).string() + ".csv");
-  };
-  std::map<fs::path, std::string> case_of;
-  for (const auto& file : case_files)
-    if (const auto [other, is_new] = case_of.insert({name_of(file), file}); !is_new)
-      throw Error(ErrorKind::kWrongUsage,
-                  fmt::format("{} and {} would both be tabulated to {}; rename one of them",
-                              other->second, file, csv_of(file).string()));
-  std::vector<CaseTable> tables;
-  for (const auto& file : case_files) {
-    const auto name = name_of(file), csv = csv_of(file);
-    const auto kind = case_file::kind_of_case(file);
-    if (kind == case_file::CaseKind::kSwimmer) {
-      if (!motions.empty())
-        throw Error(ErrorKind::kWrongUsage,
-                    fmt::format("--motion: {} is a case of a swimmer, whose spheres move along "
-                                "the axis",
-                                file));
-      tables.push_back(case_table(case_file::read_swimmer_case(file), csv));
-      continue;
-    }
-    auto tabulation =
-        kind == case_file::CaseKind::kRolling
-            ? case_file::read_rolling_case(file).tabulation
-            : std::optional(case_file::required_tabulation(case_file::read_case(file)));
-    if (!tabulation)
-      throw Error(ErrorKind::kBadInput,
-                  fmt::format("{}: the section [tabulation] is missing", file));
-    if (!motions.empty())
-      tabulation->motions = with_place(
-          "--motion", [&] { return freefem_axi::parse_motions(motions, tabulation->geometry); });
-    const bool several = tabulation->motions.size() > 1;
-    // The plans keep this function, so it must not refer to variables of this one.
-    const auto path_of = [=](lubrication::MotionKind motion) {
-      return several ? name / (std::string(to_string(motion)) + ".csv") : csv;
-    };
-    std::ranges::move(tables_of(file, read_file(file), *tabulation, path_of),
-                      std::back_inserter(tables));
-  }
-  return tables;
 }
 
 std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<CaseTable>& tables,

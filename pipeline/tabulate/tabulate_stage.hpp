@@ -1,17 +1,15 @@
 // The stage tabulate: the tables of one or several cases. This process computes the rows, or each
 // task of a job on a cluster computes a share of them; then gather_stage puts the tables together.
+// Numbers are in the units of each case. A change must keep finished rows: they can take hours.
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "viscontact/case_file/case_file.hpp"
-#include "viscontact/case_file/rolling/rolling_case.hpp"
-#include "viscontact/case_file/swimmer/swimmer_case.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/freefem_axi/journal/table_plan.hpp"
@@ -21,10 +19,10 @@ namespace viscontact::pipeline {
 
 /// A case, the file for its table, and how the table is computed.
 struct CaseTable {
-  std::filesystem::path case_path;
-  std::string case_text;  ///< content of the case file
-  std::filesystem::path table;
-  freefem_axi::TablePlan plan;
+  std::filesystem::path case_path;  ///< the case file
+  std::string case_text;            ///< content of the case file
+  std::filesystem::path table;      ///< the file for the table
+  freefem_axi::TablePlan plan;      ///< the rows, and how they are computed, written and read
   /// What the table of forces on one sphere is made from; nothing for a swimmer.
   std::optional<freefem_axi::Tabulation> tabulation;
   /// The motions of the table and of its companion, with their files; none for a swimmer.
@@ -35,26 +33,6 @@ struct CaseTable {
 /// or one with other motions.
 CaseTable case_table(const case_file::Case& c, const std::filesystem::path& table);
 
-/// The table of resistance matrices of a swimmer's case.
-CaseTable case_table(const case_file::SwimmerCase& c, const std::filesystem::path& table);
-
-/// The file for the table of a motion.
-using MotionTablePath = std::function<std::filesystem::path(lubrication::MotionKind)>;
-
-/// The tables of all motions of a case, which must have the section [tabulation]. A table of
-/// sliding has that of rolling as its companion.
-std::vector<CaseTable> case_tables(const case_file::RollingCase& c, const MotionTablePath& path_of);
-
-/// Reads the cases. For one case of one motion, `output` is the file of the table; for one case of
-/// several motions it is a folder with a table MOTION.csv for each. For several cases it is a
-/// folder with CASE.csv or CASE/MOTION.csv, after the names of the case files. `motions`, unless it
-/// is empty, replaces the key `motion` of the cases (parse_motions). Throws Error(kWrongUsage) if
-/// two tables would have the same name, and Error(kBadInput) as read_case and read_swimmer_case do
-/// or if a case has neither [tabulation] nor [swimmer].
-std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
-                                        const std::filesystem::path& output,
-                                        const std::vector<std::string>& motions = {});
-
 /// The points of each table's grid that belong to the share. The rows of all tables are numbered in
 /// one sequence from 0.
 std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<CaseTable>& tables,
@@ -64,8 +42,9 @@ std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<Case
 /// throws it when everything that can be made from the other rows is made.
 using RowFailure = std::optional<Error>;
 
-/// Calls `call`. If rows have failed, an Error that it throws is thrown with the kind and the
-/// message of their failure first, because they may be its cause. kInterrupted is left as it is.
+/// Calls `call`. If `call` throws an Error although rows have failed before, the Error is thrown
+/// with the kind of that failure and its message first, because the failed rows may be the cause.
+/// Error(kInterrupted) is thrown unchanged.
 template <class Call>
 void with_failure(const RowFailure& failure, const Call& call) {
   try {

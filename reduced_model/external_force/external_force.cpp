@@ -1,6 +1,6 @@
 // Sums of piecewise polynomials (polynomial.hpp) and sinusoids, and the search for their changes of
-// sign. Units are those of external_force.hpp. A change must keep the form of the sums, in which
-// short intervals and small arguments lose no digits.
+// sign. Lengths, masses and times are in any one consistent system of units. A change must keep the
+// form of the sums, in which short intervals and small arguments lose no digits.
 #include "viscontact/reduced_model/external_force/external_force.hpp"
 
 #include <fmt/format.h>
@@ -114,7 +114,7 @@ ExternalForce ExternalForce::stretched(double factor) const {
 }
 
 void ExternalForce::sum_up() {
-  // The piece before a piece of the length of a rounding error lasts until the end of the latter.
+  // A piece as short as a rounding error is left out: the piece before it lasts until its end.
   for (std::size_t i = 1; i + 1 < pieces_.size();)
     if (are_one_time(pieces_[i].from, pieces_[i + 1].from))
       pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(i));

@@ -12,7 +12,7 @@
 
 namespace viscontact::reduced_model {
 
-/// Whether two times > 0 [T] differ by rounding errors only, as 0.1 + 0.2 and 0.3 do. CVODE cannot
+/// True if two times > 0 [T] differ by rounding errors only, as 0.1 + 0.2 and 0.3 do. CVODE cannot
 /// integrate over so short an interval.
 inline bool are_one_time(double a, double b) {
   return std::abs(a - b) <=
@@ -68,8 +68,8 @@ class ExternalForce {
   /// Mean of f_ext over [from, to] [M L/T^2], 0 <= from < to.
   double mean(double from, double to) const;
 
-  /// The times at which f_ext or its slope jumps, in increasing order. No two of them are
-  /// are_one_time().
+  /// The times at which f_ext or its slope jumps, in increasing order. are_one_time() is false for
+  /// any two of them.
   std::vector<double> jumps() const;
 
   /// The times in (0, end) at which f_ext changes its sign, by a jump or through 0, in increasing
@@ -99,7 +99,7 @@ class ExternalForce {
 /// is constant.
 class ForceWalk {
  public:
-  /// Begins at time 0. `force` must outlive the object.
+  /// The walk begins at time 0. `force` must outlive the object.
   explicit ForceWalk(const ExternalForce& force) : force_(force) { enter(0); }
 
   /// The force at `time` [T], >= 0 [M L/T^2].

@@ -1,5 +1,6 @@
-// Polynomials c0 + c1 tau + c2 tau^2 + ..., given by their coefficients. A change must keep the
-// order of operations, because trajectories depend on these sums to the last digit.
+// Polynomials c0 + c1 tau + c2 tau^2 + ..., given by their coefficients; numbers have any
+// dimension. External forces and the states of CVODE within a step are such polynomials. A change
+// must keep the order of operations, because trajectories depend on these sums to the last digit.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +27,7 @@ inline double value(std::span<const double> coefficients, double tau) {
   return horner(coefficients, tau, 0, [](double c, double) { return c; });
 }
 
-/// Its derivative at tau.
+/// The derivative of the polynomial at tau.
 inline double slope(std::span<const double> coefficients, double tau) {
   return horner(coefficients, tau, 1, [](double c, double k) { return k * c; });
 }

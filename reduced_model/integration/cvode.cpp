@@ -130,9 +130,8 @@ void Cvode::step() {
   if (code >= 0 && (!(time_ > before) || ++steps_since_restart_ > kMostSteps))
     code = CV_TOO_MUCH_WORK;
   if (code < 0 && system_error_) {
-    // CVODE reports its own last failure. If it did not get further than the relative distance
-    // kNoWay beyond the time at which the system was not defined, the Error of the system is the
-    // cause.
+    // CVODE reports its own last failure. If CVODE did not get further than the relative distance
+    // kNoWay beyond the time at which the system threw an Error, that Error is the cause.
     constexpr double kNoWay = 1e-9;
     double reached = 0;
     check(CVodeGetCurrentTime(sundials_->memory, &reached), "CVodeGetCurrentTime");

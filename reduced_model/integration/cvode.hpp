@@ -1,7 +1,8 @@
-// A C++ interface to the integrator CVODE of SUNDIALS (Hindmarsh et al. 2005). Every return code of
-// SUNDIALS is checked in cvode.cpp and nowhere else. This header must include no header of
-// SUNDIALS: those of Debian 13 need the headers of MPI, which the tests and users of an installed
-// Viscontact would then have to find.
+// A C++ interface to the integrator CVODE of SUNDIALS (Hindmarsh et al. 2005), for the models
+// `inertial` and `rolling`. Times are in [T]; the components of a state may have any dimensions.
+// Every return code of SUNDIALS is checked in cvode.cpp and nowhere else. This header must include
+// no header of SUNDIALS: those of Debian 13 need the headers of MPI, which the tests and users of
+// an installed Viscontact would then have to find.
 #pragma once
 
 #include <exception>
@@ -20,9 +21,9 @@ struct StiffSystem {
   /// Computes f(t, y).
   std::function<void(double time, std::span<const double> y, std::span<double> derivative)>
       derivative;
-  /// Stored by columns: entry (i, j) = d f_i/d y_j.
+  /// Computes the Jacobian, stored by columns: entry (i, j) = d f_i/d y_j.
   std::function<void(double time, std::span<const double> y, std::span<double> jacobian)> jacobian;
-  /// The error that is allowed in a step, for each component, > 0.
+  /// Computes the error that is allowed in a step, for each component, > 0.
   std::function<void(double time, std::span<const double> y, std::span<double> allowed)> tolerance;
   /// The key of the case file that sets the tolerance, for messages.
   std::string tolerance_key = "inertial.relative_tolerance";

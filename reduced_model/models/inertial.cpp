@@ -96,7 +96,7 @@ class InertialRun {
 
   void restart(double first_step) { cvode_.restart(now_, stop_, first_step); }
 
-  /// Reverses the velocity at the solids, at the time now_, and goes on from there.
+  /// Makes the rebound from the solids at the time now_, and continues the integration after it.
   void strike_solids() {
     const double before = std::min(0.0, velocity_at_solids()), m = motion_.mass;
     const double restitution = motion_.restitution();
@@ -110,7 +110,7 @@ class InertialRun {
     solid_impulse_ += m * (after - before);
     solid_work_ += m / 2 * (after - before) * (after + before);
     if (before < 0) {
-      // What the drag takes between the initial gap and the solids.
+      // The impulse that the drag takes between the initial gap and the solids.
       const double film = (force_.impulse(motion_.initial_gap) - force_.impulse(solid_gap_)) / m;
       const double approach = before - film, leaving = std::max(0.0, after - film);
       trajectory_.rebounds.push_back({now_, approach, -m * before, leaving, leaving / -approach});
@@ -122,12 +122,12 @@ class InertialRun {
       restart(0);
   }
 
-  /// (P - Gamma)/m at the solids [L/T].
+  /// The velocity (P - Gamma)/m [L/T] at the gap of the solids.
   double velocity_at_solids() const {
     return (equation_.momentum(now_) - force_.impulse(solid_gap_)) / motion_.mass;
   }
 
-  /// Whether the force until the next stop, where it changes its sign or jumps, pulls the sphere.
+  /// True if the force pulls the sphere until the next stop, where it changes its sign or jumps.
   bool leaves_solids() {
     if (!(motion_.external_force.mean(now_, stop_) > 0)) return false;
     rests_ = false;
@@ -147,8 +147,9 @@ class InertialRun {
     now_ = last_stop_ = stop;
   }
 
-  /// The work of the force is the sum over the rows of its mean times the change of the gap, of second
-  /// order in their spacing; the film has the rest.
+  /// The work of the external force is the sum over the rows of the mean force times the change of
+  /// the gap, with an error of second order in the spacing of the rows. The work of the film is
+  /// what then balances the energy.
   MomentumEnergyBudget budget() const {
     MomentumEnergyBudget budget;
     const auto& rows = trajectory_.rows;
@@ -228,7 +229,7 @@ class InertialRun {
   const lubrication::LubricationForce& force_;
   double solid_gap_;
   double solid_impulse_ = 0, solid_work_ = 0;  // of the solids on the sphere
-  bool rests_ = false;                         // on the solids
+  bool rests_ = false;                         // true while the sphere rests on the solids
   InertialEquation equation_;
   double now_ = 0;  // end of the last step, or time of the restart
   Cvode cvode_;

@@ -1,5 +1,7 @@
-// The motion of the sphere with its inertia and the whole drag, integrated by CVODE. Lengths,
-// masses and times are in any one consistent system of units.
+// The motion of the sphere with its inertia and the whole drag, integrated by CVODE: the models
+// `inertial`, with which all others are compared, and `inertial_rough`. q is the gap, u = dq/dt the
+// velocity, m the mass, R the resistance, f_ext the external force. Lengths, masses and times are
+// in any one consistent system of units. A change of results must raise kModelsRevision.
 #pragma once
 
 #include <array>
@@ -24,16 +26,16 @@ inline constexpr std::array kInertialParameters = {kReferenceTimeStep, kRelative
 
 /// Integrates problem (M) (physics.md (4.1)) with CVODE, in the form (S) of inertial_equation.hpp.
 ///
-/// The equation is stiff, because the film damps at the rate R/m. Errors of s decay in the film and
-/// do not add up. The first integral is satisfied by construction, so that it cannot check this
-/// model. The model is checked by exact states (data/reference/limit_case_states.csv) and by an
-/// integration of (M) in extended precision.
+/// The unknown is s = ln(q/r), with the radius r. The equation is stiff, because the film damps at
+/// the rate R/m. Errors of s decay in the film and do not add up. The first integral is satisfied
+/// by construction, so that it cannot check this model. The model is checked by exact states
+/// (data/reference/limit_case_states.csv) and by an integration of (M) in extended precision.
 ///
 /// CVODE stops and restarts where f_ext or its slope jumps. The rows are at the multiples of
 /// reference.time_step, at the jumps, and where u = 0 (the extrema of q). The error of s in a step
-/// is at most a tenth of inertial.relative_tolerance, and 3e-4 of that in free flight. If a film
-/// stops a fall in less than 1e-12 t, a time that no step can resolve, the sphere is put into that
-/// film at once.
+/// is at most a tenth of inertial.relative_tolerance, and in free flight 3e-4 times that. If the
+/// film would stop a fall within 1e-12 t of the time t, which no step can resolve, the sphere is
+/// put into the thinnest film of that fall at once.
 ///
 /// Throws Error(kNotConverged) if CVODE gives up, and Error(kBadInput) if the motion leaves the
 /// interval of the fit.
@@ -49,7 +51,8 @@ inline constexpr std::array kInertialRoughParameters = {kReferenceTimeStep, kRel
 /// Without roughness this is simulate_inertial().
 ///
 /// The velocities of Trajectory::rebounds are those that the sphere would have at the initial gap
-/// without external force, before and after the impact; 0 if the film stops it before.
+/// without external force, before and after the impact; the latter is 0 if the film stops the
+/// sphere before it gets there.
 ///
 /// Throws the errors of simulate_inertial(), and Error(kBadInput) if the initial gap is not greater
 /// than r1 + r2.

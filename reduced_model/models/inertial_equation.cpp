@@ -1,5 +1,6 @@
-// Equation (S), the tolerances of its integration, and the velocity that belongs to a state.
-// Equations and units are those of inertial_equation.hpp.
+// The equation (S) of inertial_equation.hpp for s = ln(q/r), the tolerances of its integration, and
+// the velocity that belongs to a state. Lengths, masses and times are in any one consistent system
+// of units.
 #include "viscontact/reduced_model/models/inertial_equation.hpp"
 
 #include <algorithm>
@@ -46,8 +47,8 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
   // s is a logarithm, so its absolute error is the relative error of the gap. Only a tenth of the
   // user's tolerance is allowed in a step, which leaves room for the errors of the steps before. In
   // free flight the film damps errors too slowly to forget them before the motion ends, and a
-  // landing, in which ln q changes fast, multiplies errors of time. There only the fraction
-  // kFlightShare is allowed.
+  // landing, in which ln q changes fast, multiplies errors of time. In free flight only the
+  // fraction kFlightShare is therefore allowed.
   system.tolerance = [this](double t, std::span<const double> y, std::span<double> allowed) {
     constexpr double kShare = 0.1, kFlightShare = 3e-4;
     // If the motion lasts more than this many damping times, errors decay before its end.
@@ -70,8 +71,8 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   const double momentum_error = (kEpsilon * (std::abs(momentum(t)) + std::abs(absorbed)) +
                                  relative_tolerance_ * resistance * q) /
                                 m;
-  // With so much inertia, and at least three digits in the momentum, the balance below has fewer
-  // digits than the momentum, whatever the tolerance.
+  // If inertia is this important and the momentum has at least three digits, the velocity from the
+  // momentum is more exact than that from the balance below.
   constexpr double kMuchInertia = 1e-2;
   if (m * std::abs(by_momentum) > kMuchInertia * resistance * q &&
       std::abs(by_momentum) > 1e3 * momentum_error)

@@ -1,11 +1,13 @@
 // The equation of motion of the sphere with its inertia, by its first integral (physics.md (4.1),
-// (4.2)). Lengths, masses and times are in any one consistent system of units.
+// (4.2)). q is the gap, r the radius, m the mass, R the resistance, Gamma its primitive, f_ext the
+// external force. Lengths, masses and times are in any one consistent system of units. The models
+// `inertial` and `inertial_rough` integrate it, and rolling/ along its normal.
 //
 //     m d^2q/dt^2 = -R(q) dq/dt + f_ext(t)                                           (M)
 //     m u + Gamma(q) = P(t) := m u0 + Gamma(q0) + int_0^t f_ext,   u = dq/dt         (I)
 //     ds/dt = (P(t) - Gamma(q))/(m q),   q = r e^s                                   (S)
 //
-// (I) is exact, because Gamma' = R. What remains is the equation (S) of first order in s = ln(q/r).
+// (I) is exact, because dGamma/dq = R. It leaves the equation (S) of first order in s = ln(q/r).
 // A change of this file must keep that gaps are above 0 whatever the error of s, that P is
 // continuous where f_ext jumps, and that s contains the radius r, which makes the error weights of
 // CVODE, and so its steps, independent of the unit of length.
@@ -46,10 +48,11 @@ class InertialEquation {
   /// The state of the sphere at time t and gap q.
   ///
   /// The velocity is (P - Gamma)/m. In a film so thin that m/R is much shorter than all other
-  /// times, this difference loses its digits. There the velocity is the balance of drag and force
-  /// with its first correction for inertia, u = u_0 - (m/R) du_0/dt with u_0 = f/R, provided that
-  /// both values agree to within four times the error bound of the former. `force_time` is t, or a
-  /// time just before t where f_ext jumps at t, because the velocity does not jump.
+  /// times, this difference loses its digits. In such a film the velocity follows from the balance
+  /// of drag and force with its first correction for inertia, u = u_0 - (m/R) du_0/dt with u_0 =
+  /// f_ext/R, provided that both values agree to within four times the error bound of the former.
+  /// `force_time` is t, or a time just before t if f_ext jumps at t, because the velocity does not
+  /// jump.
   InertialInstant instant(double t, double gap, double force_time) const;
 
   /// The first step [T] that CVODE should try after a restart at time t and gap q; 0 leaves the
@@ -60,8 +63,8 @@ class InertialEquation {
   /// The state s in which the forces at time t are balanced as exactly as (I) allows.
   double balanced_state(double t, double gap) const;
 
-  /// True if the rest of a fall takes less time than the rounding of t. The film of thickness
-  /// Gamma^{-1}(P), to which `film` [L] is set, then takes all the momentum at once.
+  /// True if the rest of a fall takes less time than the rounding of t. `film` [L] is then set to
+  /// the gap Gamma^{-1}(P(t)), at which the film has taken all the momentum.
   bool lands_at_once(double t, const InertialInstant& now, double& film) const;
 
   /// The smallest ratio of a step to the time t that CVODE can resolve.

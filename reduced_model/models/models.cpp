@@ -1,5 +1,5 @@
 // The registry of models, the suffixes of their names, and the budget of models whose film is the
-// whole drag. Units are those of models.hpp.
+// whole drag. Lengths, masses and times are in any one consistent system of units.
 #include "viscontact/reduced_model/models/models.hpp"
 
 #include <fmt/format.h>

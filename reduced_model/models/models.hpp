@@ -1,6 +1,7 @@
-// The registry of models of motion. A new model needs its own source and a row in models.cpp.
-// Lengths, masses and times are in any one consistent system of units. A change must keep the names
-// of models, which case files contain.
+// The registry of models of motion. A new model needs its own source and a row in models.cpp
+// (docs/extending.md); commands, help, sweeps and the report learn of it from there. Lengths,
+// masses and times are in any one consistent system of units. A change must keep the names of
+// models, which case files contain.
 #pragma once
 
 #include <optional>
@@ -21,19 +22,19 @@ namespace viscontact::reduced_model {
 struct Model {
   std::string_view name;         ///< as users type it; the stem of its trajectory file
   std::string_view description;  ///< a line for --help and legends
-  /// Null for a contact model that run_contact_model() runs.
+  /// Computes the trajectory; null for a contact model, which run_contact_model() runs.
   Trajectory (*simulate)(const Motion&, const lubrication::LubricationForce&);
   /// Makes the contact model; null if this is not a contact model.
   MakeContactModel contact = nullptr;
-  /// True if it runs when a case names no models.
+  /// True if the model runs when a case names no models.
   bool by_default = true;
-  /// True if its motion depends on the mass.
+  /// True if the motion depends on the mass.
   bool inertia = true;
-  /// True if its motion depends on the drag of the fluid.
+  /// True if the motion depends on the drag of the fluid.
   bool fluid = true;
-  /// The parameters that it reads; all of them have a value in the motion of a case.
+  /// The parameters that the model reads; all of them have a value in the motion of a case.
   std::span<const ModelParameter> parameters;
-  /// The parameter that is its time step; null if it has no fixed one.
+  /// The parameter that is the model's time step; null if it has no fixed step.
   const ModelParameter* time_step = nullptr;
   /// What trajectory files state as the time step if the model has no fixed one.
   std::string_view steps = "variable";
@@ -65,7 +66,8 @@ std::string reference_of(const std::vector<std::string>& names);
 /// The parameters of all models, each once, in the order of the models.
 std::vector<ModelParameter> model_parameters();
 
-/// The sections of a case that these parameters and the roughness are in, each once, in this order.
+/// The sections of a case that contain these parameters and the roughness, each once, in the order
+/// of the models.
 std::vector<std::string_view> model_sections();
 
 /// Suffix of the name of a model that runs with the exact drag (lubrication/plane_drag.hpp) in
@@ -88,7 +90,8 @@ struct ModelChoice {
 /// The model with this name, which may have suffixes; nothing if there is none.
 std::optional<ModelChoice> known_model(std::string_view name);
 
-/// The same. Throws Error(kBadInput), which lists the names, if there is none.
+/// The model with this name, which may have suffixes. Throws Error(kBadInput), which lists the
+/// names, if there is none.
 ModelChoice find_model(std::string_view name);
 
 /// False if the number of the case at this key, such as "viscous_contact.roughness[0]", cannot
@@ -109,7 +112,7 @@ Motion motion_of(const ModelChoice& choice, const Motion& motion);
 ContactModel contact_model_of(const ModelChoice& choice, const Motion& motion,
                               const lubrication::LubricationForce& force);
 
-/// A line for legends.
+/// The description of the model and of its suffixes, a line for legends.
 std::string description_of(const ModelChoice& choice);
 
 /// Throws the same Error(kBadInput) as simulate() would for numbers of the motion that it refuses,

@@ -1,5 +1,6 @@
 // The interval of gaps that a motion needs, which a table has to cover. Lengths are in the units of
-// the case.
+// the case. `run` warns by it before a tabulation, and the message of a motion that left its fit's
+// interval says how far to tabulate.
 #pragma once
 
 #include <optional>
@@ -8,7 +9,7 @@
 
 namespace viscontact::reduced_model {
 
-/// The smallest and the largest gap [L] at which a model evaluates the whole drag R in a motion.
+/// The smallest and the largest gap [L] at which a model evaluates the whole drag in a motion.
 struct ReachedGaps {
   /// Nothing for a model that evaluates no drag in a thin film.
   std::optional<double> smallest;

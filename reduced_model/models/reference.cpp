@@ -1,5 +1,6 @@
-// The loop over time of the model `reference`. Scheme and units are those of reference.hpp. A
-// change of its results must raise kModelsRevision.
+// The loop over time of the model `reference`, by the scheme of reference.hpp. Lengths, masses and
+// times are in any one consistent system of units. A change of its results must raise
+// kModelsRevision.
 #include "viscontact/reduced_model/models/reference.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-// The reference solution of the lecture (physics.md (4.3)): no inertia, explicit Euler. Lengths,
+// The model `reference`, the lecture's reference solution (physics.md (4.3)): no inertia, explicit
+// Euler. q is the gap, u the velocity, F_lub the lubrication force, R the resistance. Lengths,
 // masses and times are in any one consistent system of units.
 #pragma once
 
@@ -13,9 +14,9 @@ namespace viscontact::reduced_model {
 ///     F_lub(q^n, u^n) + f^n = 0,   that is u^n = f^n / R(q^n),
 ///     q^{n+1} = q^n + h u^n,
 ///
-/// f^n is the mean of f_ext over the step and h = reference.time_step. The scheme is of first order
-/// in h. The film that it computes is too thin. Throws Error(kNotConverged) if a step goes through
-/// the wall, and Error(kBadInput) if the motion leaves the fit's interval.
+/// where f^n is the mean of the external force over step n and h = reference.time_step. The scheme
+/// is of first order in h. The film that it computes is too thin. Throws Error(kNotConverged) if a
+/// step goes through the wall, and Error(kBadInput) if the motion leaves the fit's interval.
 Trajectory simulate_reference(const Motion& motion, const lubrication::LubricationForce& force);
 
 }  // namespace viscontact::reduced_model

@@ -1,6 +1,7 @@
 // Interpolates a flow at the points of a grid (flow_grid.hpp). A quadratic triangle is found by the
 // four straight triangles between its six nodes; the value at the point is that of the quadratic
-// shape functions. The numbering of the nodes is that of FlowField.
+// shape functions. The numbering of the nodes is that of FlowField. Lengths, masses and times are
+// in the units of the case.
 #include "viscontact/report/flow/flow_grid.hpp"
 
 #include <algorithm>
@@ -72,10 +73,10 @@ void for_each_pixel(const std::array<double, 3>& x, const std::array<double, 3>&
 /// of one of its images, which lies `shift` beside it. `shape` are the values of the shape
 /// functions of the six `nodes` at the point.
 template <class Visit>
-void for_each_point(const QuadraticMesh& mesh, const Grid& grid,
-                    const particles::PeriodicCell& cell, const Visit& visit) {
+void for_each_point(const QuadraticMesh& mesh, const Grid& grid, const FlowPeriods& periods,
+                    const Visit& visit) {
   const auto window = grid.pixel_window();
-  const auto shifts_x = shifts(cell.lengths[0]), shifts_y = shifts(cell.lengths[1]);
+  const auto shifts_x = shifts(periods.lengths[0]), shifts_y = shifts(periods.lengths[1]);
   for (const auto& nodes : mesh.triangles)
     for (const double shift_x : shifts_x)
       for (const double shift_y : shifts_y)
@@ -86,16 +87,15 @@ void for_each_point(const QuadraticMesh& mesh, const Grid& grid,
             x[i] = mesh.x[node] + shift_x;
             y[i] = mesh.y[node] + shift_y;
           }
-          for_each_pixel(x, y, window, grid.columns, grid.rows,
-                         [&](std::size_t point, double w1, double w2) {
-                           const std::size_t p = part[0], q = part[1], r = part[2];
-                           const auto at = [&](std::size_t d) {
-                             return kReference[p][d] + w1 * (kReference[q][d] - kReference[p][d]) +
-                                    w2 * (kReference[r][d] - kReference[p][d]);
-                           };
-                           visit(point, nodes, shape_functions(at(0), at(1)),
-                                 particles::Vector{shift_x, shift_y, 0});
-                         });
+          for_each_pixel(
+              x, y, window, grid.columns, grid.rows, [&](std::size_t point, double w1, double w2) {
+                const std::size_t p = part[0], q = part[1], r = part[2];
+                const auto at = [&](std::size_t d) {
+                  return kReference[p][d] + w1 * (kReference[q][d] - kReference[p][d]) +
+                         w2 * (kReference[r][d] - kReference[p][d]);
+                };
+                visit(point, nodes, shape_functions(at(0), at(1)), std::array{shift_x, shift_y});
+              });
         }
 }
 
@@ -111,12 +111,11 @@ Grid grid_of(const Window& window, std::size_t points) {
   return {window, count(columns), count(wanted / columns)};
 }
 
-FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid,
-                        const particles::PeriodicCell& cell) {
+FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPeriods& periods) {
   FlowOnGrid found;
   for (auto* field : {&found.velocity_x, &found.velocity_y, &found.pressure})
     field->assign(grid.size(), kNoFlow);
-  for_each_point(flow, grid, cell,
+  for_each_point(flow, grid, periods,
                  [&](std::size_t point, const auto& nodes, const auto& shape, const auto& shift) {
                    double u = 0, v = 0, pressure = 0;
                    for (std::size_t i = 0; i < shape.size(); ++i) {
@@ -125,9 +124,9 @@ FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid,
                      v += shape[i] * flow.velocity_y[node];
                      pressure += shape[i] * flow.pressure[node];
                    }
-                   const auto added = velocity_at(cell, shift);
-                   found.velocity_x[point] = u + added[0];
-                   found.velocity_y[point] = v + added[1];
+                   const auto& g = periods.gradient;
+                   found.velocity_x[point] = u + (g[0] * shift[0] + g[1] * shift[1]);
+                   found.velocity_y[point] = v + (g[2] * shift[0] + g[3] * shift[1]);
                    found.pressure[point] = pressure;
                  });
   return found;

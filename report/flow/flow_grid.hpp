@@ -2,11 +2,11 @@
 // the units of the case.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "viscontact/common/vtk/flow_field.hpp"
-#include "viscontact/particles/domain/periods.hpp"
 
 namespace viscontact::report {
 
@@ -36,7 +36,8 @@ struct Grid {
   }
 };
 
-/// A grid with about `points` points, which are about as far apart along x as along y.
+/// A grid of the window with about `points` points, which are about as far apart along x as along
+/// y.
 Grid grid_of(const Window& window, std::size_t points);
 
 /// Velocity [L/T] and pressure [M/(L T^2)] at the points of a grid, row by row from the bottom,
@@ -45,13 +46,19 @@ struct FlowOnGrid {
   std::vector<double> velocity_x, velocity_y, pressure;
 };
 
-/// Interpolates the flow by the shape functions of its quadratic triangles. The flow is repeated by
-/// the periods of `cell`, faster by its gradient times the period: its triangles need not lie in
-/// the cell (docs/fluid-solver.md).
-FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid,
-                        const particles::PeriodicCell& cell = {});
+/// How a flow is repeated in the plane.
+struct FlowPeriods {
+  std::array<double, 2> lengths{};  ///< periods along x and y [L]; 0 where there is no period
+  /// Mean velocity gradient du/dx, du/dy, dv/dx, dv/dy [1/T]: the velocity of a repeated flow
+  /// differs by the gradient times the period.
+  std::array<double, 4> gradient{};
+};
 
-/// Interpolates a field with these values at the nodes in the same way.
+/// Interpolates the flow by the shape functions of its quadratic triangles. The flow is repeated by
+/// `periods`, so that its triangles need not lie in the grid (docs/fluid-solver.md).
+FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPeriods& periods = {});
+
+/// Interpolates a field with these values at the nodes, as flow_on_grid() does without periods.
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
                                   const Grid& grid);
 

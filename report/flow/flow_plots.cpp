@@ -109,9 +109,9 @@ PlotView surroundings(const QuadraticMesh& mesh, double radius, double gap) {
 constexpr double kGapReach = 2.5;
 
 PlotView gap_view(const QuadraticMesh& mesh, double radius, double gap, double reach = kGapReach) {
-  constexpr double kOfSphere = 0.9;  // of the radius, at most
-  constexpr double kMargin = 0.08;   // of the height
-  constexpr double kFlattest = 0.4;  // of a view drawn at equal scales
+  constexpr double kOfSphere = 0.9;  // largest half width of the view, divided by the radius
+  constexpr double kMargin = 0.08;   // above and below the gap, divided by the height
+  constexpr double kFlattest = 0.4;  // least height over width of a view at equal scales
   const double half = std::min(reach * std::sqrt(2 * gap * radius), kOfSphere * radius);
   const double top = sphere_bottom(radius, gap, half);
   double bottom = 0;
@@ -222,7 +222,7 @@ std::vector<std::string> layout(const PlotView& view, double right, double below
            "fillstyle solid noborder")};
 }
 
-/// The motion, up to the number of its velocity.
+/// The part of a title that names the motion, and after which the number of its velocity follows.
 std::string motion_in_words(lubrication::MotionKind motion) {
   using lubrication::MotionKind;
   if (motion == MotionKind::kApproach) return " at velocity";

@@ -1,5 +1,5 @@
 // Pictures of one row of a tabulation: the mesh in the gap, the flow around the sphere and the flow
-// in the gap.
+// in the gap. Lengths, masses and times are in the units of the case. `tabulate --plot` makes them.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace viscontact::report {
 
-/// Each function returns one SVG in the units of the case. The half-plane is mirrored about the
-/// axis, so that the whole sphere is seen. If the gap is thin, heights are drawn larger than
-/// widths, and the title says so. The functions throw Error(kExternalProgram) if gnuplot is missing
-/// or fails.
+// Each function returns one SVG. The half-plane is mirrored about the axis, so that the whole
+// sphere is seen. If the gap is thin, heights are drawn larger than widths, and the title says so.
+// The functions throw Error(kExternalProgram) if gnuplot is missing or fails, and
+// Error(kInterrupted) if `stop` requests a stop.
 
 /// The finest mesh in the gap, and on it the coarsest mesh, each triangle of which was divided into
 /// 16 or more triangles of the finest mesh.

@@ -1,6 +1,7 @@
 // Solves for the stream function on a grid, follows its level lines, and simplifies them
 // (stream_lines.hpp). Points without fluid take part with a small weight, so that the matrix is
-// never singular and the fluid may consist of several regions.
+// never singular and the fluid may consist of several regions. Lengths and times are in the units
+// of the case.
 #include "viscontact/report/flow/stream_lines.hpp"
 
 #include <Eigen/SparseCholesky>
@@ -94,9 +95,10 @@ double length_of(const Polyline& line) {
 /// from the other `arrows`.
 StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
                     const std::vector<char>& is_body, Polyline& arrows) {
-  // Shorter lines have no arrow, and arrows have this distance: shares of the larger side.
+  // The least length of a line with an arrow, and the least distance of two arrows, both divided by
+  // the larger side of the window.
   constexpr double kShort = 0.12, kApart = 0.14;
-  // Where an arrow is tried: shares of the number of points.
+  // Places where an arrow is tried, as shares of the number of points.
   constexpr std::array<double, 9> kPlaces = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9};
   const auto at = [&](double share) {
     return static_cast<std::size_t>(share * static_cast<double>(line.size() - 1));
@@ -127,7 +129,8 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
         arrows.push_back(line[i]);
         break;
       }
-  // Simplified part by part, so that the place of the arrow stays a point of the line.
+  // The parts before and after the arrow are simplified separately, so that its place stays a point
+  // of the line.
   const double tolerance = 0.1 * std::min(grid.step_x(), grid.step_y());
   const auto middle = line.begin() + static_cast<std::ptrdiff_t>(arrow);
   result.points = simplified({line.begin(), middle + 1}, tolerance);
@@ -206,7 +209,7 @@ struct StreamLines::Equations {
   static double weight(bool both_in_fluid) { return both_in_fluid ? 1 : 1e-5; }
 
   /// Factorises the matrix for the points in the fluid, unless it was factorised for nearly the
-  /// same points; then these stay.
+  /// same points; then the matrix stays that for the earlier points.
   void prepare(const Grid& grid, std::vector<char> points) {
     constexpr double kNearly = 0.005;  // share of points that may differ
     if (is_fluid.size() == points.size()) {

@@ -16,9 +16,9 @@ using Polyline = std::vector<std::pair<double, double>>;  ///< points of a line 
 
 /// A field that is linear on each of a set of straight triangles.
 struct LinearField {
-  std::vector<std::array<double, 2>> points;
-  std::vector<double> values;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<double, 2>> points;            ///< corners of the triangles [L]
+  std::vector<double> values;                           ///< of the field at the points, any unit
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< places of their corners in `points`
 };
 
 /// The lines on which the field equals `level`, joined across triangles.
@@ -34,13 +34,16 @@ struct StreamLine {
 /// Streamlines at equal steps of the stream function.
 struct StreamLineSet {
   std::vector<StreamLine> lines;
-  double step = 0;  ///< of psi between neighbours, > 0; 0 if there are no lines
+  /// Step of the stream function between neighbours, > 0 [L^2/T], with an axis [L^3/T]; 0 if there
+  /// are no lines.
+  double step = 0;
 };
 
-/// Computes streamlines as level lines of the stream function psi: u = dpsi/dy, v = -dpsi/dx in the
-/// plane [L^2/T]; with an axis, where x is the distance from it, x u = dpsi/dy, x v = -dpsi/dx
-/// [L^3/T]. psi is the least-squares solution of these equations along the sides of the grid
-/// (Batchelor 1967, "An Introduction to Fluid Dynamics", 2.2).
+/// Computes streamlines as level lines of the stream function psi of the velocity (u, v) along (x,
+/// y): u = dpsi/dy, v = -dpsi/dx in the plane [L^2/T]; with an axis, where x is the distance from
+/// it, x u = dpsi/dy, x v = -dpsi/dx [L^3/T]. psi is the least-squares solution of these equations
+/// between neighbouring points of the grid (Batchelor 1967, "An Introduction to Fluid Dynamics",
+/// 2.2).
 class StreamLines {
  public:
   StreamLines(const Grid& grid, bool has_axis);
@@ -48,9 +51,9 @@ class StreamLines {
   StreamLines(StreamLines&&) noexcept;
 
   /// About `count` lines, at equal steps of psi: between any two neighbours flows the same amount.
-  /// `is_body` says for each point of the grid whether it is in a particle, which hides it. None if
-  /// nothing moves. Frames should be given in their order, because the factor of the matrix is
-  /// used again as long as the fluid covers about the same points.
+  /// There are no lines if nothing moves. `is_body` says for each point of the grid whether it is
+  /// in a particle, which hides it. Frames should be given in their order, because the factor of
+  /// the matrix is used again as long as the fluid covers about the same points.
   StreamLineSet of(const FlowOnGrid& flow, const std::vector<char>& is_body, int count);
 
  private:

@@ -5,7 +5,7 @@
 // writes axes and curves. This file and those that report/CMakeLists.txt lists after it are one
 // script, so each may use the names of all.
 
-const kBlank = '\u2013';  // stands for a number that there is not
+const kBlank = '\u2013';  // is shown in place of a missing number
 
 function axisOf(described, values) {
   const finite = values.filter(v => Number.isFinite(v) && (!described.logarithmic || v > 0));

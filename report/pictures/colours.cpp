@@ -173,7 +173,7 @@ ColourScale PressureColours::scale(int colours) const {
                     [&](double share) { return colour_at(std::lerp(at(low), at(high), share)); }),
       {}};
   if (linear_below > 0) scale.words += fmt::format(", logarithmic beyond {:.3g}", linear_below);
-  constexpr double kApart = 0.11;  // of the width of the scale
+  constexpr double kApart = 0.11;  // least distance of numbers, divided by the width of the scale
   for (auto [pressure, text] : ticks()) {
     const double share = share_of(pressure);
     if (share < 0 || share > 1 || std::ranges::any_of(scale.ticks, [&](const auto& other) {

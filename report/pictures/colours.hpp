@@ -43,7 +43,7 @@ struct ColourScale {
 /// The colour "#rrggbb" for share = gamma/lowest from 0 (light) to 1 (dark).
 std::string film_colour(double share);
 
-/// The scale of gamma from `lowest` < 0 to 0 with so many colours.
+/// The scale of gamma from `lowest` < 0 to 0 with `colours` colours and these words.
 ColourScale film_scale(double lowest, int colours, const std::string& words);
 
 inline constexpr const char* kTouchingColour = "#5a5a5a";  ///< for contacts with gamma = 0
@@ -53,7 +53,7 @@ inline constexpr const char* kSlidingColour = "#d55e00";   ///< for contacts tha
 /// colours are evenly spaced in lightness, and dark lines can be seen on all of them.
 std::string speed_colour(double share);
 
-/// The scale of the speed of a fluid from 0 to `top` > 0 [L/T] with so many colours.
+/// The scale of the speed of a fluid from 0 to `top` > 0 [L/T] with `colours` colours.
 ColourScale speed_scale(double top, int colours);
 
 inline constexpr const char* kStreamLineColour = "#12233f";
@@ -75,8 +75,8 @@ struct PressureColours {
   /// Round pressures in the bar with their texts, which should stand beside it.
   std::vector<std::pair<double, std::string>> ticks() const;
 
-  /// The scale from `low` to `high` with so many colours, without numbers that would touch another
-  /// one, for a pressure less its mean.
+  /// The scale from `low` to `high` with `colours` colours, without numbers that would touch
+  /// another one, for a pressure less its mean.
   ColourScale scale(int colours) const;
 
   /// The place of a pressure on that scale, from 0 to 1.

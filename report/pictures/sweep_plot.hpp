@@ -1,4 +1,5 @@
-// The picture of a sweep, from its CSV file. Values are in the units of the case.
+// The picture of a sweep, from its CSV file. Values are in the units of the case. `sweep --plot`
+// makes it.
 #pragma once
 
 #include <filesystem>

@@ -5,8 +5,8 @@
 #include "tests/case_file/edited_case.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
-#include "viscontact/case_file/particles/particles_case.hpp"
 #include "viscontact/case_file/toml_section.hpp"
+#include "viscontact/particles/case/particles_case.hpp"
 
 namespace viscontact::case_file {
 namespace {
@@ -34,7 +34,7 @@ TEST(DottedKeys, OfVeryManyPartsAreRefusedWithTheirLine) {
 TEST(DottedKeys, OfVeryManyPartsAreRefusedInACaseOfParticlesToo) {
   const TemporaryFolder folder;
   const auto file = folder.file("case.toml", key_of(kVeryMany) + " = 1\n");
-  EXPECT_THAT(bad_input([&] { (void)read_particles_case(file); }),
+  EXPECT_THAT(bad_input([&] { (void)particles::read_particles_case(file); }),
               HasSubstr("case.toml:1: has a key of more than 16 parts"));
 }
 

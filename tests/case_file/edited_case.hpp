@@ -1,4 +1,5 @@
-// The lecture's case file, or another one, with one thing changed.
+// Makes case files with one change, for tests of the reader of cases: the lecture's case or another
+// one. The line numbers that the functions return are those that messages must have.
 #pragma once
 
 #include <string>
@@ -26,20 +27,21 @@ struct EditedCase {
 /// The text of data/cases/lecture.toml.
 std::string lecture_text();
 
-/// With another value (TOML); the line is the key's.
+/// The lecture's case with another value (TOML) of the key, and the line of the key.
 EditedCase with_value(const LectureKey& key, std::string_view value);
 
-/// Without the key; the line is that of its table: where the header or the inline table's key
-/// stands.
+/// The lecture's case without the key, and the line of its table: that of the header, or of the key
+/// whose value is an inline table.
 EditedCase without_key(const LectureKey& key);
 
-/// With `from` (there once) replaced by `to`; the line is where that begins.
+/// The lecture's case with `from`, which occurs once, replaced by `to`, and the line in which `to`
+/// begins.
 EditedCase with_text(std::string_view from, std::string_view to);
 
 /// The text of a case file with the first `from` replaced by `to`.
 std::string text_with(const std::string& path, std::string_view from, std::string_view to);
 
-/// Reads a case from a file of that text in a folder of its own.
+/// Reads a case from a file with this text in a temporary folder. Throws the errors of read_case().
 Case read_text(const std::string& text);
 
 /// Expects that the case is refused as bad input with a message "FILE:LINE: path ..." that also has

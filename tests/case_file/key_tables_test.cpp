@@ -7,18 +7,18 @@
 #include <vector>
 
 #include "viscontact/case_file/case_file.hpp"
-#include "viscontact/case_file/particles/particles_case.hpp"
-#include "viscontact/case_file/rolling/rolling_case.hpp"
-#include "viscontact/case_file/swimmer/swimmer_case.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/rolling/case/rolling_case.hpp"
+#include "viscontact/swimmer/case/swimmer_case.hpp"
 
 namespace viscontact::case_file {
 namespace {
 
 std::vector<KeyTable> all_tables() {
   std::vector<KeyTable> all;
-  for (const auto& tables : {tables_of_sphere_case(), tables_of_particles_case(),
-                             tables_of_rolling_case(), tables_of_swimmer_case()})
+  for (const auto& tables : {tables_of_sphere_case(), particles::tables_of_particles_case(),
+                             rolling::tables_of_rolling_case(), swimmer::tables_of_swimmer_case()})
     all.insert(all.end(), tables.begin(), tables.end());
   return all;
 }

@@ -1,4 +1,4 @@
-// What a call that must fail says.
+// Calls what must fail, and returns the message of its Error, for tests of messages.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ std::string failure(ErrorKind kind, Call&& call) {
   return "";
 }
 
-/// The usual one.
+/// failure() of the usual kind, Error(kBadInput).
 template <class Call>
 std::string bad_input(Call&& call) {
   return failure(ErrorKind::kBadInput, call);

@@ -13,11 +13,11 @@ std::string replaced_matches(const std::string& text, const std::string& pattern
 
 bool has_match(const std::string& text, const std::string& pattern);
 
-/// Every match: the whole of it, then its groups.
+/// For each match in the text, the whole match and then its groups.
 std::vector<std::vector<std::string>> matches_in(const std::string& text,
                                                  const std::string& pattern);
 
-/// That group of every match; 0 is the whole match.
+/// Group number `group` of each match; 0 is the whole match.
 std::vector<std::string> matches_in(const std::string& text, const std::string& pattern,
                                     std::size_t group);
 

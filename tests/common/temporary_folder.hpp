@@ -1,4 +1,4 @@
-// A folder of its own for one test, gone with the test.
+// A temporary folder for one test, which is removed at the end of the test.
 #pragma once
 
 #include <cstdlib>
@@ -12,7 +12,8 @@
 
 namespace viscontact {
 
-/// Writes (or replaces) a file as it is, without the code under test.
+/// Writes or replaces a file with these bytes. Tests use it because the writers of Viscontact are
+/// under test.
 inline void put_text(const std::filesystem::path& path, std::string_view text) {
   std::ofstream file(path, std::ios::binary);
   file << text;
@@ -20,7 +21,7 @@ inline void put_text(const std::filesystem::path& path, std::string_view text) {
   if (!file) throw std::runtime_error("cannot write " + path.string());
 }
 
-/// Makes a file a program.
+/// Makes a file executable for its owner.
 inline void make_executable(const std::filesystem::path& path) {
   std::filesystem::permissions(path, std::filesystem::perms::owner_exec,
                                std::filesystem::perm_options::add);
@@ -44,14 +45,14 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// A file of that name in the folder with these bytes.
+  /// Writes a file with this name and these bytes into the folder, and returns its path.
   std::filesystem::path file(const std::string& name, std::string_view content) const {
     auto path = path_ / name;
     put_text(path, content);
     return path;
   }
 
-  /// The names of everything in the folder.
+  /// The names of all files and folders in the folder, without those in sub-folders.
   std::vector<std::string> names() const {
     std::vector<std::string> found;
     for (const auto& entry : std::filesystem::directory_iterator(path_))

@@ -8,8 +8,9 @@
 
 namespace viscontact {
 
-/// Fails the test if an element is not closed, or closed in another order. By hand, because
-/// std::regex recurses over each character of a long attribute.
+/// Fails the test if an element is not closed, or if elements are closed in another order than that
+/// in which they overlap. The text is scanned without std::regex, whose recursion over each
+/// character of a long attribute overflows the stack.
 inline void expect_well_formed(const std::string& xml) {
   std::vector<std::string> open;
   for (auto at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {

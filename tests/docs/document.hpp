@@ -1,4 +1,5 @@
-// A page of documentation as its reader meets it: commands, and the output that it promises.
+// Reads a page of the documentation, runs its commands and compares their output with the output
+// that the page shows.
 #pragma once
 
 #include <filesystem>
@@ -21,20 +22,21 @@ struct Block {
 /// The fenced blocks of a page, in order.
 std::vector<Block> blocks_of(const std::filesystem::path& page);
 
-/// The lines of a page with what stands in fenced blocks left empty.
+/// The lines of a page, where those of fenced blocks are empty.
 std::vector<std::string> prose_of(const std::filesystem::path& page);
 
 /// The numbers in a line.
 std::vector<double> numbers_in(const std::string& line);
 
-/// What differs between the lines of an output and those promised; empty: nothing. Words must be
-/// equal but for the spaces between them, numbers to `tolerance`; a promised line "..." stands for
-/// any lines, none included; "..." within a promised line stands for one number, whatever it is.
+/// The first difference, in words, between an output and the `promised` output of a page; empty if
+/// there is none. Words must be equal, however many spaces are between them. Numbers may differ by
+/// the relative difference `tolerance`. A promised line "..." stands for any number of lines, also
+/// none; "..." within a promised line stands for any one number.
 std::string difference_from(const std::string& promised, const std::string& output,
                             double tolerance);
 
-/// A folder that looks like the source folder after a build: data/ and build/release/viscontact,
-/// which is on the PATH.
+/// A temporary folder that has what a reader's commands need of the source folder after a build:
+/// data/ and build/release/viscontact, whose folder is in PATH.
 class ReadersFolder {
  public:
   explicit ReadersFolder(const std::filesystem::path& executable);
@@ -43,9 +45,9 @@ class ReadersFolder {
 
   ProcessResult run(const std::string& commands) const;
 
-  /// Runs the blocks of language `sh` of a page in their order. Each must succeed, and print what a
-  /// block of language `text` that follows it at once promises. Returns the number of promises
-  /// kept.
+  /// Runs the blocks of language `sh` of a page in their order. Each must succeed, and its output
+  /// must be that of the block of language `text` that follows it directly, if there is one.
+  /// Returns the number of outputs that were compared.
   int run_page(const std::filesystem::path& page) const;
 
  private:

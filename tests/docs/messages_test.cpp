@@ -26,9 +26,10 @@ std::vector<std::string> all_texts() {
   static const std::regex text("\"((?:[^\"\\\\\n]|\\\\.)*)\"");
   static const std::regex space("\\s*");
   std::vector<std::string> texts;
-  for (const char* folder : {"app", "case_file", "common", "fitting", "freefem", "freefem_axi",
-                             "freefem_flow", "lubrication", "pipeline", "report", "results",
-                             "terminal", "reduced_model", "particles", "sweep"})
+  for (const char* folder :
+       {"app", "case_file", "common", "fitting", "freefem", "freefem_axi", "freefem_flow",
+        "lubrication", "pipeline", "report", "results", "terminal", "reduced_model", "particles",
+        "sweep", "motions", "rolling", "swimmer"})
     for (const auto& entry : fs::recursive_directory_iterator(kSource / folder)) {
       const auto kind = entry.path().extension();
       if (kind != ".cpp" && kind != ".hpp" && kind != ".edp" && kind != ".idp") continue;

@@ -128,7 +128,7 @@ TEST(ExtendedBasis, FindsTheSlipLengthFromATableByThePagesCommands) {
 // is its own files and few lines elsewhere.
 TEST(Extending, ChangesNoOtherFiles) {
   EXPECT_EQ(read_file(fs::path(VISCONTACT_EXTENDED).parent_path() / "source/changed_files"),
-            "case_file/particles/particles_case.cpp\n"
+            "particles/case/particles_case.cpp\n"
             "freefem_axi/geometry.cpp\n"
             "freefem_axi/scripts/axisymmetric_stokes.idp\n"
             "freefem_axi/scripts/slip_plane.edp\n"

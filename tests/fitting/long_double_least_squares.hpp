@@ -1,4 +1,5 @@
-// The textbook's least squares in long double, as the oracle of the one under test.
+// Least squares in long double, with which the solver under test is compared. It shares no code
+// with that solver. Numbers have no units.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,11 +11,13 @@ using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
 struct LongSolution {
   LongVector coefficients;
-  LongMatrix covariance;  ///< s^2 (A^T A)^-1, s^2 = |A x - b|^2 / (rows - columns)
+  /// s^2 (A^T A)^-1 with s^2 = |A x - b|^2 / (rows - columns), for the matrix A, the solution x and
+  /// the right-hand side b.
+  LongMatrix covariance;
 };
 
-/// QR by Gram and Schmidt, each column orthogonalised twice (which is enough: Giraud & Langou
-/// 2005).
+/// Solves by the QR decomposition of Gram and Schmidt. Each column is orthogonalised twice, which
+/// is enough for full precision (Giraud & Langou 2005).
 inline LongSolution long_double_least_squares(const Eigen::MatrixXd& matrix,
                                               const Eigen::VectorXd& right_hand_side) {
   const LongMatrix a = matrix.cast<long double>();

@@ -1,4 +1,5 @@
-// Tables and fits that several tests start from.
+// Tables and fits that several tests start from. Viscosity and radius are those of the tables;
+// lengths, masses and times are in one unit each.
 #pragma once
 
 #include <cmath>
@@ -23,7 +24,8 @@ inline std::vector<double> log_spaced(double from, double to, int count) {
   return values;
 }
 
-/// The table that a perfect solver of the half-space would give.
+/// A table with the exact drag of a plane in a half-space, as a solver without errors would make
+/// it.
 inline lubrication::ForceTable exact_drag_table(const std::vector<double>& gaps,
                                                 const std::vector<double>& velocities,
                                                 double viscosity, double radius) {
@@ -46,7 +48,7 @@ inline lubrication::ForceTable exact_drag_table(const std::vector<double>& gaps,
 /// The 50 gaps of docs/theory.md's table of what the exact half-space drag allows (section 2).
 inline std::vector<double> fifty_gaps() { return log_spaced(1e-3, 1, 50); }
 
-/// F(q, u0) of a fit, term by term.
+/// The force F(q, u0) of a fit at the gap q, summed term by term without the code under test.
 inline double fitted_force(const lubrication::Fit& fit, double gap) {
   double force = 0;
   for (const auto& term : fit.terms)
@@ -59,7 +61,8 @@ struct NamedCoefficient {
   double coefficient;
 };
 
-/// A fit of given coefficients at u0 = -1, so that its resistance is the sum of coefficient * term.
+/// A fit with given coefficients at the velocity u0 = -1, so that its resistance is the sum of
+/// coefficient * term.
 inline lubrication::Fit planted_fit(std::initializer_list<NamedCoefficient> terms,
                                     double smallest_gap, double largest_gap) {
   lubrication::Fit fit;

@@ -1,4 +1,4 @@
-// The one way to fail, expected.
+// Expects an Error with its kind and message, for tests of tabulations.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 
 namespace viscontact::freefem_axi {
 
-/// Expects `action()` to throw an Error of that exit code whose message satisfies `message`.
+/// Expects `action()` to throw an Error of this kind whose message satisfies `message`.
 template <class Action>
 void expect_error(const Action& action, ErrorKind kind,
                   const ::testing::Matcher<std::string>& message) {

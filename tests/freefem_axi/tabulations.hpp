@@ -10,8 +10,8 @@
 
 namespace viscontact::freefem_axi {
 
-/// A sphere of radius 1 in a fluid of viscosity 1, moving at -1 in a closed cylinder, lengths in
-/// sphere radii.
+/// A sphere of radius 1 that moves at -1 in a fluid of viscosity 1 in a closed cylinder, whose
+/// height is twice its radius.
 inline Tabulation unit_tabulation(std::vector<double> gaps, double container_radius,
                                   double relative_accuracy) {
   Tabulation tabulation;

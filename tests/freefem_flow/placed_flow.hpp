@@ -1,5 +1,6 @@
-// Particles in a fluid that FreeFEM solves, for tests and benchmarks: one placement and its answers.
-// Lengths, masses and times are in one unit each; the viscosity is 1 unless a test says otherwise.
+// Particles in a fluid that FreeFEM solves, for tests and benchmarks: one placement and its
+// answers. Lengths, masses and times are in one unit each; the viscosity is 1 unless a test says
+// otherwise.
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@
 
 namespace viscontact::freefem_flow {
 
-/// A disc, or a sphere on the axis with y for z.
+/// A disc, or a sphere on the axis, whose z is `y`.
 struct Body {
   double x = 0, y = 0;
   double radius = 1;
@@ -44,7 +45,7 @@ inline particles::Particles particles_of(const std::vector<Body>& bodies, int di
   return particles;
 }
 
-/// Bodies that are placed once, with the process of their fluid.
+/// Particles at given places, and the process that solves the fluid around them.
 class PlacedFlow {
  public:
   using Driven = std::map<std::int32_t, std::array<double, 3>>;
@@ -70,7 +71,8 @@ class PlacedFlow {
     return solver_->velocities(forces, true);
   }
   std::vector<double> velocities() { return velocities(no_forces()); }
-  /// With errors. Ask for nothing else before place().
+  /// Velocities and forces with estimates of their errors. Afterwards place() must be called before
+  /// any other question.
   particles::FlowEstimate estimate(const std::vector<double>& forces) {
     return particles::estimate_flow(*solver_, forces, particles_, fluid_);
   }

@@ -1,4 +1,5 @@
-// Sums multipoles about the centres (collinear_spheres.hpp).
+// Sums multipoles about the centres of the spheres and fits their coefficients to the velocities of
+// the surfaces (collinear_spheres.hpp). Lengths are in one unit; the viscosity is 1.
 #include "tests/oracles/collinear_spheres.hpp"
 
 #include <Eigen/QR>
@@ -11,9 +12,9 @@ namespace {
 
 using Eigen::Index;
 
-/// The velocities (u_rho, u_z) at a point of the multipoles n = 2, ..., modes + 1 about a centre: for
-/// each n that of r^(1-n) and that of r^(3-n). `rho` and `z` are relative to the centre, over the
-/// radius of the sphere. With zeta the cosine of the polar angle, psi = f(r) I_n(zeta) gives
+/// The velocities (u_rho, u_z) at a point of the multipoles n = 2, ..., modes + 1 about a centre:
+/// for each n that of r^(1-n) and that of r^(3-n). `rho` and `z` are relative to the centre, over
+/// the radius of the sphere. With zeta the cosine of the polar angle, psi = f(r) I_n(zeta) gives
 /// u_r = -f P_{n-1}(zeta) / r^2 and u_theta = f' I_n / (r sin theta).
 void multipoles(double rho, double z, Index modes, Eigen::Ref<Eigen::MatrixXd> velocities) {
   const double r = std::hypot(rho, z), zeta = z / r, sine = rho / r;

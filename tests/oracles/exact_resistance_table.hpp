@@ -4,22 +4,22 @@
 #include <vector>
 
 #include "tests/oracles/collinear_spheres.hpp"
-#include "viscontact/lubrication/resistance/chebyshev_arms.hpp"
-#include "viscontact/lubrication/resistance/resistance_table.hpp"
+#include "viscontact/swimmer/resistance/chebyshev_arms.hpp"
+#include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 namespace viscontact {
 
-/// The table of three spheres in unbounded fluid, viscosity 1, with `count` arms each between `from`
-/// and `to`. Each entry has the same error estimate.
-inline lubrication::ResistanceTable exact_table(const std::vector<double>& radii, double from,
-                                                double to, int count, double estimate = 1e-6) {
-  lubrication::ResistanceTable table;
+/// The table of three spheres in unbounded fluid of viscosity 1. Each of the two arms has `count`
+/// lengths between `from` and `to` [L]. All entries have the relative error estimate `estimate`.
+inline swimmer::ResistanceTable exact_table(const std::vector<double>& radii, double from,
+                                            double to, int count, double estimate = 1e-6) {
+  swimmer::ResistanceTable table;
   table.viscosity = 1;
   table.radii = radii;
-  const auto arms = lubrication::chebyshev_arms(from, to, count);
+  const auto arms = swimmer::chebyshev_arms(from, to, count);
   for (const double x1 : arms)
     for (const double x2 : arms) {
-      lubrication::ResistanceRow row;
+      swimmer::ResistanceRow row;
       row.gaps = {x1 - radii[0] - radii[1], x2 - radii[1] - radii[2]};
       const auto matrix = exact_resistance(radii, row.gaps);
       for (Eigen::Index i = 0; i < 3; ++i)

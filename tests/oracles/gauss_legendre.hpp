@@ -7,7 +7,8 @@
 
 namespace viscontact {
 
-/// P_n, P_n' and P_{n-1} at x, from n = 1 upwards: all digits but near zeros.
+/// The Legendre polynomials P_n and P_{n-1} and the derivatives P_n' and P_{n-1}' at x, for n = 1;
+/// each advance() raises n by 1. The relative error is that of rounding, except near zeros.
 struct Legendre {
   long double x, n = 1, p = x, derivative = 1, p_before = 1, derivative_before = 0;
 
@@ -27,14 +28,15 @@ struct QuadratureNode {
   long double x, weight;
 };
 
-/// Exact on [-1, 1] for polynomials of degree 2 count - 1.
+/// Nodes and weights of the quadrature on [-1, 1], which is exact for polynomials of degree 2 count
+/// - 1.
 inline std::vector<QuadratureNode> gauss_legendre(int count) {
   std::vector<QuadratureNode> nodes;
   for (int i = 0; i < count; ++i) {
     long double x = std::cos(std::numbers::pi_v<long double> * (i + 0.75L) / (count + 0.5L));
     long double derivative = 0;
-    // Newton's method doubles the 4 digits or more of this first guess each time; the last makes
-    // the derivative as good as the zero.
+    // The first guess has at least 4 digits, and each step of Newton's method doubles their number.
+    // The last step makes the derivative as precise as the zero.
     for (int iteration = 0; iteration < 5; ++iteration) {
       Legendre legendre(x);
       while (legendre.n < count) legendre.advance();

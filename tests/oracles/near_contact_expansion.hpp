@@ -1,4 +1,5 @@
-// data/reference/near_contact_expansion.csv, for the tests.
+// Reads data/reference/near_contact_expansion.csv for the tests: the drag factor lambda of a sphere
+// near a plane as a series in eps = gap/radius. All numbers are dimensionless.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ namespace viscontact {
 inline const std::filesystem::path kReference =
     std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data" / "reference";
 
-/// lambda = sum_k eps^k (constant + logarithm * ln eps), k = -1, 0, 1, ...
+/// A term of lambda = sum_k eps^k (constant + logarithm * ln eps), k = -1, 0, 1, ...
 struct ExpansionTerm {
   double constant, logarithm;
   double at(double epsilon, int power) const {
@@ -25,7 +26,8 @@ struct ExpansionTerm {
   }
 };
 
-/// The rows of one `kind` of plane, "rigid" or "free"; the file's fractions are not for read_csv.
+/// The terms for one `kind` of plane, "rigid" or "free" (of shear stress), in the order of k. The
+/// file is not read by read_csv, because it contains fractions.
 inline std::vector<ExpansionTerm> near_contact_expansion(const std::string& kind) {
   // "-15416/9095625" or "0.97".
   const auto fraction = [](const std::string& text) {
@@ -51,7 +53,8 @@ inline std::vector<ExpansionTerm> near_contact_expansion(const std::string& kind
   return terms;
 }
 
-/// That what is left of drag_factor(epsilon) after the first terms of the expansion is the next.
+/// Expects that drag_factor(epsilon) less the first terms of the expansion is about the next term,
+/// for each number of first terms.
 template <typename Function>
 void expect_next_terms_of_cut_expansion(const std::vector<ExpansionTerm>& terms,
                                         Function drag_factor) {
@@ -62,16 +65,17 @@ void expect_next_terms_of_cut_expansion(const std::vector<ExpansionTerm>& terms,
     for (std::size_t i = 0; i + 1 < terms.size(); ++i) {
       sum += terms[i].at(epsilon, static_cast<int>(i) - 1);
       const double next = terms[i + 1].at(epsilon, static_cast<int>(i));
-      // After the next term comes one smaller by a factor of order epsilon (2.1 epsilon at most by
-      // the file's coefficients, so that 4 is room), and lambda - sum cannot be known better than
-      // lambda's own last digits (5e-16 each, a few of them).
+      // The term after the next one is smaller by a factor of order epsilon: at most 2.1 epsilon by
+      // the coefficients of the file, so that 4 is enough. The difference lambda - sum has the
+      // rounding errors of lambda, a few times 5e-16.
       EXPECT_NEAR(exact - sum, next, 4 * epsilon * std::abs(next) + 2e-15 * exact)
           << "cut after eps^" << static_cast<int>(i) - 1 << " at gap/radius " << epsilon;
     }
   }
 }
 
-/// That drag_factor is the whole expansion where that has `tolerance` relative, and more.
+/// Expects that drag_factor is the whole expansion within the relative difference `tolerance`, at
+/// gaps at which the expansion is more exact than that.
 template <typename Function>
 void expect_expansion_at_small_gaps(const std::vector<ExpansionTerm>& terms, Function drag_factor,
                                     double tolerance) {

@@ -1,4 +1,4 @@
-// What near-contact series subtract: sinh(x) - x to all its digits.
+// The difference sinh(x) - x without loss of digits, which series for small gaps contain.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@ namespace viscontact {
 inline long double sinh_minus_argument(long double x) {
   if (x > 1) return std::sinh(x) - x;
   long double term = x, sum = 0;
-  for (int k = 1; k < 15; ++k) {  // x^29/29! < 1e-30: all the digits of a long double
+  for (int k = 1; k < 15; ++k) {  // x^29/29! < 1e-30, below the rounding errors of a long double
     term *= x * x / static_cast<long double>((2 * k) * (2 * k + 1));
     sum += term;
   }

@@ -1,4 +1,4 @@
-// Systems of particles that the tests share.
+// Systems of particles that the tests share. Lengths, masses and times are in one unit each.
 #pragma once
 
 #include <cmath>
@@ -19,11 +19,11 @@ class Random {
   double uniform(double from, double to) {
     return std::uniform_real_distribution(from, to)(generator_);
   }
-  /// 10^x, x uniform.
+  /// 10^x with x uniform in [from, to].
   double decades(double from, double to) { return std::pow(10, uniform(from, to)); }
   int integer(int from, int to) { return std::uniform_int_distribution(from, to)(generator_); }
   bool chance(double probability) { return uniform(0, 1) < probability; }
-  /// In all directions alike; of length 1.
+  /// A random unit vector, uniform over all directions.
   Vector direction(int dimension);
 
  private:
@@ -32,41 +32,43 @@ class Random {
 
 State no_particles(int dimension);
 
-/// At rest if no velocity is given; of a disc's vectors the first two numbers count.
+/// Adds a particle, which is at rest if no velocity is given. Only the first two components of the
+/// vectors of a disc are used.
 void add_particle(State& state, const Vector& position, double radius, double mass,
                   const Vector& velocity = {});
 
-/// The force at all times.
+/// A force that is the same at all times.
 inline PiecewiseConstant constant(const Vector& force) { return {{{1e300, force}}}; }
 
 Plane plane_at_rest(const Vector& point, const Vector& normal);
 
-/// Discs or spheres without a common point, at random in a cube of that width, radii by `radius`,
-/// mass of density 1.
+/// Discs or spheres that do not overlap, at random places in a square or cube of this width.
+/// `radius` gives the radius of each; the density is 1.
 State random_cloud(int dimension, std::size_t count, double width,
                    const std::function<double()>& radius, Random& random);
 
-/// Steps until the time is `end`, but for rounding; sees each report.
+/// Makes steps until the time is `end` within rounding errors, and calls `see` with each report.
 void run(
     Simulation& simulation, double end,
     const std::function<void(const StepReport&)>& see = [](const StepReport&) {});
 
-/// The film of a pair, or of plane k (first = -1 - k) and a particle; one of gamma 0 if there is
-/// none.
+/// The pair of two particles, or of plane k (first = -1 - k) and a particle, in the lists of the
+/// state. If it is not there, a pair with gamma = 0.
 Pair pair_of(const State& state, std::int32_t first, std::int32_t second);
 
-/// |x_j - x_i| - r_i - r_j now.
+/// The present gap of two particles; negative if they overlap.
 double pair_gap(const State& state, std::int32_t first, std::int32_t second);
 
 Vector momentum(const Particles& particles);
-/// About the origin.
+/// The angular momentum of all particles about the origin.
 Vector angular_momentum(const Particles& particles);
 double kinetic_energy(const Particles& particles);
 
 /// The power of arm 0 in arms.csv.
 double power_of_arm(const Setting& setting, const State& state);
 
-/// Takes `steps` steps, each of which must converge. Returns the most iterations of a step.
+/// Makes `steps` steps, each of which must converge. Returns the largest number of iterations of a
+/// step.
 int take_steps(Simulation& simulation, int steps);
 
 }  // namespace viscontact::particles

@@ -1,4 +1,4 @@
-// A page in a browser (chromium, without a window), played by a script.
+// Opens a page in a browser (chromium without a window) and runs a script in it.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,10 +7,11 @@
 
 namespace viscontact {
 
-/// What a script appended to a copy of the page gives to tell(), once; in a frame of this width in
-/// pixels: a window of chromium's is never narrower than 500. No name of a network is resolved. A
-/// failure, and null, if there is no browser, if it says anything on its console, or if the script
-/// does not come to its end.
+/// Appends `script` to a copy of the page, opens the copy, and returns the value with which the
+/// script calls tell(), which it must do once. The page is in a frame of `width` pixels, because a
+/// window of chromium is at least 500 pixels wide. The browser has no network. Fails the test and
+/// returns null if there is no browser, if it writes anything to its console, or if the script does
+/// not end.
 nlohmann::json read_in_browser(const std::string& page, std::string_view script, int width);
 
 }  // namespace viscontact

@@ -1,5 +1,5 @@
-// The viscontact program as its users meet it: arguments in; exit status, standard output and
-// standard error out.
+// Runs the program viscontact as its users do, and returns its exit status, standard output and
+// standard error.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -20,21 +20,23 @@ struct ProgramResult {
   std::string errors;   ///< standard error
 };
 
-/// Runs viscontact. `environment` is "NAME=value" each; `shell_before` is run by the shell that
-/// then becomes viscontact ("ulimit ...").
+/// Runs viscontact. Each element of `environment` is "NAME=value". `shell_before` is a shell
+/// command, such as "ulimit ...", that runs before viscontact in the same process; empty: none.
 ProgramResult run_viscontact(const std::vector<std::string>& arguments,
                              const std::vector<std::string>& environment = {},
                              const std::string& shell_before = "");
 
-/// Expects exit status 0, and standard error as a trailing message if not.
+/// Expects the exit status 0. Otherwise the failure shows standard error.
 void expect_done(const ProgramResult& result);
 
-/// Expects an ordinary refusal: that exit code; after progress lines ("tabulate: ...") one or two
-/// lines, the first of which starts with "viscontact: " and matches `message`.
+/// Expects that the program ended with the exit code of `kind`, and that standard error has, after
+/// lines of progress ("tabulate: ..."), one or two lines, the first of which starts with
+/// "viscontact: " and matches `message`.
 void expect_refusal(const ProgramResult& result, ErrorKind kind,
                     const ::testing::Matcher<std::string>& message);
 
-/// Every file below a folder with its bytes; folders too, with none.
+/// The paths of all files below a folder with their bytes; also those of folders, with an empty
+/// text.
 std::map<std::string, std::string> files_below(const std::filesystem::path& folder);
 
 }  // namespace viscontact

@@ -1,4 +1,5 @@
-// A Slurm cluster of two nodes on this machine, for tests (tests/program/tabulate/slurm_cluster).
+// Starts a Slurm cluster of two nodes on the machine that runs the tests, by the script
+// tests/program/tabulate/slurm_cluster.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +17,8 @@
 
 namespace viscontact {
 
-/// Two nodes of two processors. Fails, with the logs, where Slurm does not start.
+/// A running cluster of two nodes with two processors each. The constructor throws
+/// std::runtime_error with the logs if Slurm does not start. The destructor stops the cluster.
 class Cluster {
  public:
   Cluster() {
@@ -30,16 +32,16 @@ class Cluster {
     if (stopped.exit_status != 0) ADD_FAILURE() << stopped.output;
   }
 
-  /// What its clients need in their environment.
+  /// The environment variable by which programs of Slurm find this cluster: "NAME=value".
   std::string variable() const { return "SLURM_CONF=" + folder() + "/slurm.conf"; }
 
-  /// kill -9 of a node and of all that runs on it.
+  /// Kills the processes of node `number`, and all that it runs, with SIGKILL.
   void kill_node(int number) const {
     const auto killed = script({"kill-node", folder(), std::to_string(number)});
     ASSERT_EQ(killed.exit_status, 0) << killed.output;
   }
 
-  /// The jobs that are not over, a line each.
+  /// The jobs that have not ended, one in a line.
   std::string jobs() const {
     return run_process({"squeue", "--noheader", "--format=%i %t %R"}, {variable()}).output;
   }
@@ -55,7 +57,7 @@ class Cluster {
   TemporaryFolder folder_;
 };
 
-/// Asks until it is so; fails after a minute.
+/// Waits until is_so() is true. Fails the test after a minute, and shows the jobs of the cluster.
 inline void wait_until(const std::function<bool()>& is_so, const Cluster& cluster) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!is_so()) {

@@ -1,4 +1,5 @@
-// A table to compare with: that of a run that nothing disturbed.
+// Texts of files without the parts that differ from run to run, to compare an interrupted run with
+// one that was not interrupted.
 #pragma once
 
 #include <filesystem>
@@ -6,11 +7,10 @@
 
 namespace viscontact {
 
-/// The text of a file apart from the line that says how it was made: what two makings have in
-/// common.
+/// The text of a file without the line with its provenance.
 std::string rest_of(const std::filesystem::path& file);
 
-/// The rest_of a table file but for the column of seconds, which differ from run to run.
+/// rest_of() a table, without the column of computing times.
 std::string without_seconds(const std::filesystem::path& table);
 
 }  // namespace viscontact

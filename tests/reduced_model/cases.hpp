@@ -1,4 +1,5 @@
-// The motions and forces that the tests of the models share.
+// The motions and forces that the tests of the models share. Lengths, masses and times are in one
+// unit each.
 #pragma once
 
 #include <array>
@@ -11,8 +12,8 @@
 
 namespace viscontact::reduced_model {
 
-/// Exact inertialess and inertial minimal gaps of the lecture's case (docs/theory.md, section 3):
-/// half-space, exact drag.
+/// Smallest gaps of the lecture's case with the exact drag in a half-space (docs/theory.md, section
+/// 3), without inertia and with inertia, and the time of the latter.
 inline constexpr double kExactMinimalGap = 2.97084661e-3;
 inline constexpr double kInertialMinimalGap = 2.97845928e-3;
 inline constexpr double kInertialMinimalGapTime = 2.00072819;
@@ -35,10 +36,10 @@ lubrication::Fit lecture_fit();
 /// residual 7.1e-6. (On [1e-3, 2] it is 6.8e-5.)
 lubrication::Fit close_fit();
 
-/// R = k/q exactly, radius 1, for gaps in [1e-200, 1e20].
+/// A fit with R = k/q exactly and radius 1, for gaps q in [1e-200, 1e20].
 lubrication::Fit leading_term_fit(double k);
 
-/// R = k (1/q + 1), radius 1, for gaps in [1e-200, 1e200].
+/// A fit with R = k (1/q + 1) and radius 1, for gaps q in [1e-200, 1e200].
 lubrication::Fit shifted_fit(double k);
 
 /// A motion and the k of its drag.
@@ -47,14 +48,15 @@ struct RandomCase {
   double k;
 };
 
-/// Masses and viscosities over ten decades, up to six jumps of force over four and in every third
-/// case a sinusoid on top, half of the surfaces rough; until t = 10, steps of 0.01 to 0.1.
+/// A random motion until t = 10 with steps from 0.01 to 0.1. Masses and viscosities are spread over
+/// ten decades. The force has up to six jumps over four decades, and in every third case a sinusoid
+/// is added. Half of the surfaces are rough.
 RandomCase random_case(std::mt19937_64& generator);
 
-/// The first row of least gap.
+/// The first of the rows with the smallest gap.
 const TrajectoryRow& lowest_row(const Trajectory& trajectory);
 
-/// The row at exactly that time; fails the test if there is none.
+/// The row whose time is exactly `time`; fails the test if there is none.
 const TrajectoryRow& row_at(const Trajectory& trajectory, double time);
 
 }  // namespace viscontact::reduced_model

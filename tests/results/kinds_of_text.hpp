@@ -32,7 +32,8 @@ inline std::vector<TextOfKind> texts_of_all_kinds() {
           {TextKind::kPng, png}};
 }
 
-/// The provenance of a command whose file has a name that would end every kind of comment.
+/// The provenance of a command that reads a file whose name contains the ends of all kinds of
+/// comment.
 inline Provenance sample_provenance() {
   Provenance provenance;
   provenance.command = {"/opt/bin/viscontact", "fit", "a --> */ </script> & \"b\".csv"};

@@ -14,7 +14,8 @@ namespace viscontact::sweep {
 
 std::filesystem::path data(const std::string& name);
 
-/// A shipped study's text, that runs from any folder, with `from` (there once) replaced.
+/// The text of a shipped case with changes, each a text that occurs once and its replacement. Its
+/// paths are absolute, so that it runs in any folder.
 std::string study_text(const std::string& name,
                        const std::vector<std::pair<std::string, std::string>>& changes);
 
@@ -28,7 +29,8 @@ SpherePlan varied(SpherePlan plan, const std::vector<std::string>& vary);
 SpherePlan with_models(SpherePlan plan, std::vector<std::string> models,
                        const std::string& reference);
 
-/// The fields of a row by their columns; a failure of the test if there are more or fewer.
+/// The fields of a row by the names of their columns. Fails the test if the row has more or fewer
+/// fields than columns.
 std::map<std::string, std::string> fields_of(const Study& study, const std::string& row);
 
 std::map<std::string, std::string> row_of(const SpherePlan& plan, std::uint64_t index);

@@ -12,12 +12,12 @@
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
-#include "viscontact/pipeline/sweep/sweep_stage.hpp"
+#include "viscontact/pipeline/sweep_stage.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/reduced_model/rolling/rolling_motion.hpp"
 #include "viscontact/report/pictures/sweep_plot.hpp"
 #include "viscontact/results/picture_kind.hpp"
 #include "viscontact/results/provenance.hpp"
+#include "viscontact/rolling/rolling_motion.hpp"
 
 namespace viscontact::app {
 namespace {
@@ -112,7 +112,7 @@ void run_study(const SweepOptions& o, const CaseStudy& s) {
                                       o.jobs, o.json));
     return;
   }
-  pipeline::run_sweep(s.study, {o.output, o.jobs, false, interrupt_token()}, {s.files, {}}, s.part);
+  pipeline::run_sweep(s.study, {o.output, o.jobs, interrupt_token()}, {s.files, {}}, s.part);
   if (o.plot.empty()) return;
   const auto kind = results::picture_kind(o.plot)->kind;
   results::write_output(o.plot, kind,
@@ -124,8 +124,7 @@ void run_sweep(const SweepOptions& o) {
   check_array_options(o.array);
   // A name that no kind of case has is wrong whatever the case is.
   for (const auto& model : o.models)
-    if (find_named(reduced_model::rolling_models(), model) == nullptr)
-      check_models("--models", {model});
+    if (find_named(rolling::rolling_models(), model) == nullptr) check_models("--models", {model});
   check_outputs(o.plot.empty() ? std::vector{o.output} : std::vector{o.output, o.plot});
   check_picture(o.plot);
   switch (case_file::kind_of_case(o.case_file)) {
@@ -165,7 +164,7 @@ void add_sweep(CLI::App& app) {
   add_value(*command, "--models", o->models, kModels,
             fmt::format("comma-separated; default: {}; for a rolling sphere: {}",
                         names_of(reduced_model::sweep_models(), ","),
-                        names_of(reduced_model::rolling_models(), ",")))
+                        names_of(rolling::rolling_models(), ",")))
       ->delimiter(',');
   add_value(*command, "--reference", o->reference, kModel,
             fmt::format("model that the others are compared with; default: {}, or the first",

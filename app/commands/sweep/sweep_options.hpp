@@ -1,5 +1,5 @@
-// What the command line of `sweep` says, and the studies between which the kind of the case
-// decides.
+// The options of `sweep`, and the functions that make a study of them, one for each kind of case.
+// docs/command-line.md describes the options.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,33 @@
 
 namespace viscontact::app {
 
+/// The values of the options, which are named after them. An empty text or list, or 0, means that
+/// the option was not given, and that the section [sweep] of the case decides.
 struct SweepOptions {
-  std::string case_file, fit, output, reference, plot, x, y;
-  std::vector<std::string> vary, models, columns;
-  std::uint64_t samples = 0, seed = 1, draws = 0;
-  int jobs = default_jobs();
-  ArrayOptions array;
+  std::string case_file,          ///< path of the case
+      fit,                        ///< path of a fit file
+      output,                     ///< path of the CSV file of the rows
+      reference,                  ///< name of the model with which the others are compared
+      plot,                       ///< path of the picture
+      x, y;                       ///< keys of the axes of the picture
+  std::vector<std::string> vary,  ///< "KEY=RANGE" each (sweep/variation.hpp)
+      models,                     ///< names of models
+      columns;                    ///< columns that are drawn
+  std::uint64_t samples = 0,      ///< number of random points
+      seed = 1,                   ///< of the random points
+      draws = 0;                  ///< number of random arrangements at each point
+  int jobs = default_jobs();      ///< number of rows at once, >= 1
+  ArrayOptions array;             ///< of a job on a cluster
   bool dry_run = false, json = false, keep_runs = false;
   const CLI::Option* jobs_option = nullptr;  ///< CLI11's object of --jobs
 };
 
 /// The study of a case with these options, and what the command says about it.
 struct CaseStudy {
-  sweep::Study study{};
-  std::vector<std::filesystem::path> files{};  ///< the inputs
-  std::string part{};                          ///< what a row computes several of, as "model"
-  case_file::SweepRequest request{};           ///< the section [sweep] of the case
+  sweep::Study study{};                        ///< points, and how rows are computed
+  std::vector<std::filesystem::path> files{};  ///< the inputs, for the provenance
+  std::string part{};                 ///< name of the parts of a row that may fail, such as "model"
+  case_file::SweepRequest request{};  ///< the section [sweep] of the case
   std::vector<std::string> columns{};  ///< columns that are drawn if nothing else is asked for
 };
 

@@ -1,6 +1,6 @@
 // The studies of `sweep` from its options, for each kind of case (sweep_options.hpp). Options of
 // the command line decide; for those that are missing, the section [sweep] of the case decides.
-// Rows are computed by sweep/, and runs of particles by pipeline/sweep/.
+// Rows are computed by sweep/, and runs of particles by particles/sweep/.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,13 +11,14 @@
 #include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/app/commands/sweep/sweep_options.hpp"
 #include "viscontact/common/error.hpp"
+#include "viscontact/freefem_flow/freefem_solver.hpp"
+#include "viscontact/particles/sweep/particles_sweep_stage.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
-#include "viscontact/pipeline/sweep/sweep_stage.hpp"
 #include "viscontact/results/foreign_files.hpp"
-#include "viscontact/sweep/rolling_study.hpp"
+#include "viscontact/rolling/case/rolling_study.hpp"
 #include "viscontact/sweep/sphere_study.hpp"
-#include "viscontact/sweep/swimmer_study.hpp"
+#include "viscontact/swimmer/case/swimmer_study.hpp"
 
 namespace viscontact::app {
 namespace {
@@ -94,8 +95,8 @@ CaseStudy study_of_swimmer(const SweepOptions& o) {
   sweep::Points points;
   set_points(o, points);
   CaseStudy s{
-      .study = sweep::swimmer_study(o.case_file, std::move(points),
-                                    lubrication::read_resistance_fit(o.fit), VISCONTACT_VERSION),
+      .study = swimmer::swimmer_study(o.case_file, std::move(points),
+                                      swimmer::read_resistance_fit(o.fit), VISCONTACT_VERSION),
       .files = {o.case_file, o.fit},
       .part = "stroke"};
   for (const char* column : {"displacement", "optimal.displacement"})
@@ -111,8 +112,8 @@ CaseStudy study_of_rolling_sphere(const SweepOptions& o) {
                 "for cases of a rolling sphere; leave them out");
   results::refuse_other_kind(o.output, "# viscontact: sweep of a rolling sphere",
                              "sweep of a rolling sphere");
-  const auto c = case_file::read_rolling_case(o.case_file);
-  auto plan = sweep::planned_rolling(c);
+  const auto c = rolling::read_rolling_case(o.case_file);
+  auto plan = rolling::planned_rolling(c);
   set_points(o, plan.points);
   plan.models = o.models.empty() ? c.models : o.models;
   if (!o.fit.empty()) plan.fit_path = o.fit;
@@ -124,7 +125,7 @@ CaseStudy study_of_rolling_sphere(const SweepOptions& o) {
               .part = "model",
               .request = c.sweep.value_or(case_file::SweepRequest{})};
   for (const auto& model : plan.models) s.columns.push_back(model + ".velocity");
-  s.study = sweep::rolling_study(std::move(plan), VISCONTACT_VERSION);
+  s.study = rolling::rolling_study(std::move(plan), VISCONTACT_VERSION);
   return s;
 }
 
@@ -134,20 +135,23 @@ void sweep_many_particles(const SweepOptions& o) {
     throw Error(ErrorKind::kWrongUsage,
                 "--models, --reference, --fit and the options of pictures are for cases of one "
                 "sphere; leave them out");
-  const auto means = sweep::path_of_means(o.output);
+  const auto means = particles::path_of_means(o.output);
   results::refuse_other_kind(o.output, "# viscontact: sweep of particles", "sweep of particles");
   results::refuse_other_kind(means, "# viscontact: means of a sweep", "table of means");
-  auto points = sweep::planned_particles(o.case_file);
+  auto points = particles::planned_particles(o.case_file);
   set_points(o, points);
   if (o.draws > 0) points.draws = o.draws;
   if (points.variations.empty() && points.draws == 0)
     throw Error(ErrorKind::kWrongUsage,
                 "there is nothing to vary; give --vary KEY=FROM:TO:COUNT or --draws N");
-  const sweep::ParticlesSweep sweep(o.case_file, std::move(points));
-  const pipeline::SweepStageRequest request{o.output, o.jobs, o.keep_runs, interrupt_token()};
+  const particles::ParticlesSweep sweep(o.case_file, std::move(points));
+  const particles::ParticlesSweepRequest request{
+      o.output, o.jobs, o.keep_runs, freefem_flow::start_fluid_solver, interrupt_token()};
   if (o.dry_run) {
-    fmt::print("{}", pipeline::dry_run_text({pipeline::dry_run(sweep, o.output, interrupt_token())},
-                                            o.jobs, o.json));
+    fmt::print("{}", pipeline::dry_run_text(
+                         {particles::dry_run(sweep, o.output, freefem_flow::start_fluid_solver,
+                                             interrupt_token())},
+                         o.jobs, o.json));
   } else if (o.array.is_slurm()) {
     // The tasks read the section [sweep] of the case, too, so only given options are passed on.
     std::vector<std::string> options;
@@ -157,15 +161,15 @@ void sweep_many_particles(const SweepOptions& o) {
     options.insert(options.end(), {"--seed", std::to_string(o.seed)});
     if (o.keep_runs) options.emplace_back("--keep-runs");
     with_remedy(kRemedyOfSlurm, [&] {
-      pipeline::submit_sweep(sweep, array_request(o.array, o.output, *o.jobs_option, o.jobs),
-                             options);
+      particles::submit_sweep(sweep, array_request(o.array, o.output, *o.jobs_option, o.jobs),
+                              options);
     });
   } else if (o.array.gather) {
-    with_remedy(kRemedyOfGather, [&] { pipeline::gather_sweep(sweep, request); });
+    with_remedy(kRemedyOfGather, [&] { particles::gather_sweep(sweep, request); });
   } else if (!o.array.task.empty()) {
-    pipeline::share_of_sweep(sweep, request, share_of(o.array));
+    particles::share_of_sweep(sweep, request, share_of(o.array));
   } else {
-    pipeline::sweep_particles(sweep, request);
+    particles::sweep_particles(sweep, request);
   }
 }
 

@@ -1,6 +1,6 @@
 // The loop over time of the contact models: the resolved drag in a step, the budget, and the
-// contact interval. Equations and units are those of contact_step.hpp. A change of its results must
-// raise kModelsRevision.
+// contact interval. The equations are those of contact_step.hpp. Lengths, masses and times are in
+// any one consistent system of units. A change of its results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 #include <algorithm>
@@ -58,8 +58,9 @@ class DragAtDistance {
   double contact_gap_;
 };
 
-/// A step lasts from `begin` to `end`; the force acts on the momentum in it from `kick_begin` to
-/// `kick_end`, which are other times only if steps are staggered.
+/// The times of a step [T]: it lasts from `begin` to `end`, and its impulse of the external force
+/// is that from `kick_begin` to `kick_end`, which differ from the former only if steps are
+/// staggered.
 struct StepTimes {
   double begin = 0, end = 0, kick_begin = 0, kick_end = 0;
 };
@@ -109,7 +110,7 @@ class ContactClock {
     }
     touching_ = contact;
   }
-  /// A step with impacts, which look_at() then leaves alone.
+  /// Takes the times of contact from a step with impacts. look_at() then ignores this step.
   void strike(const StepTimes& times, const ReboundStep& step) {
     if (!interval_) interval_ = {times.begin + step.first_impact, 0};
     touching_ = step.state.gap == 0;
@@ -124,7 +125,7 @@ class ContactClock {
   bool touching_ = false, is_struck_ = false;
 };
 
-/// What an impulse of the force does without a displacement.
+/// The step that an impulse of the force makes without a displacement.
 ContactStep kicked(const ContactState& state, double push, const ContactSetting& setting) {
   ContactStep step{state};
   const double momentum = setting.mass * state.velocity + push;
@@ -140,18 +141,18 @@ ContactStep kicked(const ContactState& state, double push, const ContactSetting&
   return step;
 }
 
-/// What a step with impacts is to the rows.
+/// A step with impacts in the form in which rows take a step.
 ContactStep as_contact_step(const ReboundStep& step) {
   return {step.state, step.budget.film_impulse, step.budget.drag_impulse,
           step.budget.solid_impulse};
 }
 
-/// Makes the steps from the start to the end. Calls `rebound(times, step)` for each step with impacts,
-/// and `kick(velocity before, push, step)` for each other
-/// impulse of the force, and `add(times, setting, state before, push, step, state at the end)` after
-/// each step. `turns` are the times at which the force changes its sign: in staggered steps the
-/// impulses before and after them act one after the other, because what the solids carry before must
-/// not be given back after.
+/// Makes the steps from the start to the end. Calls `rebound(times, step)` for each step with
+/// impacts, `kick(velocity before, push, step)` for each other impulse of the force, and
+/// `add(times, setting, state before, push, step, state at the end)` after each step. `turns` are
+/// the times at which the force changes its sign. In staggered steps the impulses before and after
+/// such a time act one after the other, because an impulse that the solids carry before it must not
+/// be given back after it.
 template <class Drag, class Rebounding, class Kick, class Add>
 void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag,
                std::span<const double> turns, const Rebounding& rebound, const Kick& kick,
@@ -161,7 +162,8 @@ void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag
   const int steps = step_count(end, h);
   ContactSetting setting(motion.mass, model.gamma_min, h);
   ContactState state{motion.initial_gap - model.contact_gap, motion.initial_velocity, 0};
-  // The half kick at the end of a step overlaps with the next whole one, and a walk does not go back.
+  // Means over half steps and whole steps are asked in turn, and a ForceWalk cannot go back in
+  // time. Therefore each has a walk of its own.
   ForceWalk force(motion.external_force), force_of_half(motion.external_force),
       force_of_step(motion.external_force);
   auto turn = turns.begin();

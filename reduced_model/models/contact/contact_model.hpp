@@ -1,6 +1,8 @@
-// The loop over time that all contact models share (physics.md (4.5) to (4.7)). A model supplies
-// its resolved drag and the gap at which it makes contact. Lengths, masses and times are in any one
-// consistent system of units. A change must keep the budget balanced to round-off.
+// The loop over time that all contact models with a time step share (physics.md (4.5) to (4.7)). A
+// model supplies its resolved drag and the gap at which it makes contact. gamma is minus the
+// impulse that the film has absorbed. Lengths, masses and times are in any one consistent system of
+// units. A change must keep the budget balanced to round-off, and raise kModelsRevision if results
+// change.
 #pragma once
 
 #include <functional>
@@ -26,29 +28,30 @@ struct ContactModel {
   /// Gap at which the sphere is in contact [L], >= 0.
   double contact_gap = 0;
   /// Value of gamma at which the solids touch [M L/T], <= 0. -infinity: no solid contact. 0: no
-  /// film, so plain inelastic contact.
+  /// film, which is plain inelastic contact.
   double gamma_min = 0;
   /// The resolved drag; nothing if only f_ext acts at a distance.
   std::optional<ResolvedDrag> drag;
-  /// Thickness [L] of the film that a value of gamma [M L/T] stands for.
+  /// Thickness [L] of the film that is recovered from gamma [M L/T].
   std::function<double(double gamma)> film_thickness;
   /// The function film_thickness as a formula, for the header of trajectory files.
   std::string film_law{};
   /// Coefficient e_d of restitution of the solids [1], 0 to 1; run_contact_model sets it.
   double restitution = 0;
-  /// Whether velocity and gamma of the steps stand in the middle of the steps (leapfrog), so that
-  /// the gap is of second order; only without resolved drag.
+  /// True: the velocity and gamma of a step are those in its middle (leapfrog), so that the gap is
+  /// of second order. Allowed only without resolved drag.
   bool is_staggered = false;
 };
 
-/// Makes the steps of contact_step.hpp from the start of the motion to its end; with a restitution
-/// those of rebound.hpp where the sphere flies into contact. The forces in a row
-/// are means over the step before it; the lubrication force is that of film and resolved drag
-/// together. The beginning and the end of contact are found within the steps of impact and release,
-/// as if the force were constant in each step. The error of these times is that which the scheme
-/// makes in a step. Staggered steps kick for half a step first and at the end; their rows have the
-/// velocity and gamma that another half kick gives at the time of the row. The lowest gamma, and
-/// thus the recovered film, includes its values where the force changes its sign within a step.
+/// Makes the steps of contact_step.hpp from the start of the motion to its end, and those of
+/// rebound.hpp if there is a restitution and the sphere flies into contact. The forces in a row are
+/// means over the step before it; the lubrication force is that of film and resolved drag together.
+/// The beginning and the end of contact are found within the steps of impact and release, as if the
+/// force were constant in each step; the error of these times is of the order of the scheme. With
+/// `is_staggered` the force acts for half a step first and at the end, and a row has the velocity
+/// and gamma that the force of another half step gives at the time of the row. The lowest gamma,
+/// and thus the recovered film, includes the values at which the force changes its sign within a
+/// step.
 Trajectory run_contact_model(const Motion& motion, ContactModel model);
 
 /// Makes a contact model and runs it.

@@ -1,13 +1,15 @@
-// One time step of viscous contact (physics.md (4.5) to (4.7)), which all contact models share.
-// Lengths, masses and times are in any one consistent system of units. A change must keep the
-// balance m u + Gamma_res(D) + gamma = int f to round-off while no solid carries load.
+// One time step of viscous contact (physics.md (4.5) to (4.7)), which all contact models with a
+// time step share. m is the mass, u the velocity, D the gap minus that at contact, gamma minus the
+// impulse that the film has absorbed, f the external force, Gamma_res the primitive of the resolved
+// resistance. Lengths, masses and times are in any one consistent system of units. A change must
+// keep the balance m u + Gamma_res(D) + gamma = int f to round-off while no solid carries load.
 #pragma once
 
 #include <algorithm>
 
 namespace viscontact::reduced_model {
 
-/// The sphere at the distance D >= 0 from its position in contact, with the memory of the film.
+/// The state of the sphere, with the memory of the film.
 struct ContactState {
   double gap = 0;       ///< D [L]; 0 in contact
   double velocity = 0;  ///< u [L/T]
@@ -39,7 +41,8 @@ struct ContactStep {
   double solid = 0;  ///< from the solid contact, >= 0
 };
 
-/// The resolved drag of problem (P), which is 0. It shows the functions that contact_step() needs.
+/// The resolved drag of problem (P), viscous contact alone, which is 0. It shows the functions that
+/// contact_step() needs of a drag.
 struct NoDrag {
   /// False: there is no resolved drag.
   static constexpr bool kResolved = false;
@@ -68,9 +71,9 @@ struct NoDrag {
 ///
 /// The drag enters by its impulse, so the impulse that the film absorbs at impact and gives back at
 /// release is exact for every step length: the balance m u + Gamma_res(D) + gamma = int f is exact
-/// to round-off as long as no solid carries load. A step that would raise gamma above 0 releases
-/// the sphere with the momentum that remains. A step that would lower gamma below `gamma_min` sets
-/// it to `gamma_min`, and the solid carries the rest.
+/// to round-off as long as no solid carries load. A step that would raise gamma above 0 sets it to
+/// 0 and releases the sphere with the rest of the impulse. A step that would lower gamma below
+/// `gamma_min` sets it to `gamma_min`, and the solid carries the rest.
 template <class Drag>
 ContactStep contact_step(const ContactState& state, double push, const ContactSetting& setting,
                          const Drag& drag) {

@@ -1,5 +1,6 @@
-// Plain inelastic contact, for comparison with viscous contact. Lengths, masses and times are in
-// any one consistent system of units.
+// Plain inelastic contact, for comparison with viscous contact. q is the gap, u the velocity, m the
+// mass, f_ext the external force, lambda the force of the contact; - and + mark values before and
+// after an impact. Lengths, masses and times are in any one consistent system of units.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
@@ -12,7 +13,7 @@ namespace viscontact::reduced_model {
 ///     q >= 0,  lambda >= 0,  q lambda = 0,  m d^2q/dt^2 = f_ext + lambda,
 ///     u+ = max(u-, 0) where q = 0.
 ///
-/// This is viscous contact with gamma_min = 0, a film that remembers nothing. The drag is not used.
+/// This is viscous contact with gamma_min = 0, that is without a memory. `force` is not used.
 ContactModel inelastic_contact(const Motion& motion, const lubrication::LubricationForce& force);
 
 }  // namespace viscontact::reduced_model

@@ -1,5 +1,7 @@
-// Rebound of the sphere from the solid contact below its film (physics.md (4.12) to (4.14)). Lengths,
-// masses and times are in any one consistent system of units. A change must keep that an impact takes
+// Rebound of the sphere from the solid contact below its film (physics.md (4.12), (4.13)), for
+// contact_model.cpp and viscous_contact_exact.cpp. m is the mass, u the velocity, gamma minus the
+// impulse that the film has absorbed, D the gap minus that at contact, h the step. Lengths, masses
+// and times are in any one consistent system of units. A change must keep that an impact takes
 // place at its time within a step, because heights of rebounds converge with the step only then.
 #pragma once
 
@@ -17,22 +19,23 @@ namespace viscontact::reduced_model {
 
 /// What an impact does to the sphere: momenta and impulses [M L/T].
 struct Impact {
-  double momentum = 0;       ///< m u+ after the impact, >= 0; 0: the film keeps the sphere
+  double momentum = 0;       ///< after the impact, m u+ >= 0; 0: the film keeps the sphere
   double gamma = 0;          ///< after the impact, <= 0; 0 if the sphere leaves the film
-  double lowest_gamma = 0;   ///< in the impact
-  double solid_impulse = 0;  ///< s that the solids took up in the compression, >= 0
-  double restitution = 0;    ///< e_d s that they gave back, less what they keep if the sphere stays
+  double lowest_gamma = 0;   ///< lowest value of gamma in the impact
+  double solid_impulse = 0;  ///< that the solids took up in the compression, s >= 0
+  double restitution = 0;    ///< that the solids gave back: e_d s, or less if the sphere stays
 };
 
-/// The impact of a sphere with the momentum `momentum` = m u < 0 on a film with gamma = 0 (4.12). The
-/// film takes the momentum until gamma = gamma_min, the solids take the rest s and give back e_d s
-/// (Poisson's law), and the sphere must pull the film open, which costs what the film has absorbed:
+/// The impact of a sphere with the momentum `momentum` = m u < 0 on a film with gamma = 0 (4.12).
+/// The film takes the momentum until gamma = gamma_min, the solids take the rest s and give back
+/// e_d s (Poisson's law). The sphere must then pull the film open, which takes the impulse that the
+/// film has absorbed:
 ///
 ///     s = max(-m u + gamma_min, 0),   m u+ = max(gamma_c + e_d s, 0),   gamma+ = min(gamma_c + e_d s, 0),
 ///
-/// where gamma_c = m u + s is gamma at the end of the compression. `gamma_min` <= 0 may be -infinity;
-/// `restitution` = e_d is 0 to 1 [1]. If m u+ is below `least` >= 0 [M L/T], the sphere stays and the
-/// solids keep the rest, so that the infinitely many bounces of a dry sphere end.
+/// where gamma_c = m u + s is gamma at the end of the compression. `gamma_min` <= 0 may be
+/// -infinity; `restitution` = e_d is 0 to 1 [1]. If m u+ is below `least` >= 0 [M L/T], the sphere
+/// stays and the solids keep the rest, so that the infinitely many bounces of a dry sphere end.
 inline Impact impact_through_film(double momentum, double gamma_min, double restitution,
                                   double least) {
   Impact impact;
@@ -46,10 +49,10 @@ inline Impact impact_through_film(double momentum, double gamma_min, double rest
   return impact;
 }
 
-/// Adds the impulses and works of an impact with the velocity `velocity` < 0 [L/T] of a sphere of mass
-/// `mass` to the budget. The work of each impulse is the impulse times half that velocity in the
-/// compression, and times half the velocity at the end in the restitution: film and solids share
-/// the energy as they share the impulse.
+/// Adds the impulses and works of an impact with the velocity `velocity` < 0 [L/T] of a sphere of
+/// mass `mass` to the budget. The work of each impulse is the impulse times half that velocity in
+/// the compression, and times half the velocity at the end in the restitution: film and solids
+/// share the energy as they share the impulse.
 inline void add_impact(MomentumEnergyBudget& budget, double mass, double velocity,
                        const Impact& impact) {
   const double leaving = impact.momentum / mass;
@@ -68,7 +71,7 @@ struct ReboundStep {
   MomentumEnergyBudget budget;
   double lowest_gamma = 0;   ///< [M L/T]
   double first_impact = -1;  ///< time of the first impact from the step's beginning [T]; < 0: none
-  double last_impact = -1;   ///< time of the last one [T]
+  double last_impact = -1;   ///< time of the last impact [T]; < 0: none
 };
 
 /// The first time after 0 and until `end` [T] at which D + w t + a t^2/2 = 0 and falls, for D >= 0;
@@ -88,8 +91,8 @@ inline double time_of_fall(double gap, double velocity, double acceleration, dou
 }
 
 /// Makes the impact of a sphere with the velocity `velocity` < 0 [L/T] at the time `time` of a step
-/// and records it. `acceleration` [L/T^2] is that of the external force. Returns the velocity u+ after
-/// it; 0 if the sphere stays. A flight of less than 1e-3 steps counts as rest.
+/// and records it. `acceleration` [L/T^2] is that of the external force. Returns the velocity u+
+/// after it; 0 if the sphere stays. A flight of less than 1e-3 steps counts as rest.
 inline double strike(ReboundStep& step, double time, double velocity, double acceleration,
                      const ContactSetting& setting, double restitution) {
   constexpr double kShortestFlight = 1e-3;  // of the step
@@ -128,15 +131,15 @@ void stay(ReboundStep& step, double push, const ContactSetting& setting, const D
 }
 
 /// A step in which the sphere flies at its beginning, from `state` with gamma = 0 and with D > 0 or
-/// u > 0. `push` [M L/T] is the impulse of the force in the step, and `acceleration` = a [L/T^2] the
-/// mean force over m. Nothing if it hits nothing.
+/// u > 0. `push` [M L/T] is the impulse of the force in the step, and `acceleration` = a [L/T^2]
+/// the mean force over m. Nothing if the sphere does not reach contact.
 ///
 /// Without resolved drag, the places of the scheme, D^{n+1} = D^n + h u^{n+1}, lie on the parabola
 /// with the acceleration a that begins with the velocity w = u^n + push/m - a h/2. The impacts are
 /// those of this parabola, at their times, and u^{n+1} = w^{n+1} - a h/2 follows from its velocity
-/// w^{n+1} at the end of the step. With drag, the velocity at the impact follows from the impulse of
-/// the drag on the way there, which is exact, and its time from the mean velocity; there is at most
-/// one impact in a step.
+/// w^{n+1} at the end of the step. With drag, the velocity at the impact follows from the impulse
+/// of the drag on the way there, which is exact, and its time from the mean velocity; there is at
+/// most one impact in a step.
 template <class Drag>
 std::optional<ReboundStep> rebound_step(const ContactState& state, double push, double acceleration,
                                         const ContactSetting& setting, double restitution,

@@ -1,29 +1,34 @@
-// The viscous contact model (physics.md (4.4) to (4.6)). Lengths, masses and times are in any one
-// consistent system of units.
+// The models `viscous_contact` and `viscous_contact_leapfrog` (physics.md (4.4) to (4.6)). q is the
+// gap, u the velocity, m the mass, f_ext the external force, lambda the force of the contact, gamma
+// minus the impulse that the film has absorbed, k the coefficient of 1/q in the resistance; - and +
+// mark values before and after an impact. Lengths, masses and times are in any one consistent
+// system of units.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 namespace viscontact::reduced_model {
 
-/// The limit mu -> 0 of (M) with R = k/q: problem (P) (Maury 2007, "A gluey particle model";
-/// Lefebvre 2009, "Numerical simulation of gluey particles"),
+/// Problem (P): the limit of the motion with inertia and the drag -(k/q) u as the viscosity goes to
+/// 0 (Maury 2007, "A gluey particle model"; Lefebvre 2009, "Numerical simulation of gluey
+/// particles"),
 ///
 ///     q >= 0,  gamma <= 0,  q gamma = 0,
 ///     m d^2q/dt^2 = f_ext + lambda,  supp lambda in {q = 0},  dgamma/dt = -lambda,
 ///     u+ = projection of u- on {0} if gamma- < 0,  on R+ if gamma- = 0 and q = 0,  on R otherwise.
 ///
-/// Only f_ext acts at a distance. The scheme is that of contact_step.hpp with the free velocity
-/// u^n + h f^n/m, where f^n is the mean of f_ext over the step and h = viscous_contact.time_step.
-/// The first integral k ln q = k ln q0 + gamma, q0 the initial gap, gives the thickness q0
-/// exp(gamma/k) of the film that the model does not resolve. The solids touch where it is r1 + r2, the
-/// heights of the roughness: gamma >= gamma_min = k ln((r1 + r2)/q0) (Maury 2007 and Lefebvre 2008,
-/// who have q0 = r). Throws Error(kBadInput) if the fit's resistance has no positive coefficient k of 1/q.
+/// Only f_ext acts at a distance. The scheme is that of contact_step.hpp with the free velocity u^n
+/// + h f^n/m, where f^n is the mean of f_ext over the step and h = viscous_contact.time_step. The
+/// first integral k ln q = k ln q0 + gamma, with the initial gap q0, gives the thickness q0
+/// exp(gamma/k) of the film that the model does not resolve. The solids touch when this thickness
+/// is the height r1 + r2 of the roughness of both surfaces: gamma >= gamma_min = k ln((r1 + r2)/q0)
+/// (Maury 2007 and Lefebvre 2008, who take the radius for q0). Throws Error(kBadInput) if the fit's
+/// resistance has no positive coefficient k of 1/q.
 ContactModel viscous_contact(const Motion& motion, const lubrication::LubricationForce& force);
 
-/// The same model with the scheme read as a leapfrog: u^n and gamma^n stand at the time t^n - h/2, so
-/// that the force in a step is its mean from t^n - h/2 to t^n + h/2 (in the first step from 0). The
-/// gap then is of second order in h away from impacts.
+/// The same model with a leapfrog: u^n and gamma^n are the values at the time t^n - h/2, so that
+/// the force of a step is the mean of f_ext from t^n - h/2 to t^n + h/2 (in the first step from 0).
+/// The gap then is of second order in h away from impacts.
 ContactModel viscous_contact_leapfrog(const Motion& motion,
                                       const lubrication::LubricationForce& force);
 

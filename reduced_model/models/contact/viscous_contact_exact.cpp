@@ -1,6 +1,7 @@
 // Finds the events of problem (P), which are landing, release and change to solid contact, and
-// computes the budget between them. Equations and units are those of viscous_contact_exact.hpp. A
-// change of its results must raise kModelsRevision.
+// computes the budget between them. The equations are those of viscous_contact_exact.hpp. Lengths,
+// masses and times are in any one consistent system of units. A change of its results must raise
+// kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 
 #include <algorithm>
@@ -109,7 +110,8 @@ class EventDriven {
     return t;
   }
 
-  // Of the motion: a shorter flight counts as rest, so that the bounces of a dry sphere end.
+  // Fraction of the motion: a shorter flight counts as rest, so that the bounces of a dry sphere
+  // end.
   static constexpr double kShortestFlight = 1e-6;
 
   double m_;

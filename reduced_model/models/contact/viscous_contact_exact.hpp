@@ -1,5 +1,7 @@
-// Viscous contact without a time step, from event to event (physics.md (4.4), (4.6)). Lengths,
-// masses and times are in any one consistent system of units.
+// Viscous contact without a time step, from event to event (physics.md (4.4), (4.6)). q is the gap,
+// u the velocity, m the mass, f_ext the external force, gamma minus the impulse that the film has
+// absorbed. Lengths, masses and times are in any one consistent system of units. Studies and tests
+// compare the models with a time step with this one.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
@@ -7,7 +9,7 @@
 namespace viscontact::reduced_model {
 
 /// The exact solution of problem (P) of viscous_contact.hpp. With I(t) = int f_ext, S(t) = int I,
-/// and the index 0 for the last event:
+/// and the index 0 for values at the last event (landing, release, or contact of the solids):
 ///
 ///     free:        q = q_0 + (t - t_0) u_0 + (S - S_0 - (t - t_0) I_0)/m,  u = u_0 + (I - I_0)/m,
 ///                  until q = 0 in a fall; then gamma = m u-, u = 0;

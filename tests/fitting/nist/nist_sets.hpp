@@ -1,5 +1,5 @@
 // The NIST Statistical Reference Datasets of linear regression, and how many of their certified
-// digits our least squares reach.
+// digits the least squares of fitting/ reach. Numbers have no units.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,18 +19,18 @@ struct NistSet {
   std::vector<double> deviations;    ///< of the coefficients, certified; 0: exact data
 };
 
-/// Names of all sets here.
+/// Names of the sets that are in tests/fitting/nist.
 std::span<const std::string_view> nist_sets();
 
 /// Reads tests/fitting/nist/NAME.csv.
 NistSet read_nist_set(std::string_view name);
 
-/// Digits in common, -log10 |value/certified - 1|, at most the 15 that are certified.
+/// Number of digits that agree, -log10 |value/certified - 1|, at most 15, as many as are certified.
 double digits(double value, double certified);
 
 struct NistDigits {
-  double coefficients = 15;  ///< the least over all coefficients
-  double deviations = 15;    ///< the least over those that are not 0
+  double coefficients = 15;  ///< smallest number of digits of all coefficients
+  double deviations = 15;    ///< smallest number of digits of all deviations that are not 0
   double condition_number = 0;
 };
 

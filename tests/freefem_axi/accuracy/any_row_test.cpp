@@ -12,7 +12,7 @@
 
 #include "tests/freefem_axi/accuracy/exact_rows.hpp"
 #include "tests/oracles/bispherical/bispherical.hpp"
-#include "viscontact/freefem_axi/motions/motion_row.hpp"
+#include "viscontact/freefem_axi/motion_row.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {

@@ -16,8 +16,8 @@ namespace viscontact::freefem_axi {
 
 using Random = std::mt19937_64;
 
-/// From one generator's bits alone: the distributions of the standard library differ between
-/// libraries.
+/// A uniform number in [from, to], made from the bits of the generator, because the distributions
+/// of the standard library differ between libraries.
 inline double uniform(Random& random, double from, double to) {
   return std::lerp(from, to, static_cast<double>(random() >> 11U) * 0x1p-53);
 }
@@ -27,19 +27,19 @@ inline double log_uniform(Random& random, double from, double to) {
 }
 
 struct ExactRow {
-  Tabulation tabulation;  ///< of this row alone, radius, viscosity and -velocity 1
-  double drag_factor = 0;
+  Tabulation tabulation;   ///< has this row only; radius and viscosity are 1, the velocity is -1
+  double drag_factor = 0;  ///< exact
 
   double gap() const { return tabulation.gaps.front(); }
 };
 
-/// An unbounded one, or a cavity.
+/// A row in unbounded fluid or in a cavity; `gap` is in radii of the sphere.
 ExactRow exact_row(const std::string& geometry, double gap, std::vector<double> parameters,
                    double accuracy, double drag_factor);
 
 ExactRow draw_plane(Random& random, double accuracy);
 ExactRow draw_free_surface(Random& random, double accuracy);
-/// Equal spheres, one at rest, both together, or against each other.
+/// Equal spheres: one is at rest, or both move together, or against each other.
 ExactRow draw_equal_spheres(Random& random, double accuracy);
 /// Radius ratios from 0.01 to 100, velocity ratios from -2 to 2.
 ExactRow draw_spheres(Random& random, double accuracy);
@@ -48,8 +48,8 @@ ExactRow draw_cavity(Random& random, double accuracy);
 /// Closed cylinders from 3 x 6 to 80 x 160 radii, gaps from 1e-4 to mid-height.
 ExactRow draw_cylinder(Random& random, double accuracy);
 
-/// The same row in other units: `radius`, `viscosity` and `speed` are what is 1 in `tabulation`,
-/// all > 0. The drag factor, a number, stays.
+/// The same row in other units, in which the sphere has this radius and speed and the fluid this
+/// viscosity, all > 0; in `tabulation` all three are 1. The drag factor has no dimension and stays.
 Tabulation in_units(const Tabulation& tabulation, double radius, double viscosity, double speed);
 
 struct ExactRows {
@@ -57,7 +57,7 @@ struct ExactRows {
   ExactRow (*draw)(Random& random, double accuracy);
 };
 
-/// All of them.
+/// All functions that draw rows, with their names.
 std::span<const ExactRows> exact_rows();
 
 /// A solved row.
@@ -66,7 +66,7 @@ struct SolvedRow {
   lubrication::ForceTableRow answer;
 
   double error() const { return std::abs(answer.drag_factor / row.drag_factor - 1); }
-  /// Error over its estimate.
+  /// The error divided by its estimate.
   double ratio() const { return error() / answer.relative_error_estimate; }
   bool says_reached() const {
     return answer.relative_error_estimate <= row.tabulation.relative_accuracy;

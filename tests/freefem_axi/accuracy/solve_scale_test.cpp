@@ -19,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr double kGap = 0.25;
-// Between two solves of the same problem there is round-off only (row.idp).
+// Between two solves of the same problem there is round-off only (extrapolation.idp).
 constexpr double kRoundOff = 1e-11;
 
 Tabulation tabulation_of_viscosity(double viscosity) {

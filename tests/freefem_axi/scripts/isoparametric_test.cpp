@@ -1,5 +1,5 @@
-// The pull-back of isoparametric.idp by itself: isoparametric.edp of this folder, with curved edges
-// and with straight ones.
+// The pull-back of stokes_problem.idp by itself: isoparametric.edp of this folder, with curved
+// edges and with straight ones.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,4 +1,5 @@
-// The lines "viscontact-level LEVEL NUMBER ..." of a script, and orders of convergence.
+// Reads the lines "viscontact-level LEVEL NUMBER ..." that FreeFEM scripts print for each mesh, and
+// computes orders of convergence. Numbers have the units of the script.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +15,9 @@
 
 namespace viscontact::freefem_axi {
 
-/// The numbers that follow LEVEL, level by level, `count` of them each.
+/// For each level, the `count` numbers that follow LEVEL. Levels are numbered from 0. Fails the
+/// test if the script failed; throws std::invalid_argument for a line with another number of
+/// numbers.
 inline std::vector<std::vector<double>> levels_of(const ProcessResult& result, std::size_t count) {
   EXPECT_EQ(result.exit_status, 0) << result.output;
   std::vector<std::vector<double>> levels;
@@ -33,7 +36,7 @@ inline std::vector<std::vector<double>> levels_of(const ProcessResult& result, s
   return levels;
 }
 
-/// From a mesh to one of half its size.
+/// Order of convergence from the errors on a mesh and on one with half the mesh size.
 inline double observed_order(double coarse_error, double fine_error) {
   return std::log2(std::abs(coarse_error / fine_error));
 }

@@ -19,8 +19,8 @@
 //
 //     (2/3) sinh(alpha) sum n(n+1) exp(-m alpha) [p sinh(alpha) - q (m sinh(alpha) + cosh(alpha))].
 //
-// Near contact, and for a far small second sphere, differences of these functions lose all digits:
-// they are written so that nothing is subtracted that agrees to leading order.
+// Near contact, and for a far small second sphere, differences of these functions would lose all
+// digits. They are written so that no numbers are subtracted that agree to leading order.
 #include "tests/oracles/bispherical/bispherical.hpp"
 
 #include <algorithm>
@@ -41,7 +41,8 @@ struct Surface {
   Real velocity = 0;  ///< over the sphere's
 };
 
-/// p and q times the determinant (times exp(-m sigma)) and 2, the latter with its sign changed.
+/// p and q, each times twice the determinant, which has the factor exp(-m sigma); q has its sign
+/// changed.
 struct Solution {
   Real p, q;
 };
@@ -132,7 +133,7 @@ double two_sphere_drag_factor(double epsilon, double radius_ratio, double veloci
 }
 
 double cavity_drag_factor(double epsilon, double cavity_radius_ratio) {
-  // The same with -k for k, and d < 0.
+  // The formulas of two_sphere_drag_factor() with -k for k, and d < 0.
   const Real e = epsilon, k = cavity_radius_ratio, d = k - 1 - e;
   if (d <= 0) return concentric_cavity_drag_factor(cavity_radius_ratio);  // alpha is infinite
   const Real alpha = xi_from_excess(e * (2 * k - e) / (2 * d));

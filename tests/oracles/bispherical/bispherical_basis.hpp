@@ -1,5 +1,6 @@
-// Solutions of the bispherical stream function's equation in xi with a double zero at xi = 0, that
-// is, with no slip there: S and H, of which the others are derivatives.
+// The functions S and H of the bispherical coordinate s, from which a stream function without slip
+// at s = 0 is made (bispherical.cpp): they solve its equation and have a double zero there. K and L
+// are their derivatives, and n >= 1 numbers the terms of the series. All numbers are dimensionless.
 //
 //     S = sinh(m s) sinh(s),   H = m cosh(m s) sinh(s) - sinh(m s) cosh(s),   m = n + 1/2,
 //     S' = K = m cosh(m s) sinh(s) + sinh(m s) cosh(s),   S'' = L,   H' = (m^2 - 1) S.
@@ -11,9 +12,9 @@
 
 namespace viscontact {
 
-/// S, H, K, L at sigma times exp(-m sigma), and the determinants of the conditions (value and first
-/// derivative, value and second derivative) times exp(-2 m sigma): they cannot overflow, and all
-/// have the digits of a long double but few.
+/// S, H, K, L at s = sigma, times exp(-m sigma), and the determinants of the conditions at sigma
+/// (value and first derivative, value and second derivative), times exp(-2 m sigma). With these
+/// factors nothing overflows. All numbers have nearly the precision of a long double.
 struct BisphericalBasis {
   long double s, h, k, l;
   long double no_slip;     ///< (m^2-1) S^2 - H K = sinh^2(m sigma) - m^2 sinh^2(sigma)
@@ -26,7 +27,7 @@ struct BisphericalBasis {
     s = sinh_x * sinh_s;
     k = m * cosh_x * sinh_s + sinh_x * cosh_s;
     l = (m * m + 1) * s + 2 * m * cosh_x * cosh_s;
-    if (x < 1) {  // Differences of equal leading terms: both without them.
+    if (x < 1) {  // the leading terms of both differences are equal and are left out
       const auto f = [](long double y) { return sinh_minus_argument(y); };
       h = decay * ((m - 1) * f((m + 1) * sigma) - (m + 1) * f((m - 1) * sigma)) / 2;
       no_slip = decay * (f(x) - m * f(sigma)) * (sinh_x + decay * m * sinh_s);

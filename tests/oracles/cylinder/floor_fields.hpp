@@ -1,27 +1,29 @@
-// Axisymmetric Stokes flows without singularity in a cylinder, at rest on its floor.
+// Axisymmetric Stokes flows in a cylinder that have no singularity in it and are at rest on its
+// floor z = 0. Lengths are in one unit; sphere_in_cylinder.cpp sums them.
 #pragma once
 
 #include <vector>
 
 namespace viscontact {
 
-/// A Stokes stream function and its derivatives; u_rho = psi_z/rho, u_z = -psi_rho/rho.
+/// A Stokes stream function psi and its derivatives in cylindrical coordinates (rho, z). The
+/// velocity has the components psi_z/rho along rho and -psi_rho/rho along z.
 struct StreamFunction {
   long double value, d_rho, d_z;
 };
 
-/// Flows which together approximate any that a smooth force outside the cylinder drives: the error
-/// falls exponentially with the square root of their number (the "lightning" method, Brubeck &
-/// Trefethen 2022, SIAM J. Sci. Comput. 44, A1205). With E^2 the operator of the stream function,
-/// psi = z A and psi = z A_z - A are such flows for each A odd in z with E^2 A = 0. Here A comes
-/// from polynomials, and from sources on rings outside, closer and closer to the two corners, where
-/// the flow has Moffatt's weak singularities.
+/// Flows whose sums approximate every flow that forces outside the cylinder drive. The error falls
+/// exponentially with the square root of their number (the "lightning" method, Brubeck & Trefethen
+/// 2022, SIAM J. Sci. Comput. 44, A1205). With the operator E^2 of the stream function, psi = z A
+/// and psi = z A_z - A are such flows for each function A that is odd in z with E^2 A = 0. Here A
+/// is a polynomial, or a source on a ring outside the cylinder. The rings come closer and closer to
+/// the two corners, where the flow has Moffatt's weak singularities.
 class FloorFields {
  public:
   FloorFields(long double radius, long double height);
 
   int count() const { return count_; }
-  /// All of them at a point of the closed cylinder.
+  /// The stream functions of all flows at a point of the closed cylinder.
   std::vector<StreamFunction> at(long double rho, long double z) const;
 
  private:

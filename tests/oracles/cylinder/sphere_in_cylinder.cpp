@@ -143,9 +143,10 @@ double sphere_in_cylinder_drag_factor(double epsilon, double radius_ratio, doubl
     append((1 + x) / 2 * radius, height, weight * radius);
   }
 
-  // The fields are nearly dependent, and a sum of large ones would lose the digits of the drag near
-  // contact: coefficients of columns of length 1 cost 1e-11 each. From 1e-14 to 1e-10 the drag
-  // changes by less than 1e-8 of itself.
+  // The fields are nearly dependent, and a sum with large coefficients would lose the digits of the
+  // drag near contact. Therefore the sum of squares gets the squares of all coefficients, of
+  // columns scaled to length 1, with the weight 1e-11 squared. With 1e-14 to 1e-10 the drag changes
+  // by less than 1e-8 of itself.
   const Eigen::Index unknowns = columns - 1;
   const Vector scale = velocities.rightCols(unknowns).colwise().norm().cwiseInverse();
   Matrix system = Matrix::Zero(row + unknowns, unknowns);

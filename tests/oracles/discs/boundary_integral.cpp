@@ -1,5 +1,6 @@
 // A double layer of density q on discs and walls, whose velocity at x is
-//     sum over y of (1/pi) r (r.q)(r.n)/|r|^4 ds,   r = x - y, n the normal out of disc or container,
+//     sum over y of (1/pi) r (r.q)(r.n)/|r|^4 ds,   r = x - y, n the normal out of disc or
+//     container,
 // or in complex numbers, with products of vectors a.b = Re(conj(a) b),
 //     (1/(4 pi)) [conj(q n) r/conj(r)^2 + 2 (q.n)/conj(r) + q n/r] ds.
 // Its value on a boundary is the principal value, + q/2 outside of the curve and - q/2 inside. In a
@@ -31,8 +32,8 @@ struct Node {
   int curve;
 };
 
-/// Sums over the periodic images of r: of 1/r, of r/conj(r)^2, and of the force's ln |r|^2 and
-/// r/conj(r), each but for a constant.
+/// Sums over the periodic images of r: of 1/r, of r/conj(r)^2, and of ln |r|^2 and r/conj(r), which
+/// belong to a force. Each is known up to a constant.
 struct Sums {
   Complex inverse, squared, ratio;
   double log = 0;
@@ -159,8 +160,8 @@ DiscAnswer discs_by_boundary_integral(const DiscProblem& problem, int disc_nodes
   std::vector<double> perimeter(static_cast<std::size_t>(discs) + 1, 0.0);
   for (const auto& node : nodes) perimeter[static_cast<std::size_t>(node.curve)] += node.weight;
 
-  // A channel has two more unknowns, the coefficients of the flows y and y^2 along x: a double
-  // layer on both walls makes no shear, and no pressure gradient.
+  // A channel has two more unknowns, the coefficients of the flows y and y^2 along x, because a
+  // double layer on both walls cannot make a shear or a pressure gradient.
   const Eigen::Index extra = channel ? 2 : 0;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * count + extra, 2 * count + extra);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * count + extra);

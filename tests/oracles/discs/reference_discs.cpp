@@ -182,7 +182,7 @@ std::string reference_discs_text() {
       std::snprintf(buffer, sizeof buffer, ",%.14g", value);
       return std::string(buffer);
     };
-    // What vanishes by symmetry is left by rounding errors.
+    // Motions that vanish by symmetry are rounding errors here, and are written as 0.
     const auto motion = [&](double value) { return number(std::abs(value) < zero ? 0 : value); };
     for (std::size_t k = 0; k < problem.discs.size(); ++k) {
       const auto& disc = problem.discs[k];

@@ -1,4 +1,6 @@
-// data/reference/discs.csv, for the tests: exact motions of discs and dissipations.
+// Reads data/reference/discs.csv for the tests: exact motions of discs in Stokes flow, and
+// dissipations. Units are those of DiscProblem: the viscosity is 1, lengths, forces and times are
+// in any one unit.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +11,7 @@
 
 namespace viscontact {
 
-/// A case of the file; its rows, one a disc, have the same name.
+/// A case of the file. Each disc of the case has a row; the rows of a case have the same name.
 struct ReferenceDiscs {
   std::string name;
   DiscProblem problem;
@@ -19,19 +21,20 @@ struct ReferenceDiscs {
   int digits = 0;
 };
 
-/// The file in the source folder. Throws std::runtime_error if it is not as reference_discs_text
-/// writes it.
+/// All cases of the file below the source folder. Throws std::runtime_error if the file does not
+/// have the form that reference_discs_text() writes.
 std::vector<ReferenceDiscs> read_reference_discs(const std::filesystem::path& source_folder);
 
 /// The case of this name. Throws std::runtime_error if there is none.
 ReferenceDiscs reference_discs(const std::filesystem::path& source_folder, const std::string& name);
 
-/// Both methods with as many unknowns as the narrowest gap needs for 12 digits, or for 8 below a
-/// gap of 0.1 radii.
+// Both methods, with as many unknowns as the narrowest gap needs for 12 digits, or for 8 digits
+// below a gap of 0.1 radii.
 DiscAnswer solved_by_collocation(const DiscProblem& problem);
 DiscAnswer solved_by_boundary_integral(const DiscProblem& problem);
 
-/// Largest difference of the motions, and of added_dissipation, each relative to the largest.
+/// Largest difference of the motions of `a` and `b`, and of their added_dissipation, each divided
+/// by its largest value.
 double difference(const DiscProblem& problem, const DiscAnswer& a, const DiscAnswer& b);
 
 /// The text of the file, with all cases computed anew.

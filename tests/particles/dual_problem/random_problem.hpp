@@ -1,4 +1,5 @@
-// Problems of a step with random contacts, for the solver under test and as dense matrices.
+// Problems of a step with random contacts, for the solver under test and as dense matrices. Numbers
+// have no units.
 #pragma once
 
 #include <Eigen/Dense>
@@ -46,8 +47,8 @@ struct Problem {
   }
 };
 
-/// Bodies thrown together by random normals, gaps >= 0 (staying is allowed), up to several contacts
-/// for each degree of freedom.
+/// One to ten particles, and up to four contacts for each of them, whose normals are random and
+/// need not fit to any places. All gaps are >= 0, so that zero displacements are allowed.
 template <int D>
 Problem<D> random_problem(Random& random) {
   Problem<D> problem;

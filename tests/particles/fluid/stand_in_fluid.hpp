@@ -1,5 +1,5 @@
-// A fluid solver for tests: a given resistance matrix in place of a flow. Units are those of the
-// case.
+// A fluid solver for tests: a given resistance matrix in place of a flow. Lengths, masses and times
+// are in any one consistent system of units.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,9 +16,9 @@ namespace viscontact::particles {
 /// definite matrix with motion_components() rows for each particle [M/T].
 using Resistance = std::function<Eigen::MatrixXd(const Particles&)>;
 
-/// Free particles take the velocities v with R (v - u) + inertia v = forces. The flow u without
-/// particles is 0 but in a sheared cell, where it is the mean flow at their places, docs/physics.md
-/// (6.3). Counts its questions.
+/// Free particles take the velocities v with R (v - u) + inertia v = forces, where R is the
+/// resistance matrix. The flow u without particles is 0, except in a sheared cell, where it is the
+/// mean flow at their places, docs/physics.md (6.3). The object counts its questions.
 class StandInFluid : public FluidSolver {
  public:
   explicit StandInFluid(Resistance resistance) : resistance_(std::move(resistance)) {}
@@ -31,10 +31,11 @@ class StandInFluid : public FluidSolver {
   FlowField flow() override { return {}; }
   std::size_t unknowns() const override { return 0; }
 
-  int placements = 0, solutions = 0;
-  /// The question with this number throws; < 0: none does.
+  int placements = 0,  ///< number of calls of place()
+      solutions = 0;   ///< number of calls of velocities()
+  /// The question with this number, from 0, throws; < 0: none does.
   int fails_at = -1;
-  /// The second mesh has this times the drag of the first one.
+  /// Drag on the second mesh divided by that on the first one, > 0.
   double drag_of_second_mesh = 1;
   SecondMesh second_mesh;
 

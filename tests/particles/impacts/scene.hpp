@@ -1,4 +1,5 @@
-// Scenes of particles that rebound, and what they do until a time.
+// Scenes of particles that rebound, and a function that collects their rebounds until a time.
+// Lengths, masses and times are in one unit each.
 #pragma once
 
 #include <cmath>
@@ -13,8 +14,9 @@ struct Scene {
   Setting setting;
 };
 
-/// A particle of the radius 1 that flies at the velocity -1 to the plane y = 0 with the film `k`
-/// ln(1/100), at the Stokes number m/k.
+/// A particle of radius 1 that flies at the velocity -1 to the plane y = 0 from the gap `gap`. Its
+/// film has gamma_min = ln(1/100), so that k = 1 and the mass is the Stokes number `stokes` = m/k.
+/// `dry` is e_d, and `step` the time step.
 inline Scene flying(int dimension, double stokes, double gap, double dry, double step) {
   Scene scene{no_particles(dimension), {}};
   add_particle(scene.state, {0, 1 + gap, 0}, 1, stokes, {0, -1, 0});

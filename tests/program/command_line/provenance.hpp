@@ -17,7 +17,8 @@
 
 namespace viscontact {
 
-/// Read from the file as text, as another program would do it, whatever comment contains it.
+/// The provenance of a file. It is searched in the text of the file, as another program would do,
+/// whatever kind of comment contains it. Fails the test if there is none.
 inline nlohmann::json provenance_of(const std::filesystem::path& file) {
   std::istringstream text(read_file(file));
   for (std::string line; std::getline(text, line);)
@@ -31,7 +32,8 @@ inline nlohmann::json provenance_of(const std::filesystem::path& file) {
   return {};
 }
 
-/// The names of the inputs. Their hashes are checked.
+/// The names of the inputs in the provenance of a file, those that are intermediate or the others.
+/// Expects that their hashes are those of the files.
 inline std::vector<std::string> inputs_of(const std::filesystem::path& file,
                                           bool intermediate = false) {
   std::vector<std::string> names;

@@ -70,7 +70,7 @@ file = "discs.csv"
 )" + more;
 }
 
-/// The table of a disc of a case, with more lines.
+/// The table [[particle]] of a disc, followed by the lines `more`.
 inline std::string disc(const std::string& centre, const std::string& radius,
                         const std::string& mass, const std::string& more = "") {
   return "[[particle]]\ncentre = [" + centre + "]\nradius = " + radius + "\nmass = " + mass + "\n" +
@@ -91,7 +91,7 @@ class ParticlesCommand : public ::testing::Test {
     more.insert(more.begin(), {"particles", file.string(), "-o", out.string()});
     return run_viscontact(more);
   }
-  /// Lines of a text that are no comments.
+  /// The text of a file without its lines of comment.
   static std::string content(const std::filesystem::path& file) {
     return replaced_matches(read_file(file), "#[^\n]*\n", "");
   }

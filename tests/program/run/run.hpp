@@ -14,7 +14,7 @@
 
 namespace viscontact {
 
-/// When each file below a folder was last written.
+/// The path of each file below a folder, and the time at which it was last written.
 inline std::map<std::string, std::filesystem::file_time_type> write_times(
     const std::filesystem::path& folder) {
   std::map<std::string, std::filesystem::file_time_type> times;
@@ -23,7 +23,7 @@ inline std::map<std::string, std::filesystem::file_time_type> write_times(
   return times;
 }
 
-/// The case with the exact drag of a plane instead of a fit.
+/// The text of gentle_case_text() with the exact drag of a plane instead of a fit.
 inline std::string exact_case_text() {
   return replaced(replaced(gentle_case_text(), "basis = \"lecture\"", "exact = \"plane\""),
                   "weights = \"relative\"", "");

@@ -34,12 +34,12 @@ class Stages : public ::testing::Test {
     expect_done(
         run_viscontact({"fit", path("table.csv"), "-o", path("fit.json"), "--basis", basis}));
   }
-  /// Six trajectories in run/, from the fit of the asymptotic basis.
+  /// Fits with the asymptotic basis and simulates the default models into the folder run/.
   void simulate() const {
     fit("asymptotic");
     simulate_into("run");
   }
-  /// From the fit that was made.
+  /// Simulates with the fit fit.json, which must exist, into a folder.
   void simulate_into(const std::string& folder) const {
     expect_done(run_viscontact(
         {"simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path(folder)}));

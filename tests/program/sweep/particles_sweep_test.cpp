@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tests/particles/sweep/particles_case.hpp"
 #include "tests/program/sweep/sweep_command.hpp"
 #include "tests/program/undisturbed.hpp"
-#include "tests/sweep/particles/particles_case.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/process.hpp"
 #include "viscontact/common/text/csv.hpp"

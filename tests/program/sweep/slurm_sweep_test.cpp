@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/particles/sweep/particles_case.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/slurm_cluster.hpp"
 #include "tests/program/sweep/sweep_command.hpp"
 #include "tests/program/undisturbed.hpp"
-#include "tests/sweep/particles/particles_case.hpp"
 #include "viscontact/common/files/file.hpp"
 
 namespace viscontact {

@@ -1,4 +1,4 @@
-// `viscontact sweep` on shipped studies, in a folder of its own.
+// Runs `viscontact sweep` on shipped studies in a temporary folder.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -31,7 +31,7 @@ class SweepCommand : public ::testing::Test {
     return run_viscontact(arguments, {}, shell_before);
   }
 
-  /// The header line and the rows.
+  /// The header line and the rows of a file, without comments.
   std::vector<std::string> lines(const std::string& output = "rows.csv") const {
     std::vector<std::string> found;
     std::istringstream text(read_file(path(output)));
@@ -40,7 +40,7 @@ class SweepCommand : public ::testing::Test {
     return found;
   }
 
-  /// Expects the refusal, and that nothing is written.
+  /// Expects that the program refuses these options (expect_refusal()) and writes nothing.
   void expect_refused(const std::string& case_file, const std::vector<std::string>& options,
                       ErrorKind kind, const ::testing::Matcher<std::string>& message) const {
     const auto before = files_below(scratch_.path());
@@ -48,7 +48,8 @@ class SweepCommand : public ::testing::Test {
     EXPECT_TRUE(files_below(scratch_.path()) == before) << "something was written";
   }
 
-  /// A shipped study, with its fit's path made absolute.
+  /// Writes the shipped case `name` with `from` replaced by `to`, and with an absolute path of its
+  /// fit. Returns the path of the new case.
   std::string study(const std::string& name, const std::string& from, const std::string& to) const {
     auto text = replaced(read_file(data("cases/" + name)), from, to);
     if (text.find("\"../fits/") != std::string::npos)

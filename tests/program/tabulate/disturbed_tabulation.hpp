@@ -1,4 +1,5 @@
-// Tabulations in a folder of their own that tests disturb, and the rows that these have finished.
+// Runs tabulations that tests interrupt or let fail, in a temporary folder, and reads which rows
+// are finished.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@
 
 namespace viscontact {
 
-/// Twelve gaps at two velocities.
+/// The text of gentle_case_text() with twelve gaps and two velocities.
 inline std::string case_of_24_rows() {
   return replaced(replaced(gentle_case_text(), "count = 6", "count = 12"),
                   "reference_velocities = [-1.0]", "reference_velocities = [-1.0, 2.0]");
@@ -33,7 +34,7 @@ class DisturbedTabulation : public ::testing::Test {
                           {"VISCONTACT_FREEFEM=" + freefem}, shell_before);
   }
 
-  /// "GAP VELOCITY" of the rows that are finished: on disk.
+  /// "GAP VELOCITY" of the rows of a table that are finished, in its journal or in the table.
   std::set<std::string> finished(const std::string& table) const {
     std::set<std::string> rows;
     const auto plan =

@@ -8,7 +8,7 @@
 #include <functional>
 #include <set>
 
-#include "tests/report/particles/flow/flows.hpp"
+#include "tests/report/flow/flows.hpp"
 
 namespace viscontact::report {
 namespace {

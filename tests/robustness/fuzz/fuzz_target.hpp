@@ -1,5 +1,5 @@
-// What the fuzz targets share. A target is a program's whole way of dealing with a file of any
-// bytes: read it, and if it is let in, use it.
+// What the fuzz targets share. A target gives arbitrary bytes to a reader of files and, if the
+// reader accepts them, uses the result as the program would.
 #pragma once
 
 #include <cstddef>
@@ -9,20 +9,22 @@
 
 #include "viscontact/common/error.hpp"
 
-/// libFuzzer's interface; one target defines it. Anything thrown is a finding.
+/// The interface of libFuzzer, which each target defines. An exception that leaves it is a finding.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace viscontact {
 
-/// A file with these bytes, in a folder of this process alone that lies in memory where there is
-/// such a place; the next call replaces it. Beside it are the files that shipped cases name.
+/// Writes a file with these bytes and returns its path. The folder belongs to this process alone
+/// and is in memory if the machine has such a file system; the next call replaces the file. The
+/// folder also has the files that shipped cases name.
 std::filesystem::path file_of_bytes(const std::uint8_t* data, std::size_t size,
                                     std::string_view name);
 
-/// Throws std::logic_error, a finding.
+/// Throws std::logic_error, which is a finding, if `holds` is false; `what` is its message.
 void require(bool holds, const char* what);
 
-/// Reads a file. False if it was refused as files are; what else it throws is a finding.
+/// Calls `read`. Returns false if it refuses the file with an Error(kBadInput). Any other exception
+/// is a finding.
 template <class Read>
 bool is_let_in(const Read& read) {
   try {
@@ -34,8 +36,8 @@ bool is_let_in(const Read& read) {
   }
 }
 
-/// Does something with what was let in. False if that could not be done, which must be said as an
-/// Error.
+/// Calls `use` for a file that was accepted. Returns false if it throws an Error. Any other
+/// exception is a finding.
 template <class Use>
 bool can_be(const Use& use) {
   try {

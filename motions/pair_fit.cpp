@@ -1,0 +1,92 @@
+// The names, bases and values of the resistances of a pair.
+#include "viscontact/motions/pair_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/named.hpp"
+
+namespace viscontact::motions {
+namespace {
+
+/// A basis of a pair: a named basis, and further terms.
+struct PairBasis {
+  std::string_view name;
+  std::string_view base;
+  std::vector<std::string_view> further;
+};
+
+const std::vector<PairBasis>& bases_of_pairs() {
+  static const std::vector<PairBasis> bases = {
+      {"asymptotic", "asymptotic", {}},
+      {"asymptotic_extended", "asymptotic_extended", {}},
+      {kDefaultPairBasis, "asymptotic_extended", {"q^3 ln q"}},
+      {"asymptotic_quartic", "asymptotic_extended", {"q^3 ln q", "q^4 ln q", "q^4"}}};
+  return bases;
+}
+
+}  // namespace
+
+std::span<const NamedEntry> pair_entries() {
+  static const std::vector<NamedEntry> entries = {{"squeeze",
+                                                   "F_z = -squeeze u_z: the sphere approaches",
+                                                   {},
+                                                   lubrication::kLeadingTerm,
+                                                   lubrication::FittedShape::kDrag},
+                                                  {"slide",
+                                                   "F_x = -slide u: it moves along x",
+                                                   {"1/q"},
+                                                   "ln q",
+                                                   lubrication::FittedShape::kPositive},
+                                                  {"roll",
+                                                   "T_y = -roll w: it turns about y",
+                                                   {"1/q"},
+                                                   "ln q",
+                                                   lubrication::FittedShape::kPositive},
+                                                  {"slide_roll",
+                                                   "T_y = slide_roll u and F_x = slide_roll w",
+                                                   {"1/q"},
+                                                   "ln q",
+                                                   lubrication::FittedShape::kAny},
+                                                  {"spin",
+                                                   "T_z = -spin w_z: it turns about z",
+                                                   {"1/q", "ln q"},
+                                                   "q ln q",
+                                                   lubrication::FittedShape::kPositive}};
+  return entries;
+}
+
+std::vector<std::string_view> pair_bases() {
+  std::vector<std::string_view> names;
+  for (const auto& basis : bases_of_pairs()) names.push_back(basis.name);
+  return names;
+}
+
+lubrication::Basis basis_of_entry(const NamedEntry& entry, std::string_view name,
+                                  std::optional<double> theory) {
+  const auto& pair_basis = require_named(bases_of_pairs(), name, "basis of a pair");
+  lubrication::Basis basis = lubrication::find_basis(pair_basis.base);
+  basis.name = name;
+  for (const auto term : pair_basis.further) basis.terms.push_back(*lubrication::find_term(term));
+  std::erase_if(basis.terms, [&](const lubrication::Term& term) {
+    return std::ranges::find(entry.absent_terms, term.name) != entry.absent_terms.end() ||
+           (theory && *theory == 0 && term.name == entry.leading_term);
+  });
+  return basis;
+}
+
+double entry_value(const PairFit& fit, PairEntry entry, double gap) {
+  const auto found = fit.entries.find(entry);
+  if (found == fit.entries.end())
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("the fit lacks the entry {}",
+                            pair_entries()[static_cast<std::size_t>(entry)].name));
+  double value = 0;
+  for (const auto& term : found->second.fit.terms)
+    value += term.coefficient * lubrication::find_term(term.name)->value(gap);
+  return value;
+}
+
+}  // namespace viscontact::motions

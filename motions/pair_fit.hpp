@@ -1,0 +1,90 @@
+// The fits of all resistances of a sphere beside its neighbour, as functions of the gap (physics.md
+// (2.12)), and their file. Lengths, masses and times are in the units of the tables.
+// fitting/fit_pair.hpp makes these fits, and reduced_model/rolling/ reads them. A change must keep
+// the names of entries, bases and keys, which files contain.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/terms.hpp"
+
+namespace viscontact::motions {
+
+/// The resistances of a pair. The neighbour is at rest, and z goes from it to the sphere. With the
+/// velocities u along x, u_z along z [L/T] and the angular velocities w about y, w_z about z [1/T],
+/// the fluid exerts the forces F [M L/T^2] and torques T [M L^2/T^2] on the sphere:
+///   F_z = -squeeze u_z,            F_x = -slide u + slide_roll w,
+///   T_y = slide_roll u - roll w,   T_z = -spin w_z.
+enum class PairEntry { kSqueeze, kSlide, kRoll, kSlideRoll, kSpin };
+
+/// A resistance of a pair, and what its fits may contain.
+struct NamedEntry {
+  std::string_view name;         ///< such as "slide_roll", in files and in exported code
+  std::string_view description;  ///< one line for the comment of exported code
+  /// Terms of bases that theory does not have in this entry near contact.
+  std::vector<std::string_view> absent_terms;
+  std::string_view leading_term;  ///< the most singular term that theory has
+  /// The condition that a fit of this entry must fulfil.
+  lubrication::FittedShape shape;
+};
+
+/// All entries, in the order of PairEntry.
+std::span<const NamedEntry> pair_entries();
+
+/// Name of the basis that is fitted if the user chooses none.
+inline constexpr std::string_view kDefaultPairBasis = "asymptotic_cubic";
+
+/// The names of the bases for the entries of a pair: asymptotic and asymptotic_extended as in
+/// all_bases(), asymptotic_cubic, which also has q^3 ln q, and asymptotic_quartic, which moreover
+/// has q^4 ln q and q^4.
+std::vector<std::string_view> pair_bases();
+
+/// The basis for an entry: the terms of the basis with this name, without the absent terms of the
+/// entry, and without its leading term if theory's coefficient `theory` of that term is 0. Throws
+/// Error(kBadInput), which lists the names, if no basis has this name.
+lubrication::Basis basis_of_entry(const NamedEntry& entry, std::string_view name,
+                                  std::optional<double> theory = {});
+
+/// The fit of one entry.
+struct EntryFit {
+  /// A fit at the reference velocity -1, so that its sum of coefficients times terms is the
+  /// resistance itself: [M/T] squeeze and slide, [M L/T] slide_roll, [M L^2/T] roll and spin.
+  lubrication::Fit fit;
+  /// Theory's coefficient of the entry's leading term, if it is known.
+  std::optional<double> theory;
+};
+
+/// The fits of the resistances of a pair: the content of a fit file of a pair.
+struct PairFit {
+  double viscosity = 0;                         ///< mu [M/(L T)], > 0
+  double radius = 0;                            ///< r [L], > 0
+  std::string geometry;                         ///< the neighbour in words; may be empty
+  std::array<double, 2> gap_interval = {};      ///< the gaps [L] that all tables contain
+  std::map<PairEntry, EntryFit> entries;        ///< those that the fitted tables determine
+  std::map<std::string, std::string> versions;  ///< program name to version
+};
+
+/// The value of an entry at a gap [L] > 0, in the dimension that EntryFit gives. Throws
+/// Error(kBadInput) if the fit lacks the entry. Outside the interval of gaps the formula is
+/// continued.
+double entry_value(const PairFit& fit, PairEntry entry, double gap);
+
+/// True if the path is a regular file with a PairFit. False for a pipe, which is not read, because
+/// it cannot be read a second time.
+bool is_pair_fit(const std::filesystem::path& path);
+
+/// Reads the file. Throws Error(kBadInput) with the line, the key and what is allowed.
+PairFit read_pair_fit(const std::filesystem::path& path);
+
+/// The text of the file (JSON).
+std::string write_pair_fit(const PairFit& fit);
+
+}  // namespace viscontact::motions

@@ -1,0 +1,390 @@
+// Reads the particles of a case: [particles], [[particle]], [arrangement] and [[force]]
+// (particles_sections.hpp). Lengths, masses and times are in the units of the case. A change must
+// keep the keys and their defaults, because users have written cases with them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/particles/case/particles_sections.hpp"
+#include "viscontact/particles/io/particle_file.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+constexpr Allowed kMassWithoutFluid = {
+    [](double v) { return v >= 1 / kLargestNumber && v <= kLargestNumber; },
+    "from 1e-100 to 1e100 (0 is allowed only in a case with [fluid])"};
+constexpr std::array kKeysOfRotation = {"torque", "angle", "angular_velocity", "moment_of_inertia"};
+
+/// Gives an id to a particle of a table [[particle]]: the largest id so far plus 1. Called only if
+/// the CSV file gives ids.
+void add_id(Particles& p, const case_file::TomlSection& section) {
+  const auto largest = std::ranges::max(p.ids);
+  section.require(largest < std::numeric_limits<std::int32_t>::max(), "centre",
+                  "belongs to a particle that cannot get an id: it would be the largest id so far "
+                  "plus 1, but {} is the largest id that is possible",
+                  largest);
+  p.ids.push_back(largest + 1);
+}
+
+/// Throws an error for keys of a table [[particle]] that this case cannot have.
+void check_keys(const case_file::TomlSection& section, int dimension, bool in_fluid) {
+  section.require(
+      !section.has("semi_axes"), "semi_axes",
+      "is not possible yet, because ellipses are for a later version; the particle must "
+      "be a disc with a radius");
+  for (const auto* key : {"fixed", "velocity_given"})
+    section.require(in_fluid || !section.has(key), key,
+                    "belongs to a particle in a fluid; the case has no section [fluid]");
+  for (const auto* key : kKeysOfRotation)
+    section.require(dimension != 1 || !section.has(key), key,
+                    "must be left out, because a sphere on the axis does not turn");
+  section.require(dimension != 3 || !section.has("angle"), "angle",
+                  "must be left out, because the orientation of a sphere changes nothing");
+}
+
+void given_motion_keys(case_file::Keys& keys, GivenMotion& motion, int dimension, double end_time) {
+  keys.required("value", pieces(motion.velocity, dimension, end_time),
+                {"velocity of a particle that is driven"});
+  keys.require(dimension != 1 || !keys.has("angular_velocity"), "angular_velocity",
+               "must be left out, because a sphere on the axis does not turn");
+  keys.optional("angular_velocity", pieces_of_turn(motion.angular_velocity, dimension, end_time),
+                {"counter-clockwise", "0"});
+}
+
+/// A table [[particle]].
+struct ParticleTable {
+  Vector centre{}, velocity{}, angular_velocity{};
+  double radius = 0, mass = 0, angle = 0;
+  std::optional<double> moment_of_inertia;
+  PiecewiseConstant force, torque;  // without pieces if they are not given
+  bool is_fixed = false;
+  std::optional<GivenMotion> given;  // also of a particle that is fixed
+};
+
+void read_given_motion(const case_file::TomlSection& section, std::string_view key,
+                       ParticleTable& p, const ParticlesCase& c) {
+  section.require(!p.is_fixed, key,
+                  "must be left out, because fixed = true already says how this particle moves");
+  case_file::read_keys(section.section(key), given_motion_keys, p.given.emplace(),
+                       c.particles.dimension, c.end_time);
+}
+
+/// Reads the mass, or the density in its place.
+void read_mass(case_file::Keys& keys, ParticleTable& p, int dimension, bool in_fluid) {
+  double density = 0;
+  const bool has_density =
+      keys.optional("density", case_file::number(density, kModeratelyPositiveOr0),
+                    {"in place of `mass`, in a fluid: mass of the disc over its area, or of the "
+                     "sphere over its volume",
+                     "from `mass`"});
+  keys.require(
+      !has_density || in_fluid, "density",
+      "belongs to a particle in a fluid; the case has no section [fluid], and the particle "
+      "must have a mass");
+  keys.require(!has_density || !keys.has("mass"), "mass",
+               "must be left out, because density gives the mass of this particle");
+  if (has_density) p.mass = density * size_of_particle(dimension, p.radius);
+  if (has_density && keys.reads()) return;
+  keys.required_if(!in_fluid, "mass",
+                   case_file::number(p.mass, in_fluid ? kModeratelyPositiveOr0 : kMassWithoutFluid),
+                   {"mass of the disc or sphere", "required; in a fluid 0",
+                    "from 1e-100 to 1e100, in a fluid also 0"});
+}
+
+void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase& c) {
+  const int dimension = c.particles.dimension;
+  const bool in_fluid = c.setting.fluid.has_value();
+  const auto read_fixed = [&](const case_file::TomlSection& section, std::string_view key) {
+    p.is_fixed = section.truth(key);
+  };
+  if (keys.reads()) check_keys(keys.section(), dimension, in_fluid);
+  keys.optional("fixed", case_file::custom("`true` or `false`", read_fixed),
+                {"[in a fluid](#particles-in-a-fluid): whether the particle is at rest, whatever "
+                 "acts on it",
+                 "`false`"});
+  keys.optional("velocity_given",
+                case_file::custom("`{ value, angular_velocity }`", read_given_motion, p, c),
+                {"[in a fluid](#particles-in-a-fluid): how the particle is driven"});
+  if (p.is_fixed) p.given.emplace();
+  for (const auto* key : {"force", "torque", "velocity", "angular_velocity"})
+    keys.require(!p.given || !keys.has(key), key,
+                 "has no effect, because {} gives the motion of this particle; one of them must be "
+                 "left out",
+                 p.is_fixed ? "fixed" : "velocity_given");
+  keys.optional("force", pieces(p.force, dimension, c.end_time), {"is added to gravity", "0"});
+  keys.optional("torque", pieces_of_turn(p.torque, dimension, c.end_time),
+                {"in 2D counter-clockwise", "0"});
+  keys.optional("velocity", vector(p.velocity, dimension), {"at time 0", "0"});
+  keys.optional("angular_velocity", turn(p.angular_velocity, dimension),
+                {"at time 0, in 2D counter-clockwise", "0"});
+  keys.required("centre", vector(p.centre, dimension), {"at time 0"});
+  keys.required("radius", case_file::number(p.radius, kModeratelyPositive),
+                {"radius of the disc or sphere"});
+  read_mass(keys, p, dimension, in_fluid);
+  keys.optional("angle", case_file::number(p.angle, kModerate), {"at time 0, in 2D only"});
+  keys.optional("moment_of_inertia",
+                case_file::number(p.moment_of_inertia,
+                                  in_fluid ? kModeratelyPositiveOr0 : kModeratelyPositive),
+                {"about the centre", "mass r²/2 of a disc, 2 mass r²/5 of a sphere",
+                 "from 1e-100 to 1e100, in a fluid also 0"});
+}
+
+/// Adds the rotation of the last particle of a case without a fluid. Particles begin to turn with
+/// the first table that has a key of rotation; the particles before it have the defaults.
+void add_rotation_of_last(const case_file::TomlSection& section, const ParticleTable& table,
+                          Particles& p) {
+  if (!p.turn() &&
+      std::ranges::none_of(kKeysOfRotation, [&](auto* key) { return section.has(key); }))
+    return;
+  add_rotation(p);
+  const std::size_t k = p.count() - 1;
+  if (p.dimension == 2) {
+    p.angles[k] = table.angle;
+    p.angular_velocities[k] = table.angular_velocity[2];
+  } else {
+    for (std::size_t d = 0; d < 3; ++d) p.angular_velocities[3 * k + d] = table.angular_velocity[d];
+  }
+  if (table.moment_of_inertia) p.inertias[k] = *table.moment_of_inertia;
+}
+
+/// Value of a function at time 0.
+Vector at_start(const PiecewiseConstant& function) {
+  return function.pieces.empty() ? Vector{} : function.pieces.front().value;
+}
+
+/// Reads a table [[particle]].
+void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
+  auto& p = c.particles;
+  const bool in_fluid = c.setting.fluid.has_value();
+  ParticleTable table;
+  case_file::read_keys(section, particle_keys, table, c);
+  const auto number = static_cast<std::int32_t>(p.count());
+  if (table.given) {
+    table.velocity = at_start(table.given->velocity);
+    table.angular_velocity = at_start(table.given->angular_velocity);
+    c.setting.given_motions[number] = std::move(*table.given);
+  }
+  if (!table.force.pieces.empty()) c.setting.forces[number] = std::move(table.force);
+  if (!table.torque.pieces.empty()) c.setting.torques[number] = std::move(table.torque);
+  for (std::size_t d = 0; d < static_cast<std::size_t>(p.dimension); ++d) {
+    p.positions.push_back(table.centre[d]);
+    p.velocities.push_back(table.velocity[d]);
+  }
+  p.radii.push_back(table.radius);
+  p.masses.push_back(table.mass);
+  if (in_fluid && p.dimension == 2) {
+    p.angles.push_back(table.angle);
+    p.angular_velocities.push_back(table.angular_velocity[2]);
+    p.inertias.push_back(
+        table.moment_of_inertia.value_or(homogeneous_inertia(2, table.mass, table.radius)));
+  } else if (!in_fluid) {
+    add_rotation_of_last(section, table, p);
+  }
+  if (!p.ids.empty()) add_id(p, section);
+}
+
+void file_keys(case_file::Keys& keys, std::string& file) {
+  keys.required("file", case_file::text(file), {"a CSV file, see below"});
+}
+
+/// Reads the CSV file that [particles] names.
+void read_file_of_particles(const case_file::TomlSection& section, ParticlesCase& c,
+                            ParticleLines& lines) {
+  std::string name;
+  case_file::read_keys(section, file_keys, name);
+  c.particles_file = c.path.parent_path() / name;
+  const bool in_fluid = c.setting.fluid.has_value();
+  auto file = read_particles(c.particles_file, c.particles.dimension, in_fluid);
+  c.particles = std::move(file.particles);
+  lines.in_file = std::move(file.lines);
+  auto& p = c.particles;
+  if (in_fluid && p.dimension == 2)
+    for (std::size_t k = 0; k < p.count(); ++k)
+      p.inertias.push_back(homogeneous_inertia(2, p.masses[k], p.radii[k]));
+  if (!in_fluid && p.turn()) add_rotation(p);
+}
+
+/// What [arrangement] says before the discs are placed: their number or their area fraction, and
+/// the mass of each [M].
+struct ArrangementKeys {
+  Arrangement asked;
+  double area_fraction = 0, mass = 0, density = 0;
+};
+
+constexpr int kMostDiscs = 1000000;  // with which times and memory were measured (bench/README.md)
+
+void arrangement_keys(case_file::Keys& keys, ArrangementKeys& given, bool has_fluid) {
+  auto& asked = given.asked;
+  keys.required("radius", case_file::number(asked.radius, kModeratelyPositive),
+                {"radius of each disc"});
+  keys.require(!(keys.has("count") && keys.has("area_fraction")), "count",
+               "must be left out, because area_fraction is given");
+  keys.required_if(!keys.has("area_fraction"), "count",
+                   case_file::count(asked.count, 1, kMostDiscs),
+                   {"number of discs", "required without `area_fraction`"});
+  keys.optional(
+      "area_fraction", case_file::number(given.area_fraction, case_file::kFraction),
+      {"in place of `count`: area of these discs over the area of the domain", "from `count`"});
+  asked.smallest_gap = 0.05 * asked.radius;
+  keys.optional("smallest_gap", case_file::number(asked.smallest_gap, kNotNegative),
+                {"least gap of two discs (also across periodic sides), of a disc and another "
+                 "particle, and of a disc and a wall",
+                 "0.05 `radius`"});
+  keys.optional("seed", case_file::count(asked.seed, 0, std::numeric_limits<int>::max()),
+                {"the same seed gives the same arrangement, bit for bit on every machine"});
+  const bool has_density = keys.optional(
+      "density", case_file::number(given.density, kModeratelyPositiveOr0),
+      {"in place of `mass`, in a fluid: mass of each disc over its area", "from `mass`"});
+  keys.require(!has_density || has_fluid, "density",
+               "belongs to discs in a fluid; the case has no section [fluid], and the discs must "
+               "have a mass");
+  keys.require(!has_density || !keys.has("mass"), "mass",
+               "must be left out, because density gives the mass of the discs");
+  if (has_density) given.mass = given.density * size_of_particle(2, asked.radius);
+  if (has_density && keys.reads()) return;
+  keys.required_if(
+      !has_fluid, "mass",
+      case_file::number(given.mass, has_fluid ? kModeratelyPositiveOr0 : kModeratelyPositive),
+      {"mass of each disc", "required; in a fluid 0", "from 1e-100 to 1e100, in a fluid also 0"});
+}
+
+/// Reads [arrangement] and adds its discs, which are at rest, after the other particles, which keep
+/// their places.
+void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
+  auto& p = c.particles;
+  const auto& domain = c.setting.domain;
+  const bool has_fluid = c.setting.fluid.has_value();
+  section.require(p.dimension == 2, "radius",
+                  "belongs to an arrangement of discs; space.dimension must be 2");
+  section.require(
+      std::holds_alternative<DiscDomain>(domain) || std::holds_alternative<BoxDomain>(domain),
+      "radius", "belongs to an arrangement, which needs a section [domain] with a disc or a box");
+  ArrangementKeys given;
+  case_file::read_keys(section, arrangement_keys, given, has_fluid);
+  auto& asked = given.asked;
+  const std::string_view key = section.has("count") ? "count" : "area_fraction";
+  if (key == "area_fraction") {
+    asked.count = count_of(given.area_fraction, asked.radius, domain);
+    section.require(asked.count <= static_cast<std::size_t>(kMostDiscs), key,
+                    "makes {} discs of this radius; at most {} are allowed", asked.count,
+                    kMostDiscs);
+  }
+  const auto centres = case_file::at_key(section, key, [&] { return arrange(asked, domain, p); });
+
+  constexpr int kLargestId = std::numeric_limits<int>::max();
+  const auto largest_id = p.ids.empty() ? 0 : std::ranges::max(p.ids);
+  const auto last_id = static_cast<std::size_t>(largest_id) + asked.count;
+  section.require(p.ids.empty() || last_id <= static_cast<std::size_t>(kLargestId), key,
+                  "needs ids above {}, the largest id of the other particles; at most {} is "
+                  "possible",
+                  largest_id, kLargestId);
+  p.positions.insert(p.positions.end(), centres.begin(), centres.end());
+  p.velocities.resize(p.positions.size());
+  for (std::size_t k = 0; k < asked.count; ++k) {
+    p.radii.push_back(asked.radius);
+    p.masses.push_back(given.mass);
+    if (!p.ids.empty()) p.ids.push_back(largest_id + 1 + static_cast<std::int32_t>(k));
+    if (!has_fluid) continue;
+    p.angles.push_back(0);
+    p.angular_velocities.push_back(0);
+    p.inertias.push_back(homogeneous_inertia(2, given.mass, asked.radius));
+  }
+  c.arrangement = asked;
+}
+
+/// A table [[force]].
+struct ForceTable {
+  std::vector<std::int32_t> particles;
+  PiecewiseConstant value;
+};
+
+void force_by_id_keys(case_file::Keys& keys, ForceTable& force, const ParticlesCase& c,
+                      const ParticleIds& ids) {
+  keys.required("value", pieces(force.value, c.particles.dimension, c.end_time),
+                {"the force, which is added to gravity"});
+  keys.required("particles", case_file::custom("a list of ids", read_ids, force.particles, ids),
+                {"particles on which it acts; one force for each particle"});
+}
+
+}  // namespace
+
+ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c) {
+  ParticleLines lines;
+  if (root.has("particles")) read_file_of_particles(root.section("particles"), c, lines);
+  if (root.has("particle"))
+    for (const auto& section : root.sections("particle")) {
+      read_particle(section, c);
+      lines.in_case.push_back(section.line());
+    }
+  if (root.has("arrangement")) read_arrangement(root.section("arrangement"), c);
+  if (!c.setting.fluid && (c.setting.laws.friction || c.particles.turn()))
+    add_rotation(c.particles);
+  if (c.particles.count() == 0 && !c.particles_file.empty())
+    throw_bad_input({c.particles_file.string()},
+                    "has no particle; it must have a row for each particle after the header line");
+  if (c.particles.count() == 0)
+    throw_bad_input({c.path.string()},
+                    "has no particle; name a file in [particles], or add a [[particle]] or an "
+                    "[arrangement]");
+  return lines;
+}
+
+void read_forces_by_id(const case_file::TomlSection& root, ParticlesCase& c) {
+  if (!root.has("force")) return;
+  const ParticleIds ids(c);
+  for (const auto& section : root.sections("force")) {
+    ForceTable force;
+    case_file::read_keys(section, force_by_id_keys, force, c, ids);
+    for (const auto particle : force.particles) {
+      const auto id = c.particles.id(index_of(particle));
+      section.require(!c.setting.given_motions.contains(particle), "particles",
+                      "contains particle {}, whose motion is given, so that a force has no effect; "
+                      "it must be left out",
+                      id);
+      section.require(c.setting.forces.emplace(particle, force.value).second, "particles",
+                      "contains particle {} a second time; each particle must have one force", id);
+    }
+  }
+}
+
+std::vector<case_file::KeyTable> particle_tables() {
+  const ParticlesCase c;
+  const ParticleIds ids(c);
+  return {case_file::describe_keys("[particles]", file_keys),
+          case_file::describe_keys("[[particle]]", particle_keys, c),
+          case_file::describe_keys("particle.velocity_given", given_motion_keys, 2, 0),
+          case_file::describe_keys("[[force]]", force_by_id_keys, c, ids),
+          case_file::describe_keys("[arrangement]", arrangement_keys, false)};
+}
+
+ParticleIds::ParticleIds(const ParticlesCase& c) : case_(c) {
+  for (std::size_t k = 0; k < c.particles.count(); ++k)
+    places_.emplace(c.particles.id(k), static_cast<std::int32_t>(k));
+}
+
+std::int32_t ParticleIds::number(const case_file::TomlSection& section, std::string_view key,
+                                 double id, std::string_view verb) const {
+  const bool whole = id == std::floor(id) && id <= std::numeric_limits<std::int32_t>::max();
+  const auto found = whole ? places_.find(static_cast<std::int32_t>(id)) : places_.end();
+  if (found == places_.end() && case_.particles.ids.empty())
+    section.fail(key, fmt::format("{} {}, which is not the number of a particle; the particles are "
+                                  "numbered from 0 to {}",
+                                  verb, id, case_.particles.count() - 1));
+  section.require(found != places_.end(), key,
+                  "{} {}, which is not the id of a particle; {} gives "
+                  "the ids",
+                  verb, id, case_.particles_file.string());
+  return found->second;
+}
+
+void read_ids(const case_file::TomlSection& section, std::string_view key,
+              std::vector<std::int32_t>& place, const ParticleIds& ids) {
+  for (const double id : section.numbers(key, kNotNegative))
+    place.push_back(ids.number(section, key, id, "contains"));
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,318 @@
+// Reads the case file of many particles (particles_case.hpp). Lengths, masses and times are in the
+// units of the case. A change must keep the keys and their defaults, because users have written
+// cases with them.
+#include "viscontact/particles/case/particles_case.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/particles/case/particles_sections.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Allowed kNotPositive = {[](double v) { return v <= 0; }, "<= 0"};
+constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
+                                "between 1e-12 and 0.1"};
+constexpr Allowed kShare = {[](double v) { return v >= 0 && v <= 1; }, "from 0 to 1"};
+
+/// Reads the dimension: 2, 3, or "axisymmetric", which becomes 1.
+void read_dimension(const case_file::TomlSection& space, std::string_view key, int& dimension) {
+  if (!space.is_text(key)) {
+    dimension = space.count(key, 2, 3);
+    return;
+  }
+  space.require(space.text(key) == "axisymmetric", key,
+                "is '{}'; it must be 2, 3 or \"axisymmetric\"", space.text(key));
+  dimension = 1;
+}
+
+void space_keys(case_file::Keys& keys, ParticlesCase& c) {
+  keys.required(
+      "dimension",
+      case_file::custom("2, 3 or `\"axisymmetric\"`", read_dimension, c.particles.dimension),
+      {"discs; spheres, without a fluid; or [spheres on the axis](#spheres-on-an-axis) of "
+       "a cylinder with fluid"});
+  keys.optional("gravity", vector(c.setting.gravity, c.particles.dimension),
+                {"acceleration of all particles", "0"});
+}
+
+/// The contact law. In a fluid its viscosity is that of the fluid, unless it is given.
+void film_keys(case_file::Keys& keys, FilmLaw& law, const std::optional<Fluid>& fluid) {
+  keys.optional("gamma_min", case_file::number(law.gamma_min, kNotPositive),
+                {"for every pair, an impulse (of discs in a fluid an impulse per length); 0: no "
+                 "film, plain inelastic contact"});
+  keys.optional("viscosity", case_file::number(law.viscosity, kModeratelyPositive),
+                {"of the film, with `roughness`", "none; in a fluid that of the fluid"});
+  keys.optional("roughness", case_file::number(law.roughness, kModeratelyPositive),
+                {"height on every particle and plane, with `viscosity`"});
+  keys.require(!law.gamma_min || !law.viscosity, "viscosity",
+               "must be left out, because gamma_min is given and would also follow from viscosity");
+  keys.require(!fluid || !law.gamma_min || !law.roughness, "roughness",
+               "must be left out, because gamma_min is given and would also follow from the "
+               "roughness and the viscosity of the fluid");
+  if (fluid && law.roughness && !law.viscosity) law.viscosity = fluid->viscosity;
+  keys.require(law.viscosity.has_value() == law.roughness.has_value(),
+               law.viscosity ? "roughness" : "viscosity",
+               "is missing; a case with a {} needs both viscosity and roughness, from which "
+               "gamma_min follows",
+               law.viscosity ? "viscosity" : "roughness");
+}
+
+constexpr const char* kNoSolidContact =
+    "has no effect, because smooth particles never touch; viscous_contact must have gamma_min (0: "
+    "no "
+    "film), or viscosity and roughness";
+
+void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
+  auto& laws = c.setting.laws;
+  auto& film = laws.film;
+  auto& restitution = laws.restitution;
+  double& step = c.setting.time_step;
+  keys.required("end_time", case_file::number(c.end_time, kModeratelyPositive),
+                {"end of the simulation"});
+  keys.required("time_step", case_file::number(step, kModeratelyPositive), {"at most `end_time`"});
+  keys.require(step <= c.end_time, "time_step", "is {}; it must be at most end_time, {}", step,
+               c.end_time);
+  constexpr double kMostSteps = 1e9;  // more steps are taken for a slip in the unit of time
+  keys.require(c.end_time / step <= kMostSteps, "time_step",
+               "is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed", step,
+               c.end_time / step, kMostSteps);
+  film_keys(keys, film, c.setting.fluid);
+  keys.optional("restitution", case_file::number(restitution.coefficient, kShare),
+                {"without a fluid, hinges and arms: the coefficient e_d of "
+                 "[restitution](physics.md#5-many-particles-particles) (5.15) of the solids. The "
+                 "case must give `gamma_min`, or `viscosity` and `roughness`"});
+  if (restitution.is_on()) {
+    keys.require(!c.setting.fluid, "restitution",
+                 "is for particles without a fluid; a case with [fluid] must not have the key");
+    keys.require(film.gamma_min || film.roughness, "restitution", "{}", kNoSolidContact);
+  }
+  keys.optional(
+      "scheme",
+      case_file::one_of(c.setting.scheme,
+                        {{"euler", Scheme::kEuler}, {"leapfrog", Scheme::kLeapfrog}}),
+      {"without a fluid; with `\"leapfrog\"` positions are of [second "
+       "order](physics.md#5-many-particles-particles) away from impacts and of contacts "
+       "that last while their normal turns, where they are of first order. "
+       "`final_particles.csv` then has the velocities at the end (of particles without "
+       "contacts and links), the frames and tables those half a step before. Steps near a "
+       "jump of a force are shorter"});
+  keys.require(c.setting.scheme == Scheme::kEuler || !c.setting.fluid, "scheme",
+               "is 'leapfrog', which is for particles without a fluid; in a fluid the steps are of "
+               "second order without it, and the key must be left out");
+}
+
+void friction_keys(case_file::Keys& keys, FrictionLaw& law) {
+  keys.required("coefficient", case_file::number(law.coefficient, kModeratelyPositiveOr0),
+                {"mu_s of [solid contact](particles.md#friction)"});
+  keys.optional(
+      "method",
+      case_file::one_of(law.method, {{"fixed_point", FrictionMethod::kFixedPoint},
+                                     {"convex", FrictionMethod::kConvex}}),
+      {"Coulomb's law, or the convex relaxation, in which sliding contacts open by h mu_s "
+       "abs(v_t)"});
+}
+
+void read_friction(const case_file::TomlSection& section, Setting& setting) {
+  section.require(!setting.fluid, "coefficient",
+                  "belongs to particles without a fluid; a case with [fluid] must have no section "
+                  "[friction]");
+  section.require(setting.laws.film.gamma_min || setting.laws.film.viscosity, "coefficient", "{}",
+                  kNoSolidContact);
+  case_file::read_keys(section, friction_keys, setting.laws.friction.emplace());
+}
+
+/// Reads the key `method`. Earlier versions offered three methods that solve the same problem. A
+/// case that names one of the other two is still accepted, and the present method is used.
+void read_method(const case_file::TomlSection& solver, std::string_view key) {
+  const auto text = solver.text(key);
+  solver.require(
+      text == "conjugate_gradients" || text == "accelerated_gradient" || text == "gauss_seidel",
+      key, "is '{}'; it must be \"conjugate_gradients\", the only method", text);
+}
+
+void solver_keys(case_file::Keys& keys, SolverSettings& settings) {
+  keys.optional("tolerance", case_file::number(settings.tolerance, kTolerance),
+                {"tolerance of the gaps, divided by the mean radius"});
+  keys.optional("impulse_tolerance", case_file::number(settings.impulse_tolerance, kTolerance),
+                {"tolerance of each impulse, divided by the [impulses at "
+                 "work](particles.md#the-projection)"});
+  keys.optional("max_iterations",
+                case_file::count(settings.max_iterations, 1, std::numeric_limits<int>::max()),
+                {"for each step", {}, "whole number >= 1"});
+  keys.optional("method", case_file::custom("`\"conjugate_gradients\"`", read_method),
+                {"the only method; `\"accelerated_gradient\"` and `\"gauss_seidel\"` are read and "
+                 "have no effect",
+                 "`\"conjugate_gradients\"`"});
+}
+
+void output_keys(case_file::Keys& keys, double& interval) {
+  keys.optional("every", case_file::number(interval, kModeratelyPositive),
+                {"time between frames", "a hundredth of `end_time`"});
+}
+
+void plane_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
+  const int dimension = c.particles.dimension;
+  Vector normal{};
+  keys.required("point", vector(plane.start.point, dimension), {"a point of the plane"});
+  keys.required("normal", vector(normal, dimension),
+                {"points to the side of the particles; its length is arbitrary, but not 0"});
+  const double length = norm(normal);
+  keys.require(length > 1e-100, "normal",
+               "is 0; it must be a vector that points into the free side of the plane");
+  plane.start.normal = (1 / length) * normal;
+  keys.optional("velocity", pieces(plane.velocity, dimension, c.end_time), {"of the plane", "0"});
+  keys.require(dimension != 1 || !keys.has("angular_velocity"), "angular_velocity",
+               "must be left out, because a plane on an axis does not turn");
+  const bool turns = keys.optional("angular_velocity", turn(plane.angular_velocity, dimension),
+                                   {"in 2D counter-clockwise", "0"});
+  keys.require(turns || !keys.has("pivot"), "pivot",
+               "must be left out, because this plane has no angular_velocity");
+  plane.pivot = plane.start.point;
+  keys.optional("pivot", vector(plane.pivot, dimension),
+                {"only with `angular_velocity`: the centre of rotation, which moves with the "
+                 "velocity",
+                 "`point`"});
+}
+
+/// Throws an error for a plane that is not parallel to the periods of the domain. Such a plane
+/// would bound the particles and not their images.
+void check_periods_of_plane(const case_file::TomlSection& section, const Plane& plane,
+                            const Domain& domain) {
+  const auto periods = periods_of(domain);
+  for (std::size_t d = 0; d < periods.size(); ++d)
+    section.require(
+        periods[d] == 0 || (plane.start.normal[d] == 0 && norm(plane.angular_velocity) == 0),
+        "normal",
+        "belongs to a plane that turns or is not parallel to the period of the domain "
+        "along {}; a plane in a periodic domain must be parallel to its periods",
+        d == 0 ? "x" : "y");
+}
+
+void particles_sweep_keys(case_file::Keys& keys, case_file::SweepRequest& sweep) {
+  keys.optional("vary", case_file::texts(sweep.vary), {"`KEY=RANGE` each, as on the command line"});
+  keys.optional("samples", case_file::number(sweep.samples, case_file::kWholeNumber),
+                {"number of random points", "the whole grid"});
+  keys.optional("draws", case_file::number(sweep.draws, case_file::kWholeNumber),
+                {"number of random arrangements at each point", "that of the case"});
+}
+
+/// Reads [domain] and [fluid]. Needs c.path and the dimension of the case.
+void read_domain_and_fluid(const case_file::TomlSection& root, ParticlesCase& c) {
+  const int dimension = c.particles.dimension;
+  if (root.has("domain")) c.setting.domain = read_domain(root.section("domain"), dimension);
+  if (!root.has("fluid")) {
+    root.section("space").require(
+        dimension != 1, "dimension",
+        "is \"axisymmetric\", which is for spheres in a fluid; the case must have sections [fluid] "
+        "and [domain]");
+    return;
+  }
+  const auto section = root.section("fluid");
+  root.section("space").require(dimension != 3, "dimension",
+                                "is 3; in a case with [fluid] it must be 2 or \"axisymmetric\"");
+  if (!root.has("domain"))
+    throw_bad_input({c.path.string(), section.line()},
+                    "section [fluid] belongs to a case without a section [domain]; the case must "
+                    "have one, because walls or periods must hold the fluid");
+  c.setting.fluid = read_fluid(section, c.setting.domain);
+  // Files of the command are relative to the case file, as all files of a case are.
+  auto& command = c.setting.fluid->solver;
+  command = with_absolute_files(std::move(command), fs::absolute(c.path).parent_path());
+}
+
+/// The case with the root table `root`; see case_of_root().
+ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string text,
+                                const fs::path& path) {
+  auto c = case_file::titled_case<ParticlesCase>(root, std::move(text), path, true);
+  case_file::read_keys(root.section("space"), space_keys, c);
+  read_domain_and_fluid(root, c);
+  case_file::read_keys(root.section("viscous_contact"), contact_keys, c);
+  if (root.has("friction")) read_friction(root.section("friction"), c.setting);
+  if (root.has("solver"))
+    case_file::read_keys(root.section("solver"), solver_keys, c.setting.solver);
+  c.frame_interval = c.end_time / 100;
+  if (root.has("output"))
+    case_file::read_keys(root.section("output"), output_keys, c.frame_interval);
+  if (root.has("plane"))
+    for (const auto& section : root.sections("plane")) {
+      case_file::read_keys(section, plane_keys, c.setting.planes.emplace_back(), c);
+      check_periods_of_plane(section, c.setting.planes.back(), c.setting.domain);
+    }
+
+  const auto lines = read_particles_of_case(root, c);
+  read_forces_by_id(root, c);
+  read_bodies(root, c);
+  read_links(root, c);
+  root.section("viscous_contact")
+      .require(!c.setting.laws.restitution.is_on() ||
+                   (c.setting.links.hinges.empty() && c.setting.links.arms.empty()),
+               "restitution",
+               "must be left out, because the case has hinges or arms, through which a blow would "
+               "pass; bodies and springs may rebound");
+  if (root.has("sweep"))
+    case_file::read_keys(root.section("sweep"), particles_sweep_keys, c.sweep.emplace());
+  root.finish();
+  check_start(c, lines);
+  if (c.setting.fluid) {
+    if (!root.section("fluid").has("threshold_gap")) set_default_threshold_gap(c);
+    check_fluid_start(root, c, lines);
+  }
+  return c;
+}
+
+}  // namespace
+
+ParticlesCase read_particles_case(const fs::path& path) {
+  return case_file::read_case_file<ParticlesCase>(path);
+}
+
+std::vector<case_file::KeyTable> tables_of_particles_case() {
+  const ParticlesCase c;
+  std::vector<case_file::KeyTable> tables = {
+      case_file::describe_keys("[space]", space_keys),
+      case_file::describe_keys("[viscous_contact] of particles", contact_keys),
+      case_file::describe_keys("[friction]", friction_keys),
+      case_file::describe_keys("[solver]", solver_keys),
+      case_file::describe_keys("[output]", output_keys),
+      case_file::describe_keys("[[plane]]", plane_keys, c),
+      case_file::describe_keys("[sweep] of particles", particles_sweep_keys)};
+  for (auto& more : {domain_and_fluid_tables(), particle_tables(), body_and_link_tables()})
+    tables.insert(tables.end(), more.begin(), more.end());
+  return tables;
+}
+
+std::string text_for_any_folder(const case_file::TomlSection& root, const fs::path& path) {
+  std::vector<std::pair<std::string, std::string>> paths;
+  const auto folder = fs::absolute(path).parent_path();
+  if (root.has("particles")) {
+    const auto section = root.section("particles");
+    if (section.is_text("file"))
+      paths.emplace_back("particles.file",
+                         (folder / section.text("file")).lexically_normal().string());
+  }
+  if (root.has("fluid") && root.section("fluid").has("solver")) {
+    const auto command = with_absolute_files(root.section("fluid").texts("solver"), folder);
+    for (std::size_t word = 0; word < command.size(); ++word)
+      paths.emplace_back(fmt::format("fluid.solver[{}]", word), command[word]);
+  }
+  return root.with_texts(paths).as_toml();
+}
+
+}  // namespace viscontact::particles
+
+namespace viscontact::case_file {
+
+template <>
+particles::ParticlesCase case_of_root(const TomlSection& root, std::string text,
+                                      const std::filesystem::path& path) {
+  return particles::particles_case_of(root, std::move(text), path);
+}
+
+}  // namespace viscontact::case_file

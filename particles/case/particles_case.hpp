@@ -1,0 +1,65 @@
+// The case file of many particles (docs/case-file.md, "Many particles"). Lengths, masses and times
+// are in any one consistent system of units. The stage of particles and sweeps of particles read
+// it. A change must keep accepting the cases that users have written.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viscontact/case_file/case_template.hpp"
+#include "viscontact/case_file/keys.hpp"
+#include "viscontact/particles/arrangement/arrangement.hpp"
+#include "viscontact/particles/simulation.hpp"
+
+namespace viscontact::particles {
+
+/// Content of a case file of many particles.
+struct ParticlesCase {
+  std::filesystem::path path;  ///< the case file
+  std::string text;            ///< content of the file
+  std::string title;           ///< a title for pages and pictures; may be empty
+  /// Everything that the simulation needs besides the particles.
+  Setting setting;
+  /// The particles of the CSV file, followed by those of the tables [[particle]] and by the random
+  /// discs of [arrangement].
+  Particles particles;
+  std::filesystem::path particles_file;  ///< the CSV file; empty if there is none
+  double end_time = 0;                   ///< time at which the run ends [T], > 0
+  double frame_interval = 0;             ///< time between two frames [T], > 0
+  /// What [arrangement] asks for; its discs are the last particles.
+  std::optional<Arrangement> arrangement;
+  /// What the section [sweep] asks for; nothing if the case has no such section.
+  std::optional<case_file::SweepRequest> sweep;
+};
+
+/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
+/// value and what is allowed. Also throws if there is no particle; if, at the start, two particles
+/// overlap or a particle is on the wrong side of a plane by more than solver.tolerance mean radii;
+/// if a radius is less than a hundred times that length; if a particle is further from the origin
+/// than particles::largest_resolved_distance; or if a particle is outside the domain or touches its
+/// own image in a periodic one. A case with a fluid has further conditions (check_fluid_start() in
+/// particles_sections.hpp).
+ParticlesCase read_particles_case(const std::filesystem::path& path);
+
+/// What docs/case-file.md says about the keys of each section.
+std::vector<case_file::KeyTable> tables_of_particles_case();
+
+/// The text of the case in a file at `path` with the root table `root`. A file with this text may
+/// be in any folder, because the files that it names have absolute paths. Equal cases give equal
+/// texts, whatever their comments are.
+std::string text_for_any_folder(const case_file::TomlSection& root,
+                                const std::filesystem::path& path);
+
+}  // namespace viscontact::particles
+
+namespace viscontact::case_file {
+
+/// The case of many particles whose root table is `root` (case_template.hpp).
+template <>
+particles::ParticlesCase case_of_root(const TomlSection& root, std::string text,
+                                      const std::filesystem::path& path);
+
+}  // namespace viscontact::case_file

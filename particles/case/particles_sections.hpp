@@ -1,0 +1,123 @@
+// The parts of the reader of a case of many particles (particles_case.hpp), for its sources only.
+// Each function reads sections of docs/case-file.md, "Many particles", and throws Error(kBadInput)
+// with file, line, key and what is allowed. Lengths, masses and times are in the units of the case.
+// particles_case.cpp calls the functions in the order of their needs, which their comments say.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/particles/case/vector_values.hpp"
+
+namespace viscontact::particles {
+
+/// Reads [domain]. `dimension` is that of the case: 1 (spheres on an axis), 2 or 3. Also throws if
+/// not exactly one shape is given, and for a shape that does not belong to the dimension: discs
+/// move in a disc or a box, spheres on an axis in a cylinder, and no domain has dimension 3.
+Domain read_domain(const case_file::TomlSection& section, int dimension);
+
+/// Reads [fluid]. `domain` holds the fluid and must not be empty. If the section does not give
+/// threshold_gap, it is 0 in the result, and set_default_threshold_gap() sets its default.
+///
+/// Also throws for a density, because only Stokes flow is possible; for `constraint = "rigid"`
+/// together with `mesh = "fixed"`; and for a velocity of the boundary that does not fit the domain:
+/// a shear or strain that is not the same on both sides of a period, an entry for a side that is
+/// periodic, a net flux through walls without an open side, and any velocity of the walls of a
+/// cylinder.
+Fluid read_fluid(const case_file::TomlSection& section, const Domain& domain);
+/// Describes these sections.
+std::vector<case_file::KeyTable> domain_and_fluid_tables();
+
+/// The command of a user's own fluid solver, with an absolute path in place of each word that names
+/// an existing file relative to `folder`, that of the case file. A first word without a slash
+/// stays, because it is the name of a program on PATH.
+std::vector<std::string> with_absolute_files(std::vector<std::string> command,
+                                             const std::filesystem::path& folder);
+
+/// Lines in which the particles are given, for messages.
+struct ParticleLines {
+  std::vector<int> in_file;  ///< of the particles of the CSV file, which are the first ones
+  std::vector<int> in_case;  ///< of the tables [[particle]], whose particles are the next ones
+};
+
+/// Reads the particles, first those of the CSV file, then those of the tables [[particle]] and
+/// those of [arrangement], with their forces, torques and given motions. Needs c.path, c.end_time,
+/// c.particles.dimension, c.setting.domain and c.setting.fluid. Returns where the particles are
+/// given.
+///
+/// Also throws if there is no particle; for a key of particles in a fluid if the case has no fluid;
+/// for a rotation on an axis; for a force, a torque or an initial velocity of a particle whose
+/// motion is given, because it has no effect; for an arrangement in a domain that is no disc or
+/// box; and if its discs do not fit.
+ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c);
+
+/// Reads [[force]]: the same force on all particles whose ids it names. The particles must have
+/// been read. Also throws for an id that does not exist or has a force already.
+void read_forces_by_id(const case_file::TomlSection& root, ParticlesCase& c);
+/// Describes these sections.
+std::vector<case_file::KeyTable> particle_tables();
+
+/// Finds the numbers of particles, which count from 0 in the order of ParticlesCase::particles, by
+/// the ids that users gave them.
+class ParticleIds {
+ public:
+  /// `c` must outlive this object, and its particles must have been read.
+  explicit ParticleIds(const ParticlesCase& c);
+
+  /// The number of the particle with the id `id`, which the user gave at `key`. Throws for an id
+  /// that does not exist; the message is "KEY VERB ID ...", with a verb such as "is" or "contains".
+  std::int32_t number(const case_file::TomlSection& section, std::string_view key, double id,
+                      std::string_view verb) const;
+
+ private:
+  const ParticlesCase& case_;
+  std::unordered_map<std::int32_t, std::int32_t> places_;  // number of each id
+};
+
+/// Reads a list of ids, and puts the numbers of their particles into `place`. Throws for an id that
+/// does not exist.
+void read_ids(const case_file::TomlSection& section, std::string_view key,
+              std::vector<std::int32_t>& place, const ParticleIds& ids);
+
+/// Reads [[body]] into c.particles.bodies. The particles, and their motion, must have been read.
+/// Also throws for a particle that does not exist, is named twice or belongs to an earlier body;
+/// and for a motion that is given in a fluid.
+void read_bodies(const case_file::TomlSection& root, ParticlesCase& c);
+
+/// Reads [[hinge]], [[spring]] and [[arm]] into c.setting.links. Particles and bodies must have
+/// been read. Also throws for particles and bodies that do not exist; for a hinge outside its body;
+/// for a spring or an arm between particles of one body; and for an arm whose length at the start
+/// is not the distance of its particles, is less than the sum of their radii at a later time, or
+/// breaks the triangle inequality with two other arms.
+void read_links(const case_file::TomlSection& root, ParticlesCase& c);
+/// Describes these sections.
+std::vector<case_file::KeyTable> body_and_link_tables();
+
+/// Throws the Error(kBadInput) of read_particles_case() if the solver cannot begin with this state:
+/// particles outside the domain, overlaps, particles behind a plane or too far away, and radii that
+/// are too small, or too large for the periods of the domain.
+void check_start(const ParticlesCase& c, const ParticleLines& lines);
+
+/// Sets the default of fluid.threshold_gap: 0.05 times the smallest radius, or half of the smallest
+/// gap at the start, also between a particle and its own image, if this is smaller; but at least
+/// the gap 2 s at which the solids of particles of roughness s touch. `c` has a fluid, and
+/// check_start() has accepted it.
+void set_default_threshold_gap(ParticlesCase& c);
+
+/// Throws Error(kBadInput), with file and line, if the flow cannot be computed: no wall, period or
+/// driven particle that can take up the forces on the particles; particles without mass with the
+/// splitting, whose projection is in the norm of the masses; a gap that is less than a thousandth
+/// of the radius, which the fitted mesh does not resolve; a threshold gap below that at which the
+/// solids touch; and a gap that is smaller than the threshold gap by more than solver.tolerance
+/// mean radii, so that contact would be made before the start.
+///
+/// `root` is the root table of the case; `c` has a fluid, and check_start() has accepted it.
+void check_fluid_start(const case_file::TomlSection& root, const ParticlesCase& c,
+                       const ParticleLines& lines);
+
+}  // namespace viscontact::particles

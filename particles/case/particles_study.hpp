@@ -1,0 +1,82 @@
+// A sweep over a case of many particles: the case is run at each point of a grid, at each point
+// with several random arrangements if draws are asked for, and each run gives a row of results
+// (docs/file-formats.md). Lengths, masses and times are in the units of the case. A change of the
+// columns must keep their names, because scripts of users read them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/sweep/study.hpp"
+
+namespace viscontact::particles {
+
+/// The points of the section [sweep] of a case of particles. Throws Error(kBadInput) if the case is
+/// wrong or a range in [sweep] is not valid.
+sweep::Points planned_particles(const std::filesystem::path& case_path);
+
+/// Runs the case of a row. It is called by several threads at once. Results of a run that failed
+/// have a `failure`; an error that ends the whole sweep is thrown.
+using ParticlesRunner =
+    std::function<sweep::RowResults(std::uint64_t index, const StopToken& stop)>;
+
+/// The points of a sweep of particles, and their cases.
+class ParticlesSweep {
+ public:
+  /// Reads the case. Throws Error(kBadInput) if the first or the last row gives no valid case, and
+  /// Error(kWrongUsage) if nothing is varied, if a key is varied twice or changes nothing, or if
+  /// there are draws but the case has no [arrangement]. Points::first_draw becomes
+  /// arrangement.seed of the case.
+  ParticlesSweep(const std::filesystem::path& case_path, sweep::Points points);
+
+  /// The points, with the seed of the first draw.
+  const sweep::Points& points() const { return points_; }
+  /// The case file, as the constructor was given it.
+  const std::filesystem::path& case_path() const { return cases_.path(); }
+
+  /// Names of the columns with results. A case without a fluid lacks those of the fluid.
+  const std::vector<std::string>& result_columns() const { return result_columns_; }
+
+  /// The case of row `index`. Throws Error(kBadInput) if it is not valid.
+  ParticlesCase case_of(std::uint64_t index) const { return cases_.with(points_.numbers(index)); }
+
+  /// The text of a case file for row `index`, which may be in any folder. Rows whose case is the
+  /// same have the same text.
+  std::string case_text(std::uint64_t index) const;
+
+  /// The text of the case with no number changed, which may be in any folder.
+  std::string base_text() const;
+
+  /// The CSV file of particles that the case names; empty if there is none.
+  const std::filesystem::path& particles_file() const { return particles_file_; }
+
+  /// Hash of everything that determines the results of row `index`, with this version of
+  /// Viscontact.
+  std::string identity(std::uint64_t index, const std::string& version) const;
+
+  /// The study whose rows have the results of `run`. `version` is that of Viscontact.
+  sweep::Study study(const std::string& version, ParticlesRunner run) const;
+
+ private:
+  case_file::CaseTemplate<ParticlesCase> cases_;
+  sweep::Points points_;
+  std::filesystem::path particles_file_;
+  std::vector<std::string> result_columns_;
+};
+
+/// The table of means of a finished file of rows: for each point of the sweep its varied keys, the
+/// number of draws that succeeded, the number of those that failed, and, for each column of
+/// results, COLUMN.mean and COLUMN.standard_error over the draws that succeeded. The standard error
+/// is the standard deviation (with n - 1) over the root of n; it is empty if n < 2. Throws
+/// Error(kBadInput) if the file cannot be read or has other rows than the sweep.
+std::string table_of_means(const ParticlesSweep& sweep, const std::filesystem::path& path);
+
+/// The path of the table of means beside a file of rows: "rows.csv" gives "rows_means.csv".
+std::filesystem::path path_of_means(const std::filesystem::path& rows);
+
+}  // namespace viscontact::particles

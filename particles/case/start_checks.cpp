@@ -1,0 +1,468 @@
+// Checks the state at the start of a case of many particles, and what a fluid needs of it
+// (particles_sections.hpp). Lengths are in the unit of the case. Messages must name the line of the
+// CSV file, because the file can be long.
+#include <algorithm>
+#include <array>
+#include <variant>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/particles/case/particles_sections.hpp"
+#include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/neighbours/close_pairs.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+/// Smallest gap that the fitted mesh resolves, divided by the radius of the smaller particle.
+constexpr double kLeastGapOfMesh = 1e-3;
+
+/// Describes a particle in a message, and says in which file and line it is given.
+class ParticleNames {
+ public:
+  /// Both arguments must outlive the object.
+  ParticleNames(const ParticlesCase& c, const ParticleLines& lines) : case_(c), lines_(lines) {}
+  /// Describes particle `k` (from 0) by its id, centre and radius, such as "particle 3 (centre 0,
+  /// 1, radius 0.5)".
+  std::string operator()(std::size_t k) const {
+    const auto x = case_.particles.position(k);
+    std::string place = fmt::format("{}", x[0]);
+    for (std::size_t d = 1; d < static_cast<std::size_t>(case_.particles.dimension); ++d)
+      place += fmt::format(", {}", x[d]);
+    const auto body = case_.particles.bodies.body_of(static_cast<std::int32_t>(k));
+    return fmt::format("particle {} ({}centre {}, radius {}{})", case_.particles.id(k),
+                       k < lines_.in_file.size() ? fmt::format("line {}, ", lines_.in_file[k]) : "",
+                       place, case_.particles.radii[k],
+                       body < 0 ? "" : fmt::format(", of body {}", body));
+  }
+  /// The file and the line in which particle `k` (from 0) is given; line 0 if it has no line of its
+  /// own.
+  FilePosition at(std::size_t k) const {
+    if (k < lines_.in_file.size()) return {case_.particles_file.string(), lines_.in_file[k]};
+    const auto table = k - lines_.in_file.size();
+    return {case_.path.string(), table < lines_.in_case.size() ? lines_.in_case[table] : 0};
+  }
+
+ private:
+  const ParticlesCase& case_;
+  const ParticleLines& lines_;
+};
+
+/// A gap at the start between two particles, or an obstacle and a particle.
+struct StartGap {
+  std::int32_t first;   ///< number of a particle, or -1 - k for obstacle k
+  std::int32_t second;  ///< number of a particle
+  double gap;           ///< [L], < 0 if they overlap
+};
+
+/// Name of obstacle k in a message, for example "the left side of the box" or "plane 2".
+std::string obstacle_name(const ParticlesCase& c, std::size_t k) {
+  std::vector<std::string> walls;
+  if (std::holds_alternative<DiscDomain>(c.setting.domain)) walls = {"the wall of the disc"};
+  if (std::holds_alternative<CylinderDomain>(c.setting.domain))
+    walls = {"the side of the cylinder", "the floor of the cylinder", "the lid of the cylinder"};
+  if (const auto* box = std::get_if<BoxDomain>(&c.setting.domain)) {
+    if (!box->periodic[0]) walls = {"the left side of the box", "the right side of the box"};
+    if (!box->periodic[1])
+      walls.insert(walls.end(), {"the bottom of the box", "the top of the box"});
+  }
+  return k < walls.size() ? walls[k] : fmt::format("plane {}", k - walls.size() + 1);
+}
+
+/// All gaps at the start that are smaller than `limit` >= 0 [L], also across periods. The gap
+/// between a sphere on an axis and the side of its cylinder, which never changes, is left out. No
+/// particle may be close to an image of itself: the largest diameter plus `limit` must be less than
+/// each period.
+std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
+  const auto& p = c.particles;
+  const auto cell = cell_of(c.setting.domain);
+  std::vector<double> extents = p.radii;
+  for (auto& extent : extents) extent += limit / 2;
+  ThreadPool pool(1);
+  std::vector<StartGap> gaps;
+  for (const auto& [first, second, image] :
+       cell.is_periodic() ? close_pairs_in_period(cell, p.positions, extents, pool)
+                          : close_pairs(p.dimension, p.positions, extents, pool)) {
+    if (p.bodies.are_one(first, second)) continue;
+    const auto i = index_of(first), j = index_of(second);
+    const auto apart = p.position(j) + shift_of(cell, image) - p.position(i);
+    gaps.push_back({first, second, norm(apart) - p.radii[i] - p.radii[j]});
+  }
+  const auto obstacles = obstacles_of(c.setting);
+  const bool on_axis = std::holds_alternative<CylinderDomain>(c.setting.domain);
+  for (std::size_t w = on_axis ? 1 : 0; w < obstacles.size(); ++w) {
+    const auto place = obstacles[w].at(0);
+    for (std::size_t k = 0; k < p.count(); ++k)
+      if (const double gap = particles::gap(place, p.position(k), p.radii[k]); gap < limit)
+        gaps.push_back({-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k), gap});
+  }
+  return gaps;
+}
+
+void check_radii_and_distances(const ParticlesCase& c, const ParticleNames& names) {
+  const auto& p = c.particles;
+  const double tolerance = c.setting.solver.tolerance;
+  const double allowed = tolerance * mean_radius(p);
+  const auto smallest =
+      static_cast<std::size_t>(std::ranges::min_element(p.radii) - p.radii.begin());
+  if (constexpr double kOfRadius = 0.01; allowed > kOfRadius * p.radii[smallest])
+    throw_bad_input(names.at(smallest),
+                    fmt::format("{} is too small for solver.tolerance, {}: the tolerance times "
+                                "the mean radius is {:.3g}; it must be at most a hundredth of each "
+                                "radius",
+                                names(smallest), tolerance, allowed));
+  const double farthest = largest_resolved_distance(tolerance, mean_radius(p));
+  for (std::size_t k = 0; k < p.count(); ++k)
+    for (const double x : p.position(k))
+      if (std::abs(x) > farthest)
+        throw_bad_input(names.at(k),
+                        fmt::format("{} is too far from the origin for its gaps to be known to "
+                                    "solver.tolerance; each coordinate must be at most {:.3g} in "
+                                    "magnitude",
+                                    names(k), farthest));
+}
+
+/// Says what is wrong with the place of a particle in the domain: a part of a sentence, or nothing.
+struct PlaceInDomain {
+  Vector x;
+  double radius;
+
+  std::string operator()(std::monostate) const { return ""; }
+  std::string operator()(const DiscDomain& disc) const {
+    if (norm(x - disc.centre) < disc.radius) return "";
+    return fmt::format("its centre must be less than {} from {}, {}", disc.radius, disc.centre[0],
+                       disc.centre[1]);
+  }
+  std::string operator()(const BoxDomain& box) const {
+    for (std::size_t d = 0; d < 2; ++d)
+      if (!(x[d] >= box.from[d] && x[d] <= box.to[d]))
+        return fmt::format("{} of its centre must be from {} to {}{}", d == 0 ? "x" : "y",
+                           box.from[d], box.to[d], box.periodic[d] ? ", which is one period" : "");
+    return "";
+  }
+  std::string operator()(const CylinderDomain& cylinder) const {
+    if (!(x[0] > 0 && x[0] < cylinder.height))
+      return fmt::format("z of its centre must be between 0 and {}", cylinder.height);
+    if (!(radius < cylinder.radius))
+      return fmt::format("its radius must be less than that of the cylinder, {}", cylinder.radius);
+    return "";
+  }
+};
+
+/// Checks that all centres are in the domain and that no particle touches an image of itself.
+void check_domain(const ParticlesCase& c, const ParticleNames& names) {
+  const auto& p = c.particles;
+  const auto periods = periods_of(c.setting.domain);
+  // The gap to an image of the particle itself never changes. Therefore it must be at least the
+  // threshold gap in a fluid, and wide enough for a mesh. Without a fluid it must leave room for
+  // the skin of the neighbour list.
+  constexpr double kLeastGapInRadii = 0.01;
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    const auto wrong = std::visit(PlaceInDomain{p.position(k), p.radii[k]}, c.setting.domain);
+    if (!wrong.empty())
+      throw_bad_input(names.at(k), fmt::format("{} is outside the domain; {}", names(k), wrong));
+    const double least = std::max(kLeastGapInRadii * p.radii[k],
+                                  c.setting.fluid ? c.setting.fluid->threshold_gap : 0.0);
+    for (const double period : periods)
+      if (period > 0 && !(2 * p.radii[k] + least <= period))
+        throw_bad_input(
+            names.at(k),
+            fmt::format("{} is too large for the period of the domain, {}: it would touch its own "
+                        "image; its radius must be at most {:.6g}",
+                        names(k), period, (period - least) / 2));
+  }
+}
+
+/// Gap at which the solids of rough particles touch [L]; 0 for smooth ones.
+double gap_of_solids(const ParticlesCase& c) {
+  return 2 * c.setting.laws.film.roughness.value_or(0);
+}
+
+/// True if each side of the domain is open or periodic, and at least one is open.
+bool has_only_open_sides(const ParticlesCase& c) {
+  const auto* box = std::get_if<BoxDomain>(&c.setting.domain);
+  const auto* sides = std::get_if<SideVelocities>(&c.setting.fluid->boundary);
+  if (box == nullptr || sides == nullptr) return false;
+  bool any_open = false;
+  for (std::size_t side = 0; side < sides->size(); ++side) {
+    if (box->periodic[side / 2]) continue;
+    if ((*sides)[side].kind != WallVelocity::Kind::kOpen) return false;
+    any_open = true;
+  }
+  return any_open;
+}
+
+/// True for an obstacle (`body` < 0) and for a particle whose motion is given, which no impulse
+/// moves.
+bool is_driven(const ParticlesCase& c, std::int32_t body) {
+  return body < 0 || c.setting.given_motions.contains(body);
+}
+
+/// Checks rigid bodies and links in a fluid.
+void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
+                  const ParticleNames& names) {
+  const auto& p = c.particles;
+  if (c.setting.fluid->coupling == Coupling::kSplitting &&
+      !(p.bodies.empty() && c.setting.links.empty()))
+    root.section("fluid").fail(
+        "coupling",
+        "is 'splitting', which does not know rigid bodies and links; it must "
+        "be \"constrained\"");
+  for (std::size_t b = 0; b < p.bodies.count(); ++b) {
+    const auto& body = p.bodies.bodies[b];
+    const auto masses = member_masses(body, p);
+    double least = 0;
+    for (std::size_t m = 0; m < masses.size(); ++m) {
+      least += masses[m] * dot(body.offsets[m], body.offsets[m]);
+      const auto k = index_of(body.members[m]);
+      for (std::size_t n = 0; n < m; ++n) {
+        const auto other = index_of(body.members[n]);
+        const double gap = norm(p.position(k) - p.position(other)) - p.radii[k] - p.radii[other];
+        const double needed = kLeastGapOfMesh * std::min(p.radii[k], p.radii[other]);
+        if (gap < needed)
+          throw_bad_input(names.at(k),
+                          fmt::format("{} and {} have a gap of {:.3g}; in a fluid the particles of "
+                                      "a body must keep a gap of at least a thousandth of the "
+                                      "smaller radius, {:.3g}, because the mesh has fluid between "
+                                      "them",
+                                      names(other), names(k), gap, needed));
+      }
+    }
+    root.sections("body")[b].require(
+        body.inertia[8] >= least, "moment_of_inertia",
+        "is {}; in a fluid it must be at least that of the masses of the body's particles at their "
+        "centres, {:.6g}",
+        body.inertia[8], least);
+  }
+  for (std::size_t a = 0; a < c.setting.links.arms.size(); ++a) {
+    const auto& arm = c.setting.links.arms[a];
+    const double r1 = p.radii[index_of(arm.first)], r2 = p.radii[index_of(arm.second)];
+    const double least = r1 + r2 + kLeastGapOfMesh * std::min(r1, r2);
+    const double shortest = least_length(arm.length, c.end_time);
+    root.sections("arm")[a].require(shortest >= least, "length",
+                                    "becomes {:.9g}; in a fluid it must leave a gap of at least a "
+                                    "thousandth of the smaller radius and be at least {:.9g}",
+                                    shortest, least);
+  }
+}
+
+void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
+                  const ParticleNames& names) {
+  if (c.setting.fluid->coupling != Coupling::kSplitting) return;
+  for (std::size_t k = 0; k < c.particles.count(); ++k)
+    if (c.particles.masses[k] == 0 && !is_driven(c, static_cast<std::int32_t>(k)))
+      root.section("fluid").fail(
+          "coupling",
+          fmt::format("is 'splitting', which needs masses > 0, because the velocities are "
+                      "projected in the norm of the masses, but the mass of {} is 0; it must be "
+                      "\"constrained\", or the particle must have a mass",
+                      names(k)));
+}
+
+/// Checks what a fluid with inertia needs of its particles.
+void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c, const ParticleNames& names) {
+  const auto& fluid = *c.setting.fluid;
+  if (!fluid.has_inertia()) return;
+  const auto& p = c.particles;
+  const auto section = root.section("fluid");
+  section.require(p.bodies.empty() && c.setting.links.empty(), "density",
+                  "is > 0, and the case has rigid bodies or links, which this version computes in "
+                  "Stokes flow only; it must be 0, or bodies and links left out");
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    if (is_driven(c, static_cast<std::int32_t>(k))) continue;
+    if (!(p.masses[k] > 0))
+      throw_bad_input(
+          names.at(k),
+          fmt::format("{} has no mass; in a fluid with a density it must have a density "
+                      "(or mass) > 0",
+                      names(k)));
+    // Inertia of a viscous body is that of its density, which is uniform.
+    constexpr double kRounding = 1e-9;
+    if (fluid.constraint == RigidConstraint::kRigid || p.inertias.empty()) continue;
+    const double uniform = homogeneous_inertia(p.dimension, p.masses[k], p.radii[k]);
+    if (std::abs(p.inertias[k] - uniform) > kRounding * uniform)
+      throw_bad_input(names.at(k),
+                      fmt::format("{} has the moment of inertia {}; in a fluid with a density and "
+                                  "constraint = \"penalty\" it must be that of a uniform disc, {}, "
+                                  "or the constraint \"rigid\"",
+                                  names(k), p.inertias[k], uniform));
+  }
+}
+
+/// Throws an error if the fitted mesh cannot resolve the gap between a sphere on the axis and the
+/// side of its cylinder.
+void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) {
+  const auto* cylinder = std::get_if<CylinderDomain>(&c.setting.domain);
+  if (cylinder == nullptr || c.setting.fluid->mesh != FluidMesh::kFitted) return;
+  for (std::size_t k = 0; k < c.particles.count(); ++k) {
+    const double radius = c.particles.radii[k], gap = cylinder->radius - radius;
+    if (gap < kLeastGapOfMesh * radius)
+      throw_bad_input(names.at(k),
+                      fmt::format("{} has a gap of {:.3g} to the side of the cylinder, which the "
+                                  "mesh does not resolve; it must be at least a thousandth of the "
+                                  "radius, {:.3g}",
+                                  names(k), gap, kLeastGapOfMesh * radius));
+  }
+}
+
+/// Throws an error for a mean flow in a run of more than one step: the flow deforms the lattice of
+/// images, but the cell of this version keeps its shape.
+void check_mean_flow(const case_file::TomlSection& root, const ParticlesCase& c) {
+  const auto* box = std::get_if<BoxDomain>(&c.setting.domain);
+  const auto* flow = std::get_if<LinearFlow>(&c.setting.fluid->boundary);
+  if (box == nullptr || !box->periodic[0] || !box->periodic[1] || flow == nullptr ||
+      flow->gradient == decltype(flow->gradient){})
+    return;
+  if (c.setting.fluid->mesh == FluidMesh::kFixed)
+    root.section("fluid").fail("mesh",
+                               "is 'fixed'; it must be \"fitted\" in a box that is periodic both "
+                               "ways and sheared or strained, because a particle that the fixed "
+                               "mesh cuts has a different velocity on the other side");
+  constexpr double kRounding = 1e-9;
+  root.section("viscous_contact")
+      .require(c.end_time <= (1 + kRounding) * c.setting.time_step, "end_time",
+               "is {}; it must be at most time_step, {}, in a box that is periodic both ways and "
+               "sheared or strained, because the cell of this version keeps its shape and gives "
+               "instantaneous velocities only",
+               c.end_time, c.setting.time_step);
+}
+
+/// Checks an arrangement in a fluid by its smallest gap that is asked for, and not by the gaps of
+/// its discs, so that it is accepted or refused whatever its seed is.
+void check_arrangement(const case_file::TomlSection& root, const ParticlesCase& c) {
+  if (!c.arrangement) return;
+  const auto& fluid = *c.setting.fluid;
+  const double gap = c.arrangement->smallest_gap;
+  const double least = kLeastGapOfMesh * c.arrangement->radius;
+  const auto section = root.section("arrangement");
+  section.require(!root.section("fluid").has("threshold_gap") || gap >= fluid.threshold_gap,
+                  "smallest_gap",
+                  "is {}; it must be at least fluid.threshold_gap, {}, at which contact is made",
+                  gap, fluid.threshold_gap);
+  section.require(gap >= gap_of_solids(c), "smallest_gap",
+                  "is {}; it must be at least twice viscous_contact.roughness, {}, at which the "
+                  "solids touch",
+                  gap, gap_of_solids(c));
+  section.require(fluid.mesh != FluidMesh::kFitted || gap >= least, "smallest_gap",
+                  "is {}; it must be at least a thousandth of the radius, {:.3g}, which the mesh "
+                  "resolves",
+                  gap, least);
+}
+
+void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGap& at) {
+  const auto& fluid = *c.setting.fluid;
+  const auto& p = c.particles;
+  const auto j = index_of(at.second);
+  const bool is_pair = at.first >= 0;
+  const double radius = is_pair ? std::min(p.radii[index_of(at.first)], p.radii[j]) : p.radii[j];
+  const auto other = is_pair ? names(index_of(at.first))
+                             : obstacle_name(c, static_cast<std::size_t>(-1 - at.first));
+  const bool is_plane = !is_pair && other.starts_with("plane");
+  if (fluid.mesh == FluidMesh::kFitted && !is_plane && at.gap < kLeastGapOfMesh * radius)
+    throw_bad_input(
+        names.at(j),
+        fmt::format("{} and {} have a gap of {:.3g} at the start, which the mesh does not resolve; "
+                    "it must be at least a thousandth of the smaller radius, {:.3g}",
+                    other, names(j), at.gap, kLeastGapOfMesh * radius));
+  const double allowed = c.setting.solver.tolerance * mean_radius(p);
+  if (at.gap < fluid.threshold_gap - allowed &&
+      !(is_driven(c, at.first) && is_driven(c, at.second)))
+    throw_bad_input(
+        names.at(j),
+        fmt::format("{} and {} have a gap of {:.3g} at the start, less than fluid.threshold_gap, "
+                    "{:.3g}, at which contact is made; the gap must be larger or {} smaller",
+                    other, names(j), at.gap, fluid.threshold_gap,
+                    fluid.threshold_gap > gap_of_solids(c) ? "fluid.threshold_gap"
+                                                           : "viscous_contact.roughness"));
+}
+
+/// Largest limit up to `asked` [L] for which gaps_at_start() can find all gaps.
+double limit_within_periods(const ParticlesCase& c, double asked) {
+  const double diameter = 2 * std::ranges::max(c.particles.radii);
+  // close_pairs_in_period() needs sums of extents below the period; the factor leaves a margin.
+  constexpr double kLess = 0.999;
+  for (const double period : periods_of(c.setting.domain))
+    if (period > 0) asked = std::min(asked, kLess * (period - diameter));
+  return asked;
+}
+
+/// Bodies and links are held by forces that are found from velocities of the fluid, and these have
+/// rounding errors of about 1e-15/penalty (particles/fluid/fluid_motion.hpp). Seven touching discs
+/// of a body were held with penalties down to 3e-11; with 1e-11 the errors were taken for
+/// constraints that contradict each other.
+void check_penalty(const case_file::TomlSection& root, const ParticlesCase& c) {
+  constexpr double kLeast = 1e-10;
+  const auto& fluid = *c.setting.fluid;
+  const auto has_members = [](const auto& body) { return body.members.size() > 1; };
+  if (fluid.constraint != RigidConstraint::kPenalty || fluid.penalty >= kLeast ||
+      (c.setting.links.empty() && std::ranges::none_of(c.particles.bodies.bodies, has_members)))
+    return;
+  root.section("fluid").fail(
+      "penalty",
+      fmt::format("is {}; in a case with bodies or links it must be at least {}, because "
+                  "the forces that hold them follow from velocities with rounding errors "
+                  "of 1e-15/penalty. constraint = \"rigid\" has no penalty",
+                  fluid.penalty, kLeast));
+}
+
+}  // namespace
+
+void check_start(const ParticlesCase& c, const ParticleLines& lines) {
+  const ParticleNames names(c, lines);
+  check_radii_and_distances(c, names);
+  check_domain(c, names);
+  const double allowed = c.setting.solver.tolerance * mean_radius(c.particles);
+  for (const auto& [first, second, gap] : gaps_at_start(c, 0)) {
+    if (!(gap < -allowed)) continue;
+    const auto j = index_of(second);
+    if (first >= 0)
+      throw_bad_input(
+          names.at(j),
+          fmt::format("{} and {} overlap by {:.3g} at the start; at most {:.3g} is allowed",
+                      names(index_of(first)), names(j), -gap, allowed));
+    const auto obstacle = obstacle_name(c, static_cast<std::size_t>(-1 - first));
+    throw_bad_input(
+        names.at(j),
+        fmt::format("{} is {:.3g} into {} at the start, or behind it; {}", names(j), -gap, obstacle,
+                    obstacle.starts_with("plane") ? "a plane's normal must point into the free side"
+                                                  : "it must be inside the domain"));
+  }
+}
+
+void set_default_threshold_gap(ParticlesCase& c) {
+  constexpr double kOfRadius = 0.05;
+  const double longest = kOfRadius * std::ranges::min(c.particles.radii);
+  double threshold = longest;
+  for (const double period : periods_of(c.setting.domain))
+    if (period > 0)
+      threshold = std::min(threshold, (period - 2 * std::ranges::max(c.particles.radii)) / 2);
+  for (const auto& at : gaps_at_start(c, limit_within_periods(c, 2 * longest)))
+    threshold = std::min(threshold, std::max(0.0, at.gap) / 2);
+  c.setting.fluid->threshold_gap = std::max(threshold, gap_of_solids(c));
+}
+
+void check_fluid_start(const case_file::TomlSection& root, const ParticlesCase& c,
+                       const ParticleLines& lines) {
+  const ParticleNames names(c, lines);
+  if (has_only_open_sides(c) && c.setting.given_motions.empty())
+    root.section("fluid").fail(
+        "velocity",
+        "makes each side open that is not periodic, so that nothing balances the forces on the "
+        "particles; at least one side must be a wall, or the motion of a particle must be given");
+  check_mean_flow(root, c);
+  root.section("fluid").require(
+      c.setting.fluid->threshold_gap >= gap_of_solids(c), "threshold_gap",
+      "is {}; it must be at least twice viscous_contact.roughness, {}, because the solids touch at "
+      "that gap",
+      c.setting.fluid->threshold_gap, gap_of_solids(c));
+  check_arrangement(root, c);
+  check_penalty(root, c);
+  check_bodies(root, c, names);
+  check_masses(root, c, names);
+  check_inertia(root, c, names);
+  check_side_of_cylinder(c, names);
+  const double limit = std::max(c.setting.fluid->threshold_gap,
+                                kLeastGapOfMesh * std::ranges::max(c.particles.radii));
+  for (const auto& at : gaps_at_start(c, limit_within_periods(c, limit))) check_gap(c, names, at);
+}
+
+}  // namespace viscontact::particles

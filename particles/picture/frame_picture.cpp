@@ -1,0 +1,427 @@
+// Draws the particles of a frame with planes, contacts, marks of rotation, rigid bodies and links
+// as SVG (frame_picture.hpp). Motions in space must be drawn from the back to the front, because
+// SVG has no depth. The scripts in particles/picture/page draw the same.
+#include "viscontact/particles/picture/frame_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace viscontact::particles {
+namespace {
+
+
+/// Calls visit(k, place) for each drawn particle k and for those of its images that may be seen.
+template <class Visit>
+void for_each_image(const PanelSettings& d, const Frame& frame, const Visit& visit) {
+  for (std::size_t k = 0; k < d.scene.playback.radii.size(); k += d.every)
+    for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
+      const auto shift = shift_of(d.scene.playback.cell, image);
+      if (image == 0 || shift[0] != 0 || shift[1] != 0)
+        visit(k, particles::operator+(position(d.scene.playback, frame, k), shift));
+    }
+}
+
+/// True if the particle belongs to a rigid body.
+bool is_in_body(const Playback& playback, std::size_t k) {
+  return !playback.bodies.empty() && playback.bodies[k] >= 0;
+}
+
+/// True if the panel shows a part of a circle about (x, y) of the page.
+bool is_seen(const PanelSettings& panel, double x, double y, double r) {
+  return x > -r && x < panel.width + r && y > -r && y < panel.height + r;
+}
+
+/// Vector from particle `first` to the nearest image of particle `second` [L].
+Vector apart(const PanelSettings& panel, const Frame& frame, std::size_t first,
+             std::size_t second) {
+  Vector w =
+      position(panel.scene.playback, frame, second) - position(panel.scene.playback, frame, first);
+  for (std::size_t k = 0; k < 2; ++k)
+    if (const double period = panel.scene.playback.cell.lengths[k]; period > 0)
+      w[k] -= period * std::round(w[k] / period);
+  return w;
+}
+
+std::string move_to(const PanelSettings& panel, const Vector& p) {
+  return fmt::format("M{:.2f} {:.2f}", panel.view.x(p), panel.view.y(p));
+}
+std::string line_to(const PanelSettings& panel, const Vector& p) {
+  return fmt::format("L{:.2f} {:.2f}", panel.view.x(p), panel.view.y(p));
+}
+
+/// Calls line(from, to) for the line between two particles; twice if it crosses a period.
+template <class Line>
+std::string both_sides(const PanelSettings& panel, const Frame& frame, std::size_t first,
+                       std::size_t second, const Line& line) {
+  const Vector w = apart(panel, frame, first, second);
+  const Vector from = position(panel.scene.playback, frame, first);
+  const Vector to = position(panel.scene.playback, frame, second);
+  const double off = norm(to - (from + w));
+  return line(from, from + w) +
+         (off > 0.5 * panel.scene.playback.radii[first] ? line(to - w, to) : "");
+}
+
+double smaller_radius(const PanelSettings& panel, std::size_t first, std::size_t second) {
+  return panel.view.scale *
+         std::min(panel.scene.playback.radii[first], panel.scene.playback.radii[second]);
+}
+
+std::string spring_path(const PanelSettings& panel, const Vector& from, const Vector& to,
+                        double width) {
+  constexpr int kTurns = kStyle.spring_turns;
+  constexpr double kEnd = kStyle.spring_end;
+  const double x = panel.view.x(from), y = panel.view.y(from), dx = panel.view.x(to) - x,
+               dy = panel.view.y(to) - y, length = std::hypot(dx, dy);
+  if (!(length > 0)) return "";
+  auto path = fmt::format("M{:.2f} {:.2f}", x, y);
+  for (int k = 0; k <= kTurns; ++k) {
+    const double share = kEnd + (1 - 2 * kEnd) * k / kTurns;
+    const double side = k == 0 || k == kTurns ? 0 : (k % 2 == 0 ? width : -width);
+    path += fmt::format("L{:.2f} {:.2f}", x + share * dx - side * dy / length,
+                        y + share * dy + side * dx / length);
+  }
+  return path + fmt::format("L{:.2f} {:.2f}", x + dx, y + dy);
+}
+
+/// A circle about a point; nothing if the panel does not show it.
+std::string circle(const PanelSettings& panel, const Vector& at, double radius) {
+  const double x = panel.view.x(at), y = panel.view.y(at), r = panel.view.scale * radius;
+  return is_seen(panel, x, y, r)
+             ? fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\"/>\n", x, y, r)
+             : "";
+}
+
+/// A dot at the rim of each disc, which shows how far it has turned; nothing on very small discs.
+std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
+  constexpr double kSmallest = 0.5;  // radius of a dot [page units]
+  if (frame.angles.size() != panel.scene.playback.radii.size()) return "";
+  std::string text;
+  for_each_image(panel, frame, [&](std::size_t k, const Vector& centre) {
+    const double r = panel.scene.playback.radii[k], angle = frame.angles[k];
+    if (kStyle.mark_radius * r * panel.view.scale >= kSmallest)
+      text += circle(
+          panel, centre + kStyle.mark_distance * r * Vector{std::cos(angle), std::sin(angle), 0},
+          kStyle.mark_radius * r);
+  });
+  return fmt::format("<g fill=\"{}\">\n{}</g>\n", kStyle.mark, text);
+}
+
+/// Dots on sphere k where its three axes come out of it, as far as they are seen.
+std::string orientation_marks(const PanelSettings& panel, const Frame& frame, std::size_t k) {
+  constexpr double kSmallest = 0.5;  // radius of a dot [page units]
+  const double r = panel.scene.playback.radii[k];
+  if (frame.orientations.size() != 4 * panel.scene.playback.radii.size() ||
+      kStyle.axis_radius * r * panel.view.scale < kSmallest)
+    return "";
+  const float* q = &frame.orientations[4 * k];
+  const double w = q[0], x = q[1], y = q[2], z = q[3];
+  // The columns of the rotation matrix are the axes of the sphere.
+  const std::array<Vector, 3> axes = {
+      Vector{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+      Vector{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+      Vector{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+  std::string dots;
+  for (const auto& axis : axes)
+    for (const double side : {1.0, -1.0}) {
+      const double towards = side * dot(axis, panel.view.toward);
+      if (towards > kStyle.least_toward)
+        dots += circle(panel, position(panel.scene.playback, frame, k) + side * r * axis,
+                       kStyle.axis_radius * r * std::sqrt(towards));
+    }
+  return fmt::format("<g fill=\"{}\" stroke=\"none\">{}</g>\n", kStyle.mark, dots);
+}
+
+/// The discs of rigid bodies, in a colour of their own, with lines that join the discs of each.
+std::string body_discs(const PanelSettings& panel, const Frame& frame) {
+  if (panel.scene.playback.bodies.empty()) return "";
+  const auto [fill, edge] = kStyle.disc_of_body;
+  auto text = fmt::format("<g fill=\"{}\" stroke=\"{}\" stroke-width=\".6\">\n", fill, edge);
+  for_each_image(panel, frame, [&](std::size_t k, const Vector& centre) {
+    if (is_in_body(panel.scene.playback, k))
+      text += circle(panel, centre, panel.scene.playback.radii[k]);
+  });
+  text += fmt::format("</g>\n<g fill=\"none\" stroke=\"{}\" stroke-linecap=\"round\">\n", edge);
+  std::map<std::int32_t, std::size_t> before;  // the last member of each body
+  for (std::size_t k = 0; k < panel.scene.playback.radii.size(); k += panel.every) {
+    if (!is_in_body(panel.scene.playback, k)) continue;
+    const auto [last, is_first] = before.emplace(panel.scene.playback.bodies[k], k);
+    if (is_first) continue;
+    const auto path = both_sides(
+        panel, frame, last->second, k,
+        [&](const Vector& a, const Vector& b) { return move_to(panel, a) + line_to(panel, b); });
+    text += fmt::format(
+        "<path stroke-width=\"{:.2f}\" d=\"{}\"/>\n",
+        std::clamp(kStyle.body_line * smaller_radius(panel, last->second, k), 0.5, 4.0), path);
+    last->second = k;
+  }
+  return text + "</g>\n";
+}
+
+/// Hinges as rings, springs as zigzag lines and arms as bars.
+std::string link_marks(const PanelSettings& panel, const Frame& frame) {
+  const auto& links = panel.scene.playback.links;
+  if (links.empty() || panel.every > 1) return "";
+  const auto number = [](std::int32_t k) { return static_cast<std::size_t>(k); };
+  std::string text = "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
+  for (const auto& [first, second] : links.arms)
+    text += fmt::format(
+        "<path stroke=\"#333\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n",
+        std::clamp(kStyle.arm * smaller_radius(panel, number(first), number(second)), 1.2, 5.0),
+        both_sides(panel, frame, number(first), number(second),
+                   [&](const Vector& a, const Vector& b) {
+                     return move_to(panel, a) + line_to(panel, b);
+                   }));
+  for (const auto& [first, second] : links.springs) {
+    const double width = std::clamp(
+        kStyle.spring_width * smaller_radius(panel, number(first), number(second)), 1.5, 6.0);
+    text += fmt::format("<path stroke=\"{}\" stroke-width=\"1.3\" d=\"{}\"/>\n", kStyle.spring,
+                        both_sides(panel, frame, number(first), number(second),
+                                   [&](const Vector& a, const Vector& b) {
+                                     return spring_path(panel, a, b, width);
+                                   }));
+  }
+  text += "</g>\n<g fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.6\">\n";
+  for (const auto& at : links.hinges) text += circle(panel, at, 4 / panel.view.scale);
+  return text + "</g>\n";
+}
+
+std::string path_of(const Polygon& polygon, const Projection& view) {
+  std::string path;
+  for (const auto& p : polygon)
+    path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", view.x(p), view.y(p));
+  return path;
+}
+
+/// A circle as a polygon, whose sides are too short to be seen.
+Polygon circle_polygon(const PlanePosition& place) {
+  constexpr int kSides = 240;
+  Polygon polygon;
+  for (int k = 0; k < kSides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kSides;
+    polygon.push_back(place.point + place.radius * Vector{std::cos(angle), std::sin(angle), 0});
+  }
+  return polygon;
+}
+
+/// The part of a circle that the view shows.
+std::string circle_line(const PanelSettings& d, const PlanePosition& place) {
+  const auto polygon = circle_polygon(place);
+  std::string path;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const auto side =
+        clipped_to_view({polygon[k], polygon[(k + 1) % polygon.size()]}, d.scene.box, {}, 0, 2);
+    if (side.size() > 1) path += path_of(side, d.view);
+  }
+  return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-width=\"1.5\"/>\n", path);
+}
+
+std::string plane_2d_solids(const PanelSettings& d, const Frame& frame) {
+  const auto& [low, high] = d.scene.box;
+  const Polygon all = {
+      {low[0], low[1], 0}, {high[0], low[1], 0}, {high[0], high[1], 0}, {low[0], high[1], 0}};
+  std::string text;
+  for (const auto& plane : frame.planes) {
+    if (plane.is_curved()) {
+      const auto inside = clipped_to_view(circle_polygon(plane), d.scene.box, {}, 0, 2);
+      text += fmt::format("<path d=\"{}Z{}Z\" fill=\"#d8d8d4\" fill-rule=\"evenodd\"/>\n",
+                          path_of(all, d.view), path_of(inside, d.view));
+      continue;
+    }
+    if (const auto solid = clipped(all, plane.point, -1.0 * plane.normal); !solid.empty())
+      text += fmt::format("<path d=\"{}Z\" fill=\"#d8d8d4\"/>\n", path_of(solid, d.view));
+  }
+  return text;
+}
+
+std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
+  std::string text;
+  for (std::size_t j = 0; j < frame.planes.size(); ++j) {
+    if (frame.planes[j].is_curved()) {
+      text += circle_line(d, frame.planes[j]);
+      continue;
+    }
+    const auto& point = frame.planes[j].point;
+    const auto& normal = frame.planes[j].normal;
+    const double far = norm(d.scene.box.high - d.scene.box.low) + norm(d.scene.box.low - point);
+    const Vector along = {-normal[1], normal[0], 0};
+    const auto line = clipped_to_view({point - far * along, point + far * along}, d.scene.box,
+                                      frame.planes, j, 2);
+    if (line.size() > 1)
+      text += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-width=\"1.5\"/>\n",
+                          path_of(line, d.view));
+  }
+  return text;
+}
+
+/// The planes as polygons. A plane that is seen from its free side is filled. Of a plane that is
+/// seen from the other side only the edges are drawn, because the particles are behind it.
+std::string plane_3d_patches(const PanelSettings& d, const Frame& frame, bool from_free_side) {
+  std::string text;
+  for (std::size_t j = 0; j < frame.planes.size(); ++j) {
+    const auto& point = frame.planes[j].point;
+    const auto& normal = frame.planes[j].normal;
+    if ((dot(normal, d.view.toward) > 0) != from_free_side) continue;
+    std::size_t least = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+      if (std::abs(normal[k]) < std::abs(normal[least])) least = k;
+    Vector axis{0, 0, 0};
+    axis[least] = 1;
+    Vector u = cross(normal, axis);
+    u = (1 / norm(u)) * u;
+    const Vector v = cross(normal, u);
+    const double far = norm(d.scene.box.high - d.scene.box.low) + norm(d.scene.box.low - point);
+    const auto patch = clipped_to_view({point - far * u - far * v, point + far * u - far * v,
+                                        point + far * u + far * v, point - far * u + far * v},
+                                       d.scene.box, frame.planes, j, 3);
+    if (patch.size() > 2)
+      text += fmt::format(
+          "<path d=\"{}Z\" fill=\"#8a8a80\" fill-opacity=\"{}\" stroke=\"#777\" "
+          "stroke-width=\".8\"/>\n",
+          path_of(patch, d.view), from_free_side ? ".22" : "0");
+  }
+  return text;
+}
+
+/// The class of a contact's colour: 0 for gamma = 0; 1 to kContactColours, from light to dark, for
+/// gamma < 0 down to `lowest`.
+std::size_t colour_class(double gamma, double lowest) {
+  if (!(gamma < 0) || !(lowest < 0)) return 0;
+  return 1 + static_cast<std::size_t>(
+                 std::lround(std::clamp(gamma / lowest, 0.0, 1.0) * (kContactColours - 1)));
+}
+
+// The class of contacts that slide, after those of gamma.
+constexpr std::size_t kSlidingClass = kContactColours + 1;
+
+std::string class_colour(std::size_t colour) {
+  if (colour == kSlidingClass) return report::kSlidingColour;
+  return colour == 0 ? report::kTouchingColour
+                     : report::film_colour(static_cast<double>(colour - 1) / (kContactColours - 1));
+}
+
+/// The line of a contact. In space it is drawn just after the nearer of its two particles: over
+/// this particle and those behind it, and under those in front of it.
+struct ContactLine {
+  std::size_t colour = 0;
+  double width = 0;
+  std::string path;
+};
+
+ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentContact& contact) {
+  const auto second = static_cast<std::size_t>(contact.second);
+  const Vector to = position(d.scene.playback, frame, second);
+  double radius = d.scene.playback.radii[second];
+  Vector from{};
+  if (contact.first < 0) {
+    const auto plane =
+        tangent_at(frame.planes.at(static_cast<std::size_t>(-1 - contact.first)), to);
+    from = to - dot(plane.normal, to - plane.point) * plane.normal;
+  } else {
+    const auto first = static_cast<std::size_t>(contact.first);
+    from = position(d.scene.playback, frame, first);
+    radius = std::min(radius, static_cast<double>(d.scene.playback.radii[first]));
+  }
+  ContactLine line;
+  line.colour = contact.friction == ContactFriction::kSlides
+                    ? kSlidingClass
+                    : colour_class(contact.gamma, d.scene.lowest_gamma);
+  line.width = line.colour == 0 ? std::clamp(0.06 * d.view.scale * radius, 0.3, 1.0)
+                                : std::clamp(0.3 * d.view.scale * radius, 0.8, 5.0);
+  // The line to an image is drawn at both sides of the period.
+  const Vector shift = shift_of(d.scene.playback.cell, contact.image);
+  line.path = path_of({from, to + shift}, d.view);
+  if (contact.image != 0) line.path += path_of({from - shift, to}, d.view);
+  return line;
+}
+
+bool drawn(const PanelSettings& d, const CurrentContact& contact) {
+  const auto shown = [&](std::int32_t k) { return static_cast<std::size_t>(k) % d.every == 0; };
+  return shown(contact.second) && (contact.first < 0 || shown(contact.first));
+}
+
+std::string discs(const PanelSettings& d, const Frame& frame, const std::string& behind) {
+  std::string text = behind + plane_2d_solids(d, frame);
+  const bool is_in_fluid = d.scene.is_in_fluid;
+  const auto [fill, edge] = is_in_fluid ? kStyle.disc_in_fluid : kStyle.disc;
+  text += fmt::format("<g fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\">\n", fill, edge,
+                      is_in_fluid ? ".8" : ".6");
+  for_each_image(d, frame, [&](std::size_t k, const Vector& centre) {
+    if (!is_in_body(d.scene.playback, k)) text += circle(d, centre, d.scene.playback.radii[k]);
+  });
+  text += "</g>\n" + body_discs(d, frame) + angle_marks(d, frame) + plane_2d_lines(d, frame);
+  // All contacts of one colour make one path. Its width is the mean of the widths of these
+  // contacts.
+  std::array<ContactLine, kSlidingClass + 1> lines;
+  std::array<int, kSlidingClass + 1> counts{};
+  for (const auto& contact : frame.contacts) {
+    if (!drawn(d, contact)) continue;
+    const auto line = line_of(d, frame, contact);
+    lines[line.colour].path += line.path;
+    lines[line.colour].width += line.width;
+    ++counts[line.colour];
+  }
+  text += "<g fill=\"none\" stroke-linecap=\"round\">\n";
+  for (std::size_t c = 0; c < lines.size(); ++c)
+    if (counts[c] > 0)
+      text += fmt::format("<path stroke=\"{}\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n",
+                          class_colour(c), lines[c].width / counts[c], lines[c].path);
+  return text + "</g>\n" + link_marks(d, frame);
+}
+
+std::string spheres(const PanelSettings& d, const Frame& frame) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t k = 0; k < d.scene.playback.radii.size(); k += d.every)
+    order.emplace_back(dot(d.view.toward, position(d.scene.playback, frame, k)), k);
+  std::ranges::sort(order);
+  std::vector<std::size_t> rank(d.scene.playback.radii.size());
+  for (std::size_t i = 0; i < order.size(); ++i) rank[order[i].second] = i;
+  std::vector<std::string> with(order.size());
+  for (const auto& contact : frame.contacts) {
+    if (!drawn(d, contact)) continue;
+    const auto line = line_of(d, frame, contact);
+    auto at = rank[static_cast<std::size_t>(contact.second)];
+    if (contact.first >= 0) at = std::max(at, rank[static_cast<std::size_t>(contact.first)]);
+    with[at] += fmt::format("<path stroke=\"{}\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n",
+                            class_colour(line.colour), line.width, line.path);
+  }
+  std::string text = plane_3d_patches(d, frame, true);
+  text += fmt::format(
+      "<g fill=\"url(#ball)\" stroke=\"{}\" stroke-width=\".5\" stroke-linecap=\"round\">\n",
+      kStyle.ball.back());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto k = order[i].second;
+    const auto sphere = circle(d, position(d.scene.playback, frame, k), d.scene.playback.radii[k]);
+    text +=
+        is_in_body(d.scene.playback, k) ? "<g fill=\"url(#body)\">" + sphere + "</g>\n" : sphere;
+    text += orientation_marks(d, frame, k) + with[i];
+  }
+  return text + "</g>\n" + link_marks(d, frame) + plane_3d_patches(d, frame, false);
+}
+
+}  // namespace
+
+Projection view_of(int dimension) {
+  Projection view;
+  if (dimension == 2) return view;
+  const double turn = 30 * std::numbers::pi / 180, from_above = 20 * std::numbers::pi / 180;
+  const double c = std::cos(turn), s = std::sin(turn), ca = std::cos(from_above),
+               sa = std::sin(from_above);
+  view.right = {c, s, 0};
+  view.up = {-s * sa, c * sa, ca};
+  view.toward = {s * ca, -c * ca, sa};
+  return view;
+}
+
+std::string frame_picture(const PanelSettings& panel, const Frame& frame,
+                          const std::string& behind) {
+  return panel.scene.playback.dimension == 2 ? discs(panel, frame, behind) : spheres(panel, frame);
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,421 @@
+// Draws the whole picture: the flow (flow.js), the obstacles (view.js), discs and spheres, marks of
+// their rotation, rigid bodies, links and contacts, in light or dark colours.
+// particles/picture/frame_picture.cpp draws the same in the still picture.
+
+const kLargestSprite = 512;  // [device pixels]
+const disc = motion.flow ? style.discInFluid : style.disc;
+const isInBody = k => bodies !== null && bodies[k] >= 0;
+
+function paintParticle(p, x, y, r, inBody) {
+  const rim = Math.min(2 * dots, Math.max(0.5, 0.07 * r));
+  if (flat) {
+    [p.fillStyle, p.strokeStyle] = inBody ? style.discOfBody : disc;
+  } else {
+    const ball = inBody ? style.ballOfBody : style.ball;
+    const lightX = x - 0.28 * r, lightY = y - 0.36 * r;
+    const light = p.createRadialGradient(lightX, lightY, 0, lightX, lightY, 1.44 * r);
+    for (let i = 0; i < 3; ++i) light.addColorStop(i / 2, ball[i]);
+    p.fillStyle = light;
+    p.strokeStyle = ball[3];
+  }
+  p.lineWidth = rim;
+  p.beginPath();
+  p.arc(x, y, Math.max(0, r - rim / 2), 0, 2 * Math.PI);
+  p.fill();
+  p.stroke();
+}
+
+// Copying a picture is faster than drawing thousands of spheres. There is one picture for each
+// power of two in size, so that none is reduced to less than half its size; negative sizes are
+// those of particles of bodies.
+const sprites = new Map();
+function spriteFor(size, inBody) {
+  const side = 2 ** Math.ceil(Math.log2(Math.max(4, size)));
+  const key = inBody ? -side : side;
+  if (!sprites.has(key)) {
+    const sprite = document.createElement('canvas');
+    sprite.width = sprite.height = side;
+    paintParticle(sprite.getContext('2d'), side / 2, side / 2, side / 2,
+                  inBody);
+    sprites.set(key, sprite);
+  }
+  return sprites.get(key);
+}
+
+function particle(x, y, r, inBody) {
+  if (r < 1) {
+    pen.fillStyle = flat ? (inBody ? style.discOfBody : disc)[0]
+                         : (inBody ? style.ballOfBody : style.ball)[1];
+    const half = Math.max(r, 0.35);
+    pen.fillRect(x - half, y - half, 2 * half, 2 * half);
+  } else if (2 * r > kLargestSprite) {
+    paintParticle(pen, x, y, r, inBody);
+  } else {
+    pen.drawImage(spriteFor(2 * r, inBody), x - r, y - r, 2 * r, 2 * r);
+  }
+}
+
+const pageX = new Float32Array(count), pageY = new Float32Array(count);
+const pageRadius = new Float32Array(count), depths = new Float32Array(count);
+const order = new Uint32Array(count);  // from far to near
+
+function placeParticles() {
+  for (let k = 0; k < count; ++k) {
+    const x = positions[k * dim], y = positions[k * dim + 1], z = flat ? 0 : positions[k * dim + 2];
+    const p = project(x, y, z);
+    pageX[k] = p.x;
+    pageY[k] = p.y;
+    pageRadius[k] = p.near * view.scale * radii[k];
+    if (!flat) depths[k] = axes[2][0] * x + axes[2][1] * y + axes[2][2] * z;
+  }
+  if (!flat) sortByDepth();
+}
+
+/**
+ * Sorts the particles into 4096 layers of depth; within a layer they keep their order. Particles
+ * that overlap on the page are in different layers, unless they are very small.
+ */
+function sortByDepth() {
+  const layers = 4096, start = new Uint32Array(layers + 1);
+  const half = diagonal / 2, centre = dot(axes[2], middle);
+  const layerOf = k => {
+    const layer = Math.floor(layers * ((depths[k] - centre) / half + 1) / 2);
+    return Math.min(layers - 1, Math.max(0, layer)) || 0;
+  };
+  for (let k = 0; k < count; ++k) ++start[layerOf(k) + 1];
+  for (let i = 0; i < layers; ++i) start[i + 1] += start[i];
+  for (let k = 0; k < count; ++k) order[start[layerOf(k)]++] = k;
+}
+
+const isSeen = k => {
+  const r = pageRadius[k];
+  return r > 0 && pageX[k] > -r && pageX[k] < canvas.width + r &&
+         pageY[k] > -r && pageY[k] < canvas.height + r;
+};
+
+const rank = new Uint32Array(flat ? 0 : count), chain = new Int32Array(flat ? 0 : count);
+const chained = new Int32Array(flat ? 0 : lines.pair.length);
+
+/**
+ * Draws the spheres from far to near. A contact is drawn with the nearer of its particles: over
+ * both particles, and under everything in front of them.
+ */
+function drawSpheres() {
+  chain.fill(-1);
+  if (withContacts) {
+    order.forEach((k, i) => { rank[k] = i; });
+    for (let i = 0; i < lines.count; ++i) {
+      const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
+      const k = first >= 0 && rank[first] > rank[second] ? first : second;
+      chained[i] = chain[k];
+      chain[k] = i;
+    }
+  }
+  for (let j = 0; j < count; ++j) {
+    const k = order[j];
+    if (isSeen(k)) {
+      particle(pageX[k], pageY[k], pageRadius[k], isInBody(k));
+      if (orientations.length) drawAxes(k);
+    }
+    for (let i = chain[k]; i >= 0; i = chained[i]) {
+      if (!contactSeen(i)) continue;
+      pen.strokeStyle = colours[colourOf(i)];
+      pen.lineWidth = widthOf(i);
+      pen.beginPath();
+      traceContact(i);
+      pen.stroke();
+    }
+  }
+}
+
+function drawDiscs() {
+  for (let k = 0; k < count; ++k) {
+    const x = positions[2 * k], y = positions[2 * k + 1], r = radii[k];
+    // The image at the other side of the cell, if the disc sticks out of it.
+    const besideX = !periodX ? 0 : x - r < cellX ? periodX : x + r > cellX + periodX ? -periodX : 0;
+    const besideY = !periodY ? 0 : y - r < cellY ? periodY : y + r > cellY + periodY ? -periodY : 0;
+    for (const shiftX of besideX ? [0, besideX] : [0])
+      for (const shiftY of besideY ? [0, besideY] : [0]) {
+        const pageAtX = pageX[k] + view.scale * shiftX, pageAtY = pageY[k] - view.scale * shiftY;
+        const size = pageRadius[k];
+        if (pageAtX < -size || pageAtX > canvas.width + size) continue;
+        if (pageAtY < -size || pageAtY > canvas.height + size) continue;
+        particle(pageAtX, pageAtY, size, isInBody(k));
+        if (angles.length) drawMark(k, pageAtX, pageAtY);
+      }
+  }
+}
+
+/** A dot at the rim, which shows how far a disc has turned. */
+function drawMark(k, x, y) {
+  const r = pageRadius[k];
+  if (r < 4 * dots) return;
+  const at = style.markDistance * r;
+  const markX = x + at * Math.cos(angles[k]), markY = y - at * Math.sin(angles[k]);
+  pen.beginPath();
+  pen.arc(markX, markY, style.markRadius * r, 0, 2 * Math.PI);
+  pen.fillStyle = style.mark;
+  pen.fill();
+}
+
+/** Dots on a sphere where its three axes come out of it, as far as they are seen. */
+function drawAxes(k) {
+  const r = pageRadius[k];
+  if (r < 5 * dots) return;
+  const [w, x, y, z] = orientations.subarray(4 * k, 4 * k + 4);
+  const sphereAxes = [
+    [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
+    [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
+    [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)],
+  ];
+  pen.fillStyle = style.mark;
+  for (const axis of sphereAxes)
+    for (const side of [1, -1]) {
+      const toward = side * dot(axes[2], axis);
+      if (toward < style.leastToward) continue;  // seen from the side
+      pen.beginPath();
+      pen.arc(pageX[k] + side * r * dot(axes[0], axis), pageY[k] - side * r * dot(axes[1], axis),
+              style.axisRadius * r * Math.sqrt(toward), 0, 2 * Math.PI);
+      pen.fill();
+    }
+}
+
+/**
+ * Calls line(x1, y1, x2, y2) for the line on the page from one particle to the nearest image of
+ * another; twice if it crosses a period.
+ */
+function betweenParticles(first, second, line) {
+  const shift = [periodX, periodY].map((period, d) => {
+    const apart = positions[second * dim + d] - positions[first * dim + d];
+    return period ? -period * Math.round(apart / period) : 0;
+  });
+  const x = shift[0] * view.scale, y = -shift[1] * view.scale;
+  line(pageX[first], pageY[first], pageX[second] + x, pageY[second] + y);
+  if (x || y) line(pageX[first] - x, pageY[first] - y, pageX[second], pageY[second]);
+}
+const traceLine = (x1, y1, x2, y2) => { pen.moveTo(x1, y1); pen.lineTo(x2, y2); };
+const between = (low, x, high) => Math.min(high, Math.max(low, x));
+
+/** Lines that join the discs of each rigid body. */
+function drawBodies() {
+  if (!bodies) return;
+  const last = new Map();
+  pen.strokeStyle = style.discOfBody[1];
+  for (let k = 0; k < count; ++k) {
+    if (bodies[k] < 0) continue;
+    if (last.has(bodies[k])) {
+      const other = last.get(bodies[k]);
+      const smaller = Math.min(pageRadius[k], pageRadius[other]);
+      pen.lineWidth = between(dots, style.bodyLine * smaller, 8 * dots);
+      pen.beginPath();
+      betweenParticles(other, k, traceLine);
+      pen.stroke();
+    }
+    last.set(bodies[k], k);
+  }
+}
+
+/** A zigzag line with straight ends. */
+function traceSpring(width, x1, y1, x2, y2) {
+  const turns = style.springTurns, end = style.springEnd;
+  const length = Math.hypot(x2 - x1, y2 - y1) || 1;
+  pen.moveTo(x1, y1);
+  for (let i = 0; i <= turns; ++i) {
+    const share = end + (1 - 2 * end) * i / turns;
+    const side = i === 0 || i === turns ? 0 : i % 2 ? -width : width;
+    pen.lineTo(x1 + share * (x2 - x1) - side * (y2 - y1) / length,
+               y1 + share * (y2 - y1) + side * (x2 - x1) / length);
+  }
+  pen.lineTo(x2, y2);
+}
+
+/** Arms as bars, springs as zigzag lines and hinges as rings. */
+function drawLinks() {
+  const smaller = ([first, second]) => Math.min(pageRadius[first], pageRadius[second]);
+  pen.strokeStyle = theme.edge;
+  for (const ends of motion.arms) {
+    pen.lineWidth = between(1.5 * dots, style.arm * smaller(ends), 9 * dots);
+    pen.beginPath();
+    betweenParticles(...ends, traceLine);
+    pen.stroke();
+  }
+  pen.strokeStyle = style.spring;
+  pen.lineWidth = 1.8 * dots;
+  for (const ends of motion.springs) {
+    const width = between(2 * dots, style.springWidth * smaller(ends), 10 * dots);
+    pen.beginPath();
+    betweenParticles(...ends, (...line) => traceSpring(width, ...line));
+    pen.stroke();
+  }
+  pen.strokeStyle = theme.edge;
+  pen.fillStyle = theme.paper;
+  pen.lineWidth = 2 * dots;
+  for (const at of motion.hinges) {
+    const {x, y} = project(...at);
+    pen.beginPath();
+    pen.arc(x, y, 5 * dots, 0, 2 * Math.PI);
+    pen.fill();
+    pen.stroke();
+  }
+}
+
+let withContacts = true;  // whether the reader wants to see them
+
+// The colours of contacts: index 0 is for gamma = 0, the others for gamma < 0 from light to dark.
+// The last colour is for contacts that slide.
+const colours = [motion.touching, ...motion.colours, ...(motion.sliding ? [motion.sliding] : [])];
+function colourOf(i) {
+  if (lines.friction[i] === 2) return colours.length - 1;
+  const level = lines.level[i];
+  return level === 0 ? 0 : 1 + Math.round(level / 255 * (motion.colours.length - 1));
+}
+
+/** The line of a contact, from a centre to the other centre or to the foot on the plane. */
+function traceContact(i) {
+  const image = images ? images[lines.pair[i]] : 0;
+  const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
+  if (first < 0) {
+    const {point, normal, radius} = planes[-1 - first];
+    const x = [0, 1, 2].map(d => (d < dim ? positions[second * dim + d] : 0));
+    const from = plus(x, -1, point);
+    const foot = radius ? plus(point, radius / (Math.hypot(...from) || 1), from)
+                        : plus(x, -dot(normal, from), normal);
+    const p = project(...foot);
+    pen.moveTo(p.x, p.y);
+  } else if (image) {
+    // Across a period the line is drawn at both sides of the cell.
+    const x = ((image + 4) % 3 - 1) * periodX * view.scale;
+    const y = -(Math.floor((image + 4) / 3) - 1) * periodY * view.scale;
+    pen.moveTo(pageX[first], pageY[first]);
+    pen.lineTo(pageX[second] + x, pageY[second] + y);
+    pen.moveTo(pageX[first] - x, pageY[first] - y);
+  } else {
+    pen.moveTo(pageX[first], pageY[first]);
+  }
+  pen.lineTo(pageX[second], pageY[second]);
+}
+
+function widthOf(i) {
+  const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
+  const r = first < 0 ? pageRadius[second] : Math.min(pageRadius[first], pageRadius[second]);
+  return lines.level[i] === 0 && lines.friction[i] !== 2
+    ? Math.min(1.5 * dots, Math.max(0.5, 0.08 * r))
+    : Math.min(9 * dots, Math.max(1, 0.3 * r));
+}
+
+const contactSeen = i => {
+  const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
+  return isSeen(second) || (first >= 0 && isSeen(first));
+};
+
+/**
+ * Draws the contacts, one colour after the other; the width is that for a particle of mean size.
+ */
+function drawContacts() {
+  for (let c = 0; c < colours.length; ++c) {
+    let width = 0, drawn = 0;
+    pen.beginPath();
+    for (let i = 0; i < lines.count; ++i)
+      if (colourOf(i) === c && contactSeen(i)) {
+        traceContact(i);
+        width += widthOf(i);
+        ++drawn;
+      }
+    if (!drawn) continue;
+    pen.strokeStyle = colours[c];
+    pen.lineWidth = width / drawn;
+    pen.stroke();
+  }
+}
+
+const kThemes = {
+  light: {paper: '#fbfbf9', solid: '#d8d8d4', edge: '#333',
+          patch: 'rgba(120,120,105,.16)', grid: 'rgba(90,90,80,.35)', mark: '#d55e00'},
+  dark: {paper: '#1f2326', solid: '#3b4044', edge: '#c8c8c4',
+         patch: 'rgba(200,200,190,.10)', grid: 'rgba(200,200,190,.25)', mark: '#ffb000'},
+};
+const dark = matchMedia('(prefers-color-scheme: dark)');
+let theme = dark.matches ? kThemes.dark : kThemes.light;
+
+const flow = motion.flow ? viscontactFlow(motion.flow, bytes, (x, y) => project(x, y, 0)) : null;
+const flowField = document.getElementById('flow');
+const streamlines = document.getElementById('streamlines');
+
+/** Draws only in the cell, where the motion has periods. */
+function clipToCell() {
+  const from = {...project(cellX, cellY, 0)};
+  const to = {...project(cellX + periodX, cellY + periodY, 0)};
+  pen.beginPath();
+  pen.rect(periodX ? from.x : 0, periodY ? to.y : 0, periodX ? to.x - from.x : canvas.width,
+           periodY ? from.y - to.y : canvas.height);
+  pen.clip();
+}
+
+/** The sides of the cell that are one, as dashed lines. */
+function drawPeriods() {
+  const from = {...project(cellX, cellY, 0)};
+  const to = {...project(cellX + periodX, cellY + periodY, 0)};
+  pen.strokeStyle = theme.edge;
+  pen.lineWidth = dots;
+  pen.setLineDash([6 * dots, 5 * dots]);
+  pen.beginPath();
+  for (const x of periodX ? [from.x, to.x] : []) {
+    pen.moveTo(x, periodY ? from.y : 0);
+    pen.lineTo(x, periodY ? to.y : canvas.height);
+  }
+  for (const y of periodY ? [from.y, to.y] : []) {
+    pen.moveTo(periodX ? from.x : 0, y);
+    pen.lineTo(periodX ? to.x : canvas.width, y);
+  }
+  pen.stroke();
+  pen.setLineDash([]);
+}
+
+function draw() {
+  pen.fillStyle = theme.paper;
+  pen.fillRect(0, 0, canvas.width, canvas.height);
+  if (!frames) return;
+  setAxes();
+  pen.lineCap = 'round';
+  placeParticles();
+  if (flat) {
+    pen.save();
+    if (periodX || periodY) clipToCell();
+    if (flow) flow.draw(pen, player.time, flowField.value, streamlines.checked, dots);
+    drawSolids();
+    drawDiscs();
+    drawBodies();
+    drawLines();
+    if (withContacts) drawContacts();
+    drawLinks();
+    pen.restore();
+    if (periodX || periodY) drawPeriods();
+  } else {
+    drawPatches(true);
+    drawSpheres();
+    drawLinks();
+    drawPatches(false);
+  }
+  if (hovered >= 0) {
+    pen.strokeStyle = theme.mark;
+    pen.lineWidth = 2.5 * dots;
+    pen.beginPath();
+    pen.arc(pageX[hovered], pageY[hovered], pageRadius[hovered], 0, 2 * Math.PI);
+    pen.stroke();
+  }
+  canvas.dataset.time = player.time;
+  canvas.dataset.contacts = withContacts ? lines.count : 0;
+}
+
+let asked = false;
+function redraw() {
+  if (asked) return;
+  asked = true;
+  requestAnimationFrame(() => { asked = false; readPointer(); draw(); });
+}
+
+// Printed pages are light.
+const setTheme = isDark => { theme = isDark ? kThemes.dark : kThemes.light; draw(); };
+dark.addEventListener('change', () => setTheme(dark.matches));
+window.addEventListener('beforeprint', () => setTheme(false));
+window.addEventListener('afterprint', () => setTheme(dark.matches));

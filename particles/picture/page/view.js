@@ -1,0 +1,196 @@
+// The view: which part of the motion (motion.js) the canvas shows, and from which direction. Places
+// on the canvas are in device pixels with y downwards, lengths of the motion in the unit of the
+// case. The file also draws the obstacles: planes, and circles around the particles.
+
+const canvas = document.getElementById('stage'), pen = canvas.getContext('2d');
+const view = {scale: 1, x: 0, y: 0, turn: Math.PI / 6, above: Math.PI / 9, moved: false};
+let axes;  // unit vectors to the right, upwards and towards the reader
+let dots = 1;  // device pixels in a CSS pixel
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const plus = (a, s, b) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
+
+function setAxes() {
+  const c = Math.cos(view.turn), s = Math.sin(view.turn);
+  const ca = Math.cos(view.above), sa = Math.sin(view.above);
+  axes = flat ? [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+              : [[c, s, 0], [-s * sa, c * sa, ca], [s * ca, -c * ca, sa]];
+}
+
+/**
+ * The magnification by perspective at a depth towards the reader, who is four diagonals of the box
+ * away; 0 near the reader and behind.
+ */
+function nearness(depth) {
+  if (flat) return 1;
+  const distance = 4 * diagonal;
+  return depth < 0.8 * distance ? distance / (distance - depth) : 0;
+}
+
+const onPage = {x: 0, y: 0, near: 0};  // result of project(); each call overwrites it
+function project(px, py, pz) {
+  const x = px - middle[0], y = py - middle[1], z = pz - middle[2], [r, u, t] = axes;
+  onPage.near = nearness(t[0] * x + t[1] * y + t[2] * z);
+  const s = view.scale * onPage.near;
+  onPage.x = canvas.width / 2 + view.x + s * (r[0] * x + r[1] * y + r[2] * z);
+  onPage.y = canvas.height / 2 + view.y - s * (u[0] * x + u[1] * y + u[2] * z);
+  return onPage;
+}
+
+/** Sets the view in which the box of the motion fills the canvas. */
+function showAll() {
+  setAxes();
+  Object.assign(view, {scale: 1, x: 0, y: 0, moved: false});
+  let left = Infinity, right = -Infinity, top = Infinity, bottom = -Infinity;
+  for (let corner = 0; corner < 8; ++corner) {
+    const p = project(...low.map((l, d) => (corner >> d & 1 ? high[d] : l)));
+    left = Math.min(left, p.x - canvas.width / 2);
+    right = Math.max(right, p.x - canvas.width / 2);
+    top = Math.min(top, p.y - canvas.height / 2);
+    bottom = Math.max(bottom, p.y - canvas.height / 2);
+  }
+  view.scale = Math.min(canvas.width / (right - left), canvas.height / (bottom - top));
+  view.x = -view.scale * (left + right) / 2;
+  view.y = -view.scale * (top + bottom) / 2;
+}
+
+function zoom(factor, x = canvas.width / 2, y = canvas.height / 2) {
+  const most = 1e6 * Math.max(canvas.width, canvas.height) / diagonal;
+  const next = Math.min(most, Math.max(1e-9 * most, view.scale * factor));
+  factor = next / view.scale;
+  view.scale = next;
+  view.x = x - canvas.width / 2 + factor * (view.x - (x - canvas.width / 2));
+  view.y = y - canvas.height / 2 + factor * (view.y - (y - canvas.height / 2));
+  view.moved = true;
+  redraw();
+}
+
+function resize() {
+  const box = canvas.getBoundingClientRect();
+  dots = window.devicePixelRatio || 1;
+  const width = Math.max(1, Math.round(box.width * dots));
+  const height = Math.max(1, Math.round(box.height * dots));
+  if (width === canvas.width && height === canvas.height) return;
+  const factor = Math.min(width / canvas.width, height / canvas.height);
+  canvas.width = width;
+  canvas.height = height;
+  if (view.moved) { view.scale *= factor; view.x *= factor; view.y *= factor; } else showAll();
+  draw();
+}
+
+/** The part of a polygon, or of a line with two ends, with normal.(x - point) >= -slack. */
+function clip(polygon, point, normal, slack = 0) {
+  const kept = [];
+  polygon.forEach((a, i) => {
+    const b = polygon[(i + 1) % polygon.length];
+    const u = dot(normal, plus(a, -1, point)) + slack, v = dot(normal, plus(b, -1, point)) + slack;
+    if (u >= 0) kept.push(a);
+    if ((u >= 0) !== (v >= 0)) kept.push(plus(a, u / (u - v), plus(b, -1, a)));
+  });
+  return kept;
+}
+
+function clipByPlanes(polygon, own) {
+  planes.forEach((plane, i) => {
+    if (i !== own) polygon = clip(polygon, plane.point, plane.normal, 1e-4 * diagonal);
+  });
+  return polygon;
+}
+
+function clipByRoom(polygon) {
+  for (let d = 0; d < 3; ++d) {
+    const axis = [0, 1, 2].map(e => (e === d ? 1 : 0));
+    polygon = clip(clip(polygon, low, axis), high, axis.map(v => -v));
+  }
+  return polygon;
+}
+
+function trace(polygon) {
+  polygon.forEach((x, i) => {
+    const p = project(...x);
+    if (i) pen.lineTo(p.x, p.y); else pen.moveTo(p.x, p.y);
+  });
+}
+
+/** In two dimensions: the part of space that the canvas shows, as a polygon. */
+function seen() {
+  const at = (x, y) => [middle[0] + (x - canvas.width / 2 - view.x) / view.scale,
+                        middle[1] - (y - canvas.height / 2 - view.y) / view.scale, 0];
+  return [at(0, 0), at(canvas.width, 0), at(canvas.width, canvas.height), at(0, canvas.height)];
+}
+
+function traceCircle(point, radius) {
+  const p = project(...point);
+  pen.moveTo(p.x + radius * view.scale, p.y);
+  pen.arc(p.x, p.y, radius * view.scale, 0, 2 * Math.PI);
+}
+
+function drawSolids() {
+  const all = seen();
+  pen.fillStyle = theme.solid;
+  for (const {point, normal, radius} of planes) {
+    pen.beginPath();
+    if (radius) {
+      trace([...all, all[0]]);
+      traceCircle(point, radius);
+    } else {
+      trace(clip(all, point, normal.map(v => -v)));
+    }
+    pen.fill('evenodd');
+  }
+}
+
+function drawLines() {
+  const all = seen(), far = corner => Math.hypot(...plus(corner, -1, middle));
+  pen.strokeStyle = theme.edge;
+  pen.lineWidth = 2 * dots;
+  planes.forEach(({point, normal, radius}, i) => {
+    if (radius) {
+      pen.beginPath();
+      traceCircle(point, radius);
+      pen.stroke();
+      return;
+    }
+    const reach = Math.max(...all.map(far)) + Math.hypot(...plus(point, -1, middle));
+    const along = [-normal[1], normal[0], 0];
+    pen.beginPath();
+    trace(clipByPlanes([plus(point, -reach, along), plus(point, reach, along)], i));
+    pen.stroke();
+  });
+}
+
+/**
+ * In three dimensions: a plane seen from its free side is a patch with a grid; of a plane seen from
+ * behind, only the edges are drawn.
+ */
+function drawPatches(fromFreeSide) {
+  const step = 10 ** Math.round(Math.log10(diagonal / 8));
+  planes.forEach(({point, normal}, i) => {
+    if ((dot(normal, axes[2]) > 0) !== fromFreeSide) return;
+    const size = normal.map(Math.abs), least = size.indexOf(Math.min(...size));
+    const axis = [0, 1, 2].map(d => (d === least ? 1 : 0) - normal[least] * normal[d]);
+    const length = Math.hypot(...axis);
+    const u = axis.map(v => v / length);
+    const v = [normal[1] * u[2] - normal[2] * u[1], normal[2] * u[0] - normal[0] * u[2],
+               normal[0] * u[1] - normal[1] * u[0]];
+    const foot = plus(middle, -dot(normal, plus(middle, -1, point)), normal), reach = diagonal;
+    const at = (a, b) => plus(plus(foot, a, u), b, v);
+    const square = [at(-reach, -reach), at(reach, -reach), at(reach, reach), at(-reach, reach)];
+    const patch = clipByPlanes(clipByRoom(square), i);
+    if (patch.length < 3) return;
+    pen.lineWidth = dots;
+    pen.strokeStyle = theme.grid;
+    pen.fillStyle = theme.patch;
+    pen.beginPath();
+    trace(patch);
+    pen.closePath();
+    if (fromFreeSide) {
+      pen.fill();
+      for (let k = Math.ceil(-reach / step); k * step < reach; ++k) {
+        const across = [at(k * step, -reach), at(k * step, reach)];
+        const along = [at(-reach, k * step), at(reach, k * step)];
+        for (const line of [across, along]) trace(clipByPlanes(clipByRoom(line), i));
+      }
+    }
+    pen.stroke();
+  });
+}

@@ -1,0 +1,28 @@
+// Chooses the simulation for a setting (particle_simulation.hpp), and starts the fluid solver.
+#include "viscontact/particles/run/particle_simulation.hpp"
+
+#include <utility>
+
+namespace viscontact::particles {
+
+ParticleSimulation::ParticleSimulation(const Setting& setting, State state, int threads,
+                                       const StartFluidSolver& start_solver,
+                                       const StopToken& stop) {
+  if (!setting.fluid) {
+    dry_ = std::make_unique<Simulation>(setting, std::move(state), threads);
+    return;
+  }
+  const auto& p = state.particles;
+  auto solver = start_solver(*setting.fluid, setting.domain, p.radii, p.dimension, stop);
+  in_fluid_ = std::make_unique<FluidSimulation>(setting, std::move(state), std::move(solver));
+}
+
+StepReport ParticleSimulation::step(double end) {
+  return in_fluid_ ? in_fluid_->step(end) : dry_->step(end);
+}
+
+const State& ParticleSimulation::state() const {
+  return in_fluid_ ? in_fluid_->state() : dry_->state();
+}
+
+}  // namespace viscontact::particles

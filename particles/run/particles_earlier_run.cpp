@@ -1,0 +1,183 @@
+// Finds out by the provenance of restart.bin whether an earlier run has the inputs and the version
+// of this call, and reads its state, record and frames. Times [T] are in the unit of the case.
+#include "viscontact/particles/run/particles_earlier_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/io/restart.hpp"
+#include "viscontact/particles/io/vtk.hpp"
+#include "viscontact/particles/run/particles_folder.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Says in words how the inputs or the version of the run `before` differ from those of `now`;
+/// empty if they are the same.
+std::string difference(const results::Provenance& before, const results::Provenance& now) {
+  const auto version = [](const results::Provenance& provenance) {
+    const auto found = provenance.versions.find("Viscontact");
+    return found == provenance.versions.end() ? std::string() : found->second;
+  };
+  if (version(before) != version(now))
+    return fmt::format("was made by Viscontact {}, and this is Viscontact {}", version(before),
+                       version(now));
+  if (before.inputs.size() != now.inputs.size()) return "has other input files";
+  for (std::size_t i = 0; i < now.inputs.size(); ++i)
+    if (now.inputs[i].sha256.empty() || before.inputs[i].sha256 != now.inputs[i].sha256)
+      return fmt::format("was made from another version of {}", now.inputs[i].file);
+  return "";
+}
+
+/// Throws Error(kBadInput) that names `restart` if the state has other particles than the case, or
+/// contacts with planes that the case does not have.
+void check_same_particles(const State& state, const ParticlesCase& c, const fs::path& restart) {
+  const auto& p = state.particles;
+  const auto differs = [&](const std::string& what) {
+    throw_bad_input({restart.string()},
+                    fmt::format("has other particles than {}: {}; a case that continues a "
+                                "run must have the same particles in the same order",
+                                c.path.string(), what));
+  };
+  if (p.dimension != c.particles.dimension)
+    differs(fmt::format("{} dimensions, not {}", p.dimension, c.particles.dimension));
+  if (p.count() != c.particles.count())
+    differs(fmt::format("{} particles, not {}", p.count(), c.particles.count()));
+  if (p.radii != c.particles.radii) differs("other radii");
+  if (p.masses != c.particles.masses) differs("other masses");
+  const auto obstacles = obstacles_of(c.setting).size();
+  for (const auto& film : state.walls)
+    if (film.plane() >= obstacles)
+      differs(fmt::format("a contact with plane {}, which the case does not have", -film.first));
+}
+
+/// Gives the state the rigid bodies of the case, which the restart file does not store, with their
+/// motion, which it does. Throws Error(kBadInput) if it has the motion of other bodies.
+void take_over_bodies(State& state, const ParticlesCase& c, const fs::path& restart) {
+  const auto moving = std::move(state.particles.bodies.bodies);
+  state.particles.bodies = c.particles.bodies;
+  auto& bodies = state.particles.bodies.bodies;
+  if (moving.size() != bodies.size())
+    throw_bad_input({restart.string()},
+                    fmt::format("has {} rigid bodies, and {} has {}; a case that continues a run "
+                                "must have the same bodies",
+                                moving.size(), c.path.string(), bodies.size()));
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    bodies[b].centre = moving[b].centre;
+    bodies[b].velocity = moving[b].velocity;
+    bodies[b].angle = moving[b].angle;
+    bodies[b].orientation = moving[b].orientation;
+    bodies[b].angular_momentum = moving[b].angular_momentum;
+    bodies[b].angular_velocity = moving[b].angular_velocity;
+  }
+  const auto forces = c.setting.links.force_count(c.particles.dimension);
+  if (!state.link_forces.empty() && state.link_forces.size() != forces)
+    throw_bad_input(
+        {restart.string()},
+        fmt::format("has the forces of other hinges, springs or arms than {}", c.path.string()));
+}
+
+}  // namespace
+
+FrameTimes frame_times(const ParticlesCase& c, double first_time) {
+  // Times that differ by less than 1e-6 time steps differ by rounding only.
+  return {first_time, std::max(c.frame_interval, c.setting.time_step), 1e-6 * c.setting.time_step};
+}
+
+State first_state(const ParticlesCase& c, const std::string& restart) {
+  State state;
+  if (restart.empty()) {
+    state.particles = c.particles;
+    return state;
+  }
+  state = read_restart(restart);
+  check_same_particles(state, c, restart);
+  state.particles.ids = c.particles.ids;
+  take_over_bodies(state, c, restart);
+  if (c.particles.turn() && !state.particles.turn()) {
+    // The earlier run had nothing that turned its particles.
+    state.particles.angles = c.particles.angles;
+    state.particles.orientations = c.particles.orientations;
+    state.particles.angular_velocities = c.particles.angular_velocities;
+    state.particles.inertias = c.particles.inertias;
+  }
+  if (state.time > c.end_time * (1 - 1e-9))
+    throw_bad_input(
+        {restart},
+        fmt::format("is at time {}, but {} ends at {}, so there is no time left to simulate",
+                    state.time, c.path.string(), c.end_time));
+  // If the time step differs from that of the earlier run, the times of the steps are counted from
+  // this state on.
+  const double on_grid =
+      state.grid_time + static_cast<double>(state.steps - state.grid_step) * c.setting.time_step;
+  if (std::abs(on_grid - state.time) > 1e-6 * c.setting.time_step) {
+    state.grid_time = state.time;
+    state.grid_step = state.steps;
+  }
+  return state;
+}
+
+std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::path& folder,
+                                           const results::Provenance& provenance) {
+  const auto restart = folder / "restart.bin";
+  if (!fs::is_regular_file(restart)) return {};
+  try {
+    const auto before = results::provenance_in(results::read_head(restart), restart.string());
+    const std::string other =
+        before ? difference(*before, provenance) : "does not say what it was made from";
+    if (!other.empty()) {
+      terminal::say(
+          fmt::format("particles: the run in {} {}, so it is replaced by a run from the start",
+                      folder.string(), other));
+      return {};
+    }
+    auto state = read_restart(restart);
+    check_same_particles(state, c, restart);
+    state.particles.ids = c.particles.ids;
+    take_over_bodies(state, c, restart);
+    auto record = read_step_record(folder / "steps.csv", state.steps, c.setting.fluid.has_value());
+    ParticleFrames frames(folder, provenance, c.setting, state.particles);
+    frames.resume(
+        frames_until(folder / "particles.pvd", state.time, frame_times(c, record.first_time)),
+        c.setting, state.time);
+    return EarlierRun{std::move(state), std::move(record), std::move(frames)};
+  } catch (const Error& error) {
+    terminal::say(
+        fmt::format("particles: the run in {} cannot be continued ({}), so it is replaced by a run "
+                    "from the start",
+                    folder.string(), error.what()));
+    return {};
+  }
+}
+
+bool is_finished(const EarlierRun& run, const ParticlesCase& c, const fs::path& folder) {
+  if (run.state.time < c.end_time - frame_times(c, 0).tiny) return false;
+  const auto is_there = [&](const auto& name) { return fs::is_regular_file(folder / name); };
+  if (!std::ranges::all_of(kParticleResults, is_there)) return false;
+  if (c.setting.fluid && !std::ranges::all_of(kFluidResults, is_there)) return false;
+  if (!c.setting.links.empty() && !is_there("links.pvd")) return false;
+  for (const auto& [name, text] : run.frames.tables())
+    if (!is_there(name)) return false;
+  try {
+    // run.json is the last file that a run writes.
+    const auto record = nlohmann::json::parse(read_file(folder / "run.json"));
+    return record.at("to_time") == run.state.time &&
+           std::ranges::all_of(read_pvd(folder / "particles.pvd"), is_there, &FrameFile::second);
+  } catch (const std::exception&) {
+    return false;  // a damaged file: the run continues and writes it again
+  }
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,36 @@
+// The command `particles`: simulates many particles from a case and writes the files of the run, in
+// the units of the case. Sweeps of particles call run_particles(), too.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
+
+namespace viscontact::particles {
+
+/// The options of the command `particles`.
+struct ParticlesRequest {
+  /// Paths; `restart` is empty if the run starts from the particles of the case.
+  std::string case_file, folder, restart;
+  int threads = 1;                ///< number of threads, >= 1; results do not depend on it
+  StartFluidSolver start_solver;  ///< used if the case has a fluid
+  bool json = false;              ///< true: print run.json to standard output
+  StopToken stop{};               ///< a stop ends the run after its state is saved
+};
+
+/// Reads the case, simulates, and writes the files of docs/file-formats.md into the folder. If the
+/// folder has an interrupted run of the same inputs, this run continues; a finished run of the same
+/// inputs is left as it is; the files of any other run are removed at the beginning. Throws
+/// Error(kBadInput) before anything is written if the case or the restart file is wrong or a file
+/// must not be replaced. Throws after everything is written: Error(kNotConverged) if a step did not
+/// reach the tolerance or cannot be computed, Error(kInterrupted) if `stop` requested a stop.
+void run_particles(const ParticlesRequest& request);
+
+/// Writes particles.html and particles.svg again from the frames that run_particles wrote into
+/// `folder`, and from the case and its file of particles, which must not have changed since. Throws
+/// Error(kBadInput) if a file is missing or damaged.
+void report_particles(const std::filesystem::path& folder);
+
+}  // namespace viscontact::particles

@@ -1,0 +1,212 @@
+// Runs the case of a row and keeps its results (particles_run.hpp). result.json is written last and
+// records of which case and version it is, so that a process may be killed at any time.
+#include "viscontact/particles/sweep/particles_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/common/text/on_one_line.hpp"
+#include "viscontact/particles/arrangement/arrangement.hpp"
+#include "viscontact/particles/run/particles_stage.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Values = std::map<std::string, double>;
+
+/// A number; or the largest of several, as of the errors at the first and the last step.
+std::optional<double> number_of(const Json& json) {
+  if (json.is_number() && std::isfinite(json.get<double>())) return json.get<double>();
+  std::optional<double> largest;
+  if (json.is_structured())
+    for (const auto& entry : json)
+      if (const auto value = number_of(entry); value && (!largest || *value > *largest))
+        largest = value;
+  return largest;
+}
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream words(line);
+  for (std::string field; std::getline(words, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+/// Adds from steps.csv, whose first time is `from`, the values of the last step, and the means over
+/// time of the columns whose mean is asked for. A value of a step holds from the end of the step
+/// before it.
+void add_steps(const fs::path& path, double from, const std::vector<std::string>& columns,
+               Values& values) {
+  std::istringstream text(read_file(path));
+  std::vector<std::string> names;
+  std::vector<double> durations(columns.size());
+  double before = from;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with('#')) continue;
+    const auto fields = fields_of(line);
+    if (names.empty()) {
+      names = fields;
+      continue;
+    }
+    const auto field = [&](const std::string& name) -> std::optional<double> {
+      const auto at = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+      return at < fields.size() ? parse_number(fields[at]) : std::nullopt;
+    };
+    const double time = field("time").value_or(before);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      constexpr std::string_view kMean = "mean_";
+      const bool is_mean = columns[i].starts_with(kMean);
+      const auto value = field(is_mean ? columns[i].substr(kMean.size()) : columns[i]);
+      if (!value) continue;
+      if (is_mean && time > before) {
+        // This form of the mean has no rounding error if all values are equal.
+        durations[i] += time - before;
+        auto& mean = values[columns[i]];
+        mean += (*value - mean) * ((time - before) / durations[i]);
+      } else if (!is_mean) {
+        values[columns[i]] = *value;
+      }
+    }
+    before = time;
+  }
+}
+
+/// The values of the columns of a run, from the files in its folder.
+Values values_of(const ParticlesCase& c, const std::vector<std::string>& columns,
+                 const fs::path& run) {
+  Values values;
+  const auto json = Json::parse(read_file(run / "run.json"));
+  add_steps(run / "steps.csv", json.value("from_time", 0.0), columns, values);
+  // run.json decides if both files have a value, because its values are those of the whole run.
+  for (const auto& column : columns)
+    if (json.contains(column))
+      if (const auto value = number_of(json[column])) values[column] = *value;
+  if (c.arrangement) {
+    const DiscDomain disc{{}, c.arrangement->radius};
+    values["area_fraction"] =
+        area_of(disc) * static_cast<double>(c.arrangement->count) / area_of(c.setting.domain);
+  }
+  std::erase_if(values, [](const auto& value) { return !std::isfinite(value.second); });
+  return values;
+}
+
+/// The text without each `part`, so that the rows do not depend on where they are written.
+std::string without(std::string text, const std::string& part) {
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at))
+    text.erase(at, part.size());
+  return text;
+}
+
+/// Removes the files of a run that its row does not need.
+void remove_the_rest(const fs::path& run) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(run))
+    if (entry.is_regular_file() && entry.path().filename() != "run.json" &&
+        entry.path().filename() != "steps.csv")
+      files.push_back(entry.path());
+  for (const auto& file : files)
+    if (results::is_written_by_viscontact(file)) remove_file(file);
+}
+
+}  // namespace
+
+fs::path runs_folder(const fs::path& output) { return output.string() + ".runs"; }
+
+ParticlesRuns::ParticlesRuns(const ParticlesSweep& sweep, const fs::path& output,
+                             std::string version, int threads, bool keep_all,
+                             StartFluidSolver start_solver)
+    : sweep_(sweep),
+      folder_(runs_folder(output)),
+      version_(std::move(version)),
+      threads_(threads),
+      keep_all_(keep_all),
+      start_solver_(std::move(start_solver)) {}
+
+fs::path ParticlesRuns::folder_of(std::uint64_t index) const {
+  const auto draws = sweep_.points().draws;
+  return folder_ /
+         (draws > 0 ? fmt::format("{}-{}", index / draws, index % draws) : std::to_string(index));
+}
+
+std::optional<sweep::RowResults> ParticlesRuns::ended(std::uint64_t index) const {
+  const auto path = folder_of(index) / "result.json";
+  if (!fs::is_regular_file(path)) return {};
+  try {
+    const auto json = Json::parse(read_file(path));
+    if (json.at("case_and_version") != sweep_.identity(index, version_)) return {};
+    return sweep::RowResults{
+        json.at("values").get<Values>(), {}, json.at("failure").get<std::string>()};
+  } catch (const Json::exception&) {
+    return {};  // damaged: the row is computed again
+  }
+}
+
+bool ParticlesRuns::has_succeeded(std::uint64_t index) const {
+  const auto results = ended(index);
+  return results && results->failure.empty();
+}
+
+double ParticlesRuns::seconds(std::uint64_t index) const {
+  const auto path = folder_of(index) / "run" / "run.json";
+  if (!fs::is_regular_file(path)) return 0;
+  try {
+    return Json::parse(read_file(path)).value("seconds", 0.0);
+  } catch (const Json::exception&) {
+    return 0;
+  }
+}
+
+sweep::RowResults ParticlesRuns::compute(std::uint64_t index, const StopToken& stop) const {
+  if (auto results = ended(index); results && results->failure.empty()) return *results;
+  stop.throw_if_stop_requested();
+  const terminal::QuietThread quiet;
+  const auto folder = folder_of(index), run = folder / "run", file = folder / "case.toml";
+  const LockedFolder lock(
+      folder, "is being computed by another process; wait until it has ended, or write elsewhere");
+  // Another process may have ended the run since the first look.
+  if (auto results = ended(index); results && results->failure.empty()) return *results;
+  const auto text = sweep_.case_text(index);
+  if (!fs::is_regular_file(file) || read_file(file) != text) write_file(file, text);
+  sweep::RowResults results;
+  const auto read_values = [&] {
+    results.values = values_of(read_particles_case(file), sweep_.result_columns(), run);
+  };
+  try {
+    run_particles({.case_file = file.string(),
+                   .folder = run.string(),
+                   .restart = "",
+                   .threads = threads_,
+                   .start_solver = start_solver_,
+                   .json = false,
+                   .stop = stop});
+    read_values();
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kInterrupted) throw;
+    results.failure = without(on_one_line(error.what()), folder.string() + "/");
+    if (error.kind() == ErrorKind::kNotConverged && fs::is_regular_file(run / "run.json"))
+      read_values();
+  }
+  const Json json = {{"case_and_version", sweep_.identity(index, version_)},
+                     {"values", results.values},
+                     {"failure", results.failure}};
+  write_file(folder / "result.json",
+             json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (results.failure.empty() && !keep_all_) remove_the_rest(run);
+  return results;
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,61 @@
+// A run of a sweep of particles, in a folder of its own: the case of the row, the run itself and
+// its results, in the units of the case. A row that is finished is not computed again.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/particles/case/particles_study.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
+
+namespace viscontact::particles {
+
+/// The folder OUTPUT.runs, which has a folder for each row of a sweep into the file OUTPUT.
+std::filesystem::path runs_folder(const std::filesystem::path& output);
+
+/// Runs the cases of the rows of a sweep of particles in folders below runs_folder(). The folder of
+/// a row is POINT, or POINT-DRAW if there are draws, so that it stays the same if draws are added:
+///
+///     case.toml     the case of the row
+///     result.json   what the row needs, once the run has ended
+///     run/          the run: of a finished one only run.json and steps.csv, unless all is kept
+class ParticlesRuns {
+ public:
+  /// The sweep must outlive this object. `output` is the file of the rows, `version` that of
+  /// Viscontact. `threads` >= 1 is the number of threads of each run. `keep_all`: all files of
+  /// finished runs are kept.
+  ParticlesRuns(const ParticlesSweep& sweep, const std::filesystem::path& output,
+                std::string version, int threads, bool keep_all, StartFluidSolver start_solver);
+
+  /// The results of row `index`, if its run has ended. Other threads may call this function, too.
+  std::optional<sweep::RowResults> ended(std::uint64_t index) const;
+
+  /// True if the run of row `index` has succeeded, so that compute() would not run it again.
+  bool has_succeeded(std::uint64_t index) const;
+
+  /// Runs the case of row `index`, continues the run if it was interrupted, or takes the results of
+  /// a run that has succeeded. A run that failed before is run again. If the case is wrong, a step
+  /// does not converge or the fluid solver fails, the results say so in `failure`. Throws
+  /// Error(kInterrupted) if `stop` requests a stop, and Error(kBadInput) if the folder cannot be
+  /// written or another process computes the same row.
+  sweep::RowResults compute(std::uint64_t index, const StopToken& stop) const;
+
+  /// The computing time of the run of row `index` [s]; 0 if it has not ended.
+  double seconds(std::uint64_t index) const;
+
+  const std::filesystem::path& folder() const { return folder_; }  ///< runs_folder() of the output
+
+ private:
+  std::filesystem::path folder_of(std::uint64_t index) const;
+
+  const ParticlesSweep& sweep_;
+  std::filesystem::path folder_;
+  std::string version_;
+  int threads_;
+  bool keep_all_;
+  StartFluidSolver start_solver_;
+};
+
+}  // namespace viscontact::particles

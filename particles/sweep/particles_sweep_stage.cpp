@@ -1,0 +1,230 @@
+// Runs of particles are kept in their folders until the user deletes them, so that adding draws runs
+// the new ones only.
+#include "viscontact/particles/sweep/particles_sweep_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/shell_words.hpp"
+#include "viscontact/particles/run/particle_simulation.hpp"
+#include "viscontact/particles/run/particles_earlier_run.hpp"
+#include "viscontact/particles/sweep/particles_run.hpp"
+#include "viscontact/pipeline/sweep_stage.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The runs of a sweep. If there are fewer rows than jobs, each run has several threads; the
+/// results do not depend on their number.
+ParticlesRuns runs_of(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
+                      std::uint64_t rows) {
+  const auto runs_at_once =
+      std::clamp<std::uint64_t>(rows, 1, static_cast<std::uint64_t>(request.jobs));
+  return {sweep,
+          request.output,
+          VISCONTACT_VERSION,
+          request.jobs / static_cast<int>(runs_at_once),
+          request.keep_all,
+          request.start_solver};
+}
+
+void show_finished_rows(terminal::ProgressTimer& timer, std::uint64_t done, std::uint64_t size) {
+  if (timer.is_due()) terminal::show_progress(fmt::format("sweep: {} of {} rows", done, size));
+}
+
+results::Inputs inputs_of(const ParticlesSweep& sweep) {
+  results::Inputs inputs{{sweep.case_path()}, {}};
+  if (!sweep.particles_file().empty()) inputs.given.push_back(sweep.particles_file());
+  return inputs;
+}
+
+/// Writes the table of means, unless it is there.
+void write_means(const ParticlesSweep& sweep, const std::string& output) {
+  if (sweep.points().draws == 0) return;
+  const auto path = path_of_means(output);
+  const auto table = table_of_means(sweep, output);
+  if (!results::has_content(path, table))
+    results::write_output(path, TextKind::kHashComment, table,
+                          results::provenance_of(inputs_of(sweep)));
+  terminal::say(
+      fmt::format("sweep: means over {} draws in {}", sweep.points().draws, path.string()));
+}
+
+void write_tables(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
+                  ParticlesRunner run) {
+  const auto& output = request.output;
+  const auto study = sweep.study(VISCONTACT_VERSION, std::move(run));
+  terminal::ProgressTimer timer;
+  const auto computed = pipeline::write_rows(
+      study, {output, request.jobs, request.stop}, inputs_of(sweep),
+      [&](std::uint64_t done, std::uint64_t size) { show_finished_rows(timer, done, size); });
+  write_means(sweep, output);
+  const auto outcome = sweep::read_outcome(study, output);
+  const auto failed = outcome.without_result + outcome.with_some_results;
+  terminal::say((computed == 0 ? fmt::format("sweep: {} is up to date", output)
+                               : fmt::format("sweep: {} rows in {}", study.size(), output)) +
+                (failed == 0 ? ""
+                             : fmt::format("; {} run{} failed (the column 'failure' says why)",
+                                           failed, failed == 1 ? "" : "s")));
+  if (failed == outcome.points)
+    throw Error(ErrorKind::kNotConverged,
+                fmt::format("{}: every run failed; the column 'failure' says why, in the first "
+                            "row: {}",
+                            output, outcome.first_failure));
+}
+
+/// The numbers of the rows whose run has not ended; with `failed`, also of those that failed.
+std::vector<std::uint64_t> missing_rows(const ParticlesSweep& sweep, const ParticlesRuns& runs,
+                                        bool failed) {
+  std::vector<std::uint64_t> missing;
+  for (std::uint64_t i = 0; i < sweep.points().rows(); ++i)
+    if (failed ? !runs.has_succeeded(i) : !runs.ended(i)) missing.push_back(i);
+  return missing;
+}
+
+/// Sets the time of a row from the first steps of the first one.
+void measure_first_steps(const ParticlesSweep& sweep, const StartFluidSolver& start_solver,
+                         const StopToken& stop, pipeline::DryRun& run) {
+  using Clock = std::chrono::steady_clock;
+  const auto seconds_since = [](Clock::time_point time) {
+    return std::chrono::duration<double>(Clock::now() - time).count();
+  };
+  const auto c = sweep.case_of(0);
+  const auto start = Clock::now();
+  ParticleSimulation simulation(c.setting, first_state(c, ""), 1, start_solver, stop);
+  // In a fluid the first step also estimates errors, and takes several times as long as the others.
+  simulation.step(c.end_time);
+  const double first = seconds_since(start);
+  const auto after_first = Clock::now();
+  const double tiny = 1e-6 * c.setting.time_step;
+  constexpr double kEnough = 2;  // [s]
+  while (simulation.state().time < c.end_time - tiny && seconds_since(start) < kEnough)
+    simulation.step(c.end_time);
+  const auto further = simulation.state().steps - 1;
+  const double all = std::ceil(c.end_time / c.setting.time_step * (1 - 1e-9)) - 1;
+  run.seconds_per_row =
+      first + (further > 0 ? seconds_since(after_first) / static_cast<double>(further) : first) *
+                  std::max(all, 0.0);
+  run.basis = fmt::format("the first {} of {:.0f} steps of row 1, just computed", further + 1,
+                          std::max(all, 0.0) + 1);
+}
+
+}  // namespace
+
+void sweep_particles(const ParticlesSweep& sweep, const ParticlesSweepRequest& request) {
+  const auto runs = runs_of(sweep, request, sweep.points().rows());
+  write_tables(sweep, request, [&](std::uint64_t index, const StopToken& stop) {
+    return runs.compute(index, stop);
+  });
+}
+
+void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
+                    const pipeline::Share& share) {
+  if (share.number >= sweep.points().rows()) return;
+  const std::uint64_t size = (sweep.points().rows() - share.number + share.count - 1) / share.count;
+  const auto runs = runs_of(sweep, request, size);
+  std::atomic<std::uint64_t> failed = 0;
+  // Nothing is written here: results are kept in the folders of the runs.
+  const auto run = [&](std::uint64_t index, const StopToken& stop) {
+    if (!runs.compute(share.number + index * share.count, stop).failure.empty()) ++failed;
+    return std::string();
+  };
+  terminal::say(fmt::format("sweep: {} rows of {}", size, request.output));
+  terminal::ProgressTimer timer;
+  const auto done = sweep::run_rows(
+      size, 0, request.jobs, run,
+      [&](std::uint64_t index, const std::string&) { show_finished_rows(timer, index + 1, size); },
+      request.stop);
+  terminal::clear_progress();
+  if (done < size)
+    throw Error(ErrorKind::kInterrupted,
+                fmt::format("interrupted; the runs are kept in {}; the same command continues them",
+                            runs.folder().string()));
+  if (failed == size)
+    throw Error(ErrorKind::kNotConverged,
+                fmt::format("{}: every run of this task failed; result.json in the folder of each "
+                            "run says why",
+                            runs.folder().string()));
+}
+
+void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request) {
+  const auto runs = runs_of(sweep, request, sweep.points().rows());
+  const auto missing = missing_rows(sweep, runs, false);
+  if (!missing.empty()) {
+    std::string text = fmt::format(
+        "{}: {} of {} rows are missing (the first is row {}); the "
+        "finished ones are kept",
+        request.output, missing.size(), sweep.points().rows(), missing[0] + 1);
+    const auto folder = pipeline::slurm_folder(request.output);
+    if (fs::exists(folder)) text += fmt::format("; logs are in {}", folder.string());
+    if (const auto copy = folder / sweep.case_path().filename();
+        fs::exists(copy) && read_file(copy) != sweep.base_text())
+      text += fmt::format("; the case was edited since {} was submitted", copy.string());
+    throw Error(ErrorKind::kNotConverged, text);
+  }
+  write_tables(sweep, request, [&](std::uint64_t index, const StopToken&) {
+    auto results = runs.ended(index);
+    if (!results)
+      throw_bad_input({runs.folder().string()},
+                      fmt::format("has lost the run of row {} while it was read", index + 1));
+    return *results;
+  });
+}
+
+void submit_sweep(const ParticlesSweep& sweep, const pipeline::ArrayRequest& request,
+                  const std::vector<std::string>& options) {
+  check_output_file(request.output);
+  (void)split_words(request.options);  // throws if they are wrong, before Slurm is asked
+  pipeline::ArrayJob job;
+  job.command = "sweep";
+  job.is_running = "is being computed";
+  job.results = "the tables";
+  job.cases = {sweep.case_path().string()};
+  job.copies = {{sweep.case_path().filename().string(), sweep.base_text()}};
+  job.options = options;
+  job.count = pipeline::task_count(request, sweep.points().rows());
+  pipeline::refuse_second_job(job, request);
+  const ParticlesRuns runs(sweep, request.output, VISCONTACT_VERSION, 1, false, {});
+  std::vector<bool> has_rows(job.count);
+  for (const auto row : missing_rows(sweep, runs, true)) has_rows[row % job.count] = true;
+  for (std::size_t task = 0; task < job.count; ++task)
+    if (has_rows[task]) job.tasks.push_back(task);
+  pipeline::submit(job, request);
+}
+
+pipeline::DryRun dry_run(const ParticlesSweep& sweep, const std::string& output,
+                         const StartFluidSolver& start_solver, const StopToken& stop) {
+  const ParticlesRuns runs(sweep, output, VISCONTACT_VERSION, 1, false, {});
+  pipeline::DryRun run{output, sweep.points().rows(), 0, 0, 0, ""};
+  double seconds = 0;
+  for (std::uint64_t i = 0; i < sweep.points().rows(); ++i) {
+    if (!runs.has_succeeded(i)) {
+      if (runs.ended(i)) ++run.failed;
+      continue;
+    }
+    ++run.finished;
+    seconds += runs.seconds(i);
+  }
+  if (run.finished > 0) {
+    run.seconds_per_row = seconds / static_cast<double>(run.finished);
+    run.basis = "its finished rows";
+  } else {
+    measure_first_steps(sweep, start_solver, stop, run);
+  }
+  return run;
+}
+
+}  // namespace viscontact::particles

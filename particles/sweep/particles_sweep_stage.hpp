@@ -1,0 +1,55 @@
+// The stages of sweeps of particles. Their rows are runs with folders of their own, which this process
+// computes, or each task of a job on a cluster computes a share of them; then gather_sweep puts the
+// tables together.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/particles/case/particles_study.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
+#include "viscontact/pipeline/array_job.hpp"
+#include "viscontact/pipeline/dry_run.hpp"
+#include "viscontact/results/provenance.hpp"
+
+namespace viscontact::particles {
+
+/// What is asked of a sweep of particles, besides its rows.
+struct ParticlesSweepRequest {
+  std::string output;             ///< file of the rows
+  int jobs = 1;                   ///< number of rows at once
+  bool keep_all = false;          ///< true: the files of finished runs are kept
+  StartFluidSolver start_solver;  ///< used if the case has a fluid
+  StopToken stop{};
+};
+
+/// Computes the missing rows, and writes the file of the rows and, if there are draws, the table of
+/// means. A row that fails stops no other rows; column `failure` says why. Throws
+/// Error(kNotConverged) after all is written if every run failed, and Error(kInterrupted) if `stop`
+/// requests a stop; finished runs are kept.
+void sweep_particles(const ParticlesSweep& sweep, const ParticlesSweepRequest& request);
+
+/// Computes the rows of a task, those whose number modulo `share.count` is `share.number`, into
+/// their folders, and writes no table. Throws as sweep_particles does.
+void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
+                    const pipeline::Share& share);
+
+/// Writes the tables from the runs that have ended, and runs nothing. Throws Error(kNotConverged),
+/// which names rows, if some are missing.
+void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request);
+
+/// Submits the tasks that have rows to compute (array_job.hpp). `options` are the words of the
+/// command line that determine the rows, such as --draws and its number.
+void submit_sweep(const ParticlesSweep& sweep, const pipeline::ArrayRequest& request,
+                  const std::vector<std::string>& options);
+
+/// The estimate for --dry-run. The time of a row is that of the runs that have ended. If there are
+/// none, the first steps of the first row are computed, for two seconds or until `stop` requests a
+/// stop, and the time of all of its steps is extrapolated from them; nothing is written. Throws the
+/// errors of these steps.
+pipeline::DryRun dry_run(const ParticlesSweep& sweep, const std::string& output,
+                         const StartFluidSolver& start_solver, const StopToken& stop);
+
+}  // namespace viscontact::particles

@@ -1,0 +1,34 @@
+// The stage of a sweep, whatever is swept: it computes the rows of a study and writes their file.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/sweep/study.hpp"
+
+namespace viscontact::pipeline {
+
+/// What is asked of a sweep, besides its study.
+struct SweepStageRequest {
+  std::string output;  ///< file of the rows
+  int jobs = 1;        ///< number of rows at once
+  StopToken stop{};
+};
+
+/// Computes the missing rows and writes their file, shows the progress, and says how many rows
+/// there are and how many failed. `part` is what a row has several of, any of which may fail, as
+/// "model". Throws Error(kNotConverged) after all is written if every part failed in every row, and
+/// Error(kInterrupted) if `stop` requests a stop; finished rows are kept.
+void run_sweep(const sweep::Study& study, const SweepStageRequest& request,
+               const results::Inputs& inputs, const std::string& part);
+
+/// Computes the missing rows, writes their file, and returns their number. `progress` gets the
+/// number of finished rows and that of all rows.
+std::uint64_t write_rows(const sweep::Study& study, const SweepStageRequest& request,
+                         const results::Inputs& inputs,
+                         const std::function<void(std::uint64_t, std::uint64_t)>& progress);
+
+}  // namespace viscontact::pipeline

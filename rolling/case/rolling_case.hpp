@@ -1,0 +1,62 @@
+// The case of a sphere that moves along a plane and turns (TOML, docs/case-file.md). Lengths,
+// masses and times are in any one consistent system of units. Keys are declared in rolling_case.cpp
+// (keys.hpp). The stage of a rolling sphere and its sweeps read it. A change must keep accepting
+// the cases that users have written.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viscontact/case_file/case_template.hpp"
+#include "viscontact/case_file/keys.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
+#include "viscontact/motions/pair_fit.hpp"
+#include "viscontact/rolling/rolling_motion.hpp"
+
+namespace viscontact::rolling {
+
+/// Content of a case file of a sphere that rolls along a plane.
+struct RollingCase {
+  std::string title;     ///< a title for pages; may be empty
+  double viscosity = 0,  ///< mu of the fluid [M/(L T)], > 0
+      radius = 0;        ///< r of the sphere [L], > 0
+  /// The motion that the models compute.
+  RollingMotion motion;
+  std::vector<std::string> models;  ///< names of rolling_models()
+  // Exactly one of the next two exists.
+  /// The tables of the pair to be made, which are then fitted.
+  std::optional<freefem_axi::Tabulation> tabulation;
+  /// File with a fit of the pair that was made before.
+  std::optional<std::filesystem::path> fit;
+  /// What the section [sweep] asks for; nothing if the case has no such section.
+  std::optional<case_file::SweepRequest> sweep;
+  std::string text;            ///< content of the file
+  std::filesystem::path path;  ///< the case file
+};
+
+/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
+/// value and what is allowed.
+RollingCase read_rolling_case(const std::filesystem::path& path);
+
+/// `fit`, converted to the viscosity of the case. `file`, from which it was read, is named in
+/// messages. Throws Error(kBadInput) if the fit is that of another radius, or not that of a sphere
+/// above a plane.
+motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
+                         const std::filesystem::path& file);
+
+/// What docs/case-file.md says about the keys of each section that only this kind of case has, or
+/// has with other keys.
+std::vector<case_file::KeyTable> tables_of_rolling_case();
+
+}  // namespace viscontact::rolling
+
+namespace viscontact::case_file {
+
+/// The case of a rolling sphere whose root table is `root` (case_template.hpp).
+template <>
+rolling::RollingCase case_of_root(const TomlSection& root, std::string text,
+                                  const std::filesystem::path& path);
+
+}  // namespace viscontact::case_file

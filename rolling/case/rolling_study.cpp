@@ -1,0 +1,117 @@
+// Computes the motions of a sweep of a rolling sphere (rolling_study.hpp). Lengths, masses and
+// times are in the units of the case. A change must keep the names of the columns, which scripts of
+// users read.
+#include "viscontact/rolling/case/rolling_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/common/named.hpp"
+#include "viscontact/rolling/rolling_motion.hpp"
+
+namespace viscontact::rolling {
+namespace {
+
+constexpr std::array kRollingColumns = {"gap",   "smallest_gap", "position",
+                                        "angle", "velocity",     "angular_velocity",
+                                        "slip",  "contact",      "contact_time"};
+
+/// Throws Error(kWrongUsage) if the fit depends on the key, or if the key changes no row.
+void check_rolling_key(const std::string& key) {
+  constexpr std::array kOther = {"fluid.viscosity", "sphere.mass", "sphere.moment_of_inertia"};
+  if (key.starts_with("rolling.") || std::ranges::find(kOther, key) != kOther.end()) return;
+  throw Error(
+      ErrorKind::kWrongUsage,
+      fmt::format("{} cannot be varied with one fit; keys of [rolling], {} can, and `viscontact "
+                  "rolling` makes the fit of another sphere",
+                  key, fmt::join(kOther, ", ")));
+}
+
+void check_rolling_model(const std::string& model) {
+  const auto& all = rolling_models();
+  if (find_named(all, model) == nullptr)
+    throw Error(ErrorKind::kWrongUsage,
+                fmt::format("'{}' is no model of a rolling sphere; the models are: {}", model,
+                            names_of(all)));
+}
+
+void add_rolling_end(const std::string& model, const RollingEnd& end, sweep::RowResults& results) {
+  const auto put = [&](const char* column, double value) {
+    results.values[fmt::format("{}.{}", model, column)] = value;
+  };
+  put("gap", end.last.gap);
+  put("smallest_gap", end.smallest_gap);
+  put("position", end.last.position);
+  put("angle", end.last.angle);
+  put("velocity", end.last.velocity);
+  put("angular_velocity", end.last.angular_velocity);
+  put("slip", end.slip);
+  results.numbers[model + ".contact"] = static_cast<std::uint64_t>(end.last.contact);
+  if (end.contact_time) put("contact_time", *end.contact_time);
+}
+
+void roll_models(const RollingPlan& plan, RollingCase c, const motions::PairFit& fit,
+                 const StopToken& stop, sweep::RowResults& results) {
+  c.motion.stop = stop;
+  const auto fit_here = fit_for(c, fit, plan.fit_path);
+  const auto run = [&](const std::string& name) {
+    try {
+      return find_named(rolling_models(), name)->run(c.motion, fit_here);
+    } catch (const Error& error) {
+      throw Error(error.kind(), fmt::format("model {}: {}", name, error.what()));
+    }
+  };
+  for (const auto& name : plan.models)
+    sweep::add_part(results,
+                    [&] { add_rolling_end(name, end_of(run(name), c.motion, c.radius), results); });
+}
+
+}  // namespace
+
+RollingPlan planned_rolling(const RollingCase& c) {
+  const auto request = c.sweep.value_or(case_file::SweepRequest{});
+  RollingPlan plan;
+  plan.case_path = c.path;
+  if (c.fit) plan.fit_path = *c.fit;
+  plan.points.variations = sweep::variations_of_case(request.vary, c.path);
+  plan.points.samples = request.samples;
+  return plan;
+}
+
+sweep::Study rolling_study(RollingPlan plan, const std::string& version) {
+  const case_file::CaseTemplate<RollingCase> cases(plan.case_path);
+  if (plan.points.variations.empty())
+    throw Error(ErrorKind::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
+  if (plan.models.empty()) plan.models = cases.with({}).models;
+  for (const auto& key : plan.points.keys()) check_rolling_key(key);
+  sweep::refuse_doubles(plan.points.keys(), "the key");
+  for (const auto& model : plan.models) check_rolling_model(model);
+  sweep::refuse_doubles(plan.models, "the model");
+  const auto fit = motions::read_pair_fit(plan.fit_path);
+  sweep::check_ends(plan.points, [&](const auto& numbers) {
+    (void)fit_for(cases.with(numbers), fit, plan.fit_path);
+  });
+  sweep::Study study;
+  study.points = plan.points;
+  for (const auto& model : plan.models)
+    for (const auto* column : kRollingColumns)
+      study.results.push_back(fmt::format("{}.{}", model, column));
+  study.comments = sweep::head_of(
+      "sweep of a rolling sphere", cases.text(), plan.points,
+      fmt::format("{} {}", fmt::join(plan.models, ","), sweep::text_of(plan.points)), version);
+  study.comments["fit"] = sha256(motions::write_pair_fit(fit));
+  study.run = [cases, fit, plan = std::move(plan)](std::uint64_t index, const StopToken& stop) {
+    sweep::RowResults results;
+    sweep::add_part(results, [&] {
+      roll_models(plan, cases.with(plan.points.numbers(index)), fit, stop, results);
+    });
+    return results;
+  };
+  return study;
+}
+
+}  // namespace viscontact::rolling

@@ -1,0 +1,149 @@
+// The pictures and the page of a rolling sphere (rolling_page.hpp), in the units of the case.
+// kRollingPictures must contain the name of every picture, because it decides which files in plots/
+// may be replaced or removed.
+#include "viscontact/rolling/job/rolling_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "viscontact/report/page.hpp"
+#include "viscontact/report/pictures/colours.hpp"
+
+namespace viscontact::rolling {
+namespace {
+
+constexpr auto kRollingPictures =
+    std::to_array<std::string_view>({"gap", "velocity", "rotation", "slip", "friction"});
+
+/// Place of a model's colour: its place among all models, so that it does not depend on which of
+/// them were run.
+std::size_t place_of(const std::string& model) {
+  const auto& models = rolling_models();
+  const auto found = std::ranges::find(models, model, [](const auto& m) { return m.name; });
+  return static_cast<std::size_t>(found - models.begin());
+}
+
+template <class Value>
+report::Plot plot_of(const RollingResults& results, const std::string& name,
+                     const std::string& title, const std::string& label, bool logarithmic,
+                     const Value& value) {
+  report::PlotPanel panel{title, {"time"}, {label, logarithmic}, {}};
+  for (const auto& [model, rows] : results.trajectories) {
+    report::PlotCurve curve{model, {report::curve_colour(place_of(model))}, {}};
+    for (const auto& row : rows) curve.points.emplace_back(row.time, value(row));
+    panel.curves.push_back(curve);
+  }
+  return {name, 400, {panel}};
+}
+
+const char* contact_in_words(SolidContact contact) {
+  switch (contact) {
+    case SolidContact::kRolling:
+      return "rolls";
+    case SolidContact::kSliding:
+      return "slides";
+    case SolidContact::kNone:
+      break;
+  }
+  return "none";
+}
+
+/// The state of each model at the end.
+std::string end_table(const RollingResults& results) {
+  std::string rows =
+      "<tr><th>model</th><th>gap [L]</th><th>velocity [L/T]</th><th>angular velocity [1/T]</th>"
+      "<th>slip over velocity</th><th>solid contact</th></tr>\n";
+  for (const auto& [model, trajectory] : results.trajectories) {
+    const auto& last = trajectory.back();
+    const double move = last.velocity - results.c.motion.plane_velocity;
+    const double slip = move - results.c.radius * last.angular_velocity;
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{:.6g}</td><td>{:.8g}</td><td>{:.8g}</td><td>{}</td><td>{}</td>"
+        "</tr>\n",
+        model, last.gap, last.velocity, last.angular_velocity,
+        move == 0 ? "" : fmt::format("{:.5g}", slip / move), contact_in_words(last.contact));
+  }
+  for (const auto& model : results.failed)
+    rows += fmt::format("<tr><td>{}</td><td colspan=5>failed: {}</td></tr>\n", model.model,
+                        report::escaped(model.reason));
+  return report::table_of(rows);
+}
+
+std::string parameters_of_rolling(const RollingResults& results) {
+  const auto& m = results.c.motion;
+  const auto row = [](const char* name, double value) {
+    return report::table_row(name, fmt::format("{:g}", value));
+  };
+  return report::table_of(
+      row("viscosity [M/(L T)]", results.c.viscosity) + row("radius [L]", results.c.radius) +
+      row("mass [M]", m.mass) + row("moment of inertia [M L<sup>2</sup>]", m.moment_of_inertia) +
+      row("force along the plane [M L/T<sup>2</sup>]", m.force) +
+      row("force away from the plane [M L/T<sup>2</sup>]", m.normal_force) +
+      row("torque [M L<sup>2</sup>/T<sup>2</sup>]", m.torque) +
+      row("velocity of the plane [L/T]", m.plane_velocity) + row("roughness [L]", m.roughness) +
+      row("coefficient of friction", m.friction));
+}
+
+/// Gap, velocities and slip over time, with a curve for each model.
+std::vector<report::Plot> rolling_plots(const RollingResults& results) {
+  const double radius = results.c.radius, plane = results.c.motion.plane_velocity;
+  std::vector<report::Plot> plots = {
+      plot_of(results, "gap", "Gap", "gap", true, [](const RollingRow& row) { return row.gap; }),
+      plot_of(results, "velocity", "Velocity along the plane", "velocity", false,
+              [](const RollingRow& row) { return row.velocity; }),
+      plot_of(results, "rotation", "Angular velocity times radius", "velocity", false,
+              [=](const RollingRow& row) { return radius * row.angular_velocity; }),
+      plot_of(results, "slip", "Slip of the lowest point", "velocity", false,
+              [=](const RollingRow& row) {
+                return row.velocity - plane - radius * row.angular_velocity;
+              })};
+  if (results.c.motion.friction > 0)
+    plots.push_back(plot_of(results, "friction", "Friction of the solids", "force", false,
+                            [](const RollingRow& row) { return row.friction_force; }));
+  return plots;
+}
+
+}  // namespace
+
+std::vector<std::string> rolling_warnings(const RollingResults& results) {
+  std::vector<std::string> warnings;
+  const double low = results.fit.gap_interval[0];
+  for (const auto& [model, rows] : results.trajectories) {
+    const double thinnest = std::ranges::min_element(rows, {}, &RollingRow::gap)->gap;
+    constexpr double kRounding = 1e-9;  // of a contact at the smallest gap of the fit
+    if (thinnest < (1 - kRounding) * low)
+      warnings.push_back(
+          fmt::format("Extrapolation: {} gets down to a gap of {:.4g}, below the smallest fitted "
+                      "gap, {:.4g}",
+                      model, thinnest, low));
+  }
+  return warnings;
+}
+
+void check_rolling_report(const std::filesystem::path& folder) {
+  (void)report::Report(folder, kRollingPictures);
+}
+
+void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
+                          const results::Provenance& provenance, const StopToken& stop) {
+  report::Report report(folder, kRollingPictures);
+  report.draw(rolling_plots(results), stop);
+  std::string opening =
+      "<p class=summary>A sphere that moves along a plane in a viscous fluid and turns</p>\n";
+  std::vector<std::string> warnings;
+  for (const auto& warning : rolling_warnings(results))
+    warnings.push_back(report::escaped(warning));
+  std::string models;
+  for (const auto& model : rolling_models())
+    models += fmt::format("<li>{}: {}</li>\n", model.name, model.description);
+  report.write(results.c.title.empty() ? "Rolling sphere" : results.c.title,
+               opening + report::warnings_box(warnings),
+               report::section("At the end", end_table(results) + "<ul>\n" + models + "</ul>\n") +
+                   report::section("Motion", report.figures()) +
+                   report::section("Parameters", parameters_of_rolling(results)),
+               provenance);
+}
+
+}  // namespace viscontact::rolling

@@ -1,0 +1,40 @@
+// The report of a sphere that moves along a plane and turns: a page with pictures and tables.
+// Lengths, masses and times are in the units of the case.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/motions/pair_fit.hpp"
+#include "viscontact/results/failed_models.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/rolling/case/rolling_case.hpp"
+
+namespace viscontact::rolling {
+
+/// What a run has computed.
+struct RollingResults {
+  RollingCase c;         ///< the case
+  motions::PairFit fit;  ///< the fit for its viscosity
+  /// Name of the model, and its trajectory.
+  std::vector<std::pair<std::string, RollingTrajectory>> trajectories;
+  std::vector<results::FailedModel> failed;  ///< models without a trajectory
+};
+
+/// A sentence for each model whose gap gets below the smallest gap of the fit, where the formula of
+/// the fit is continued although no row of a table supports it.
+std::vector<std::string> rolling_warnings(const RollingResults& results);
+
+/// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not
+/// write.
+void check_rolling_report(const std::filesystem::path& folder);
+
+/// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no
+/// still pictures, and a warning says so; throws Error(kExternalProgram) if gnuplot fails.
+void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
+                          const results::Provenance& provenance, const StopToken& stop);
+
+}  // namespace viscontact::rolling

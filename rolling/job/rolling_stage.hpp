@@ -1,0 +1,33 @@
+// The command `rolling`: tables, fit, trajectories and report of a sphere that moves along a plane.
+// Results are in the units of the case. A change must keep the names of the files, keys and
+// columns, which scripts of users read.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "viscontact/common/stop_token.hpp"
+
+namespace viscontact::rolling {
+
+/// The options of the command `rolling`.
+struct RollingRequest {
+  std::string case_file, folder;  ///< path of the case, and of the folder for the results
+  int jobs = 1;                   ///< FreeFEM processes at once, >= 1
+  bool json = false;              ///< true: print rolling.json to standard output
+  StopToken stop{};               ///< a stop throws Error(kInterrupted); finished files are kept
+};
+
+/// Writes the tables (tables/MOTION.csv) and their fit (fit.json) unless the case names a fit, then
+/// MODEL.csv for each model, rolling.json and the report into the folder (docs/file-formats.md).
+/// Tables that were made from the same inputs are kept. Throws Error(kBadInput) before anything is
+/// written if the case is wrong or a file must not be replaced, and the errors of tabulate_stage,
+/// fit_pair and of the models.
+void run_rolling(const RollingRequest& request);
+
+/// Writes the report again from the files that run_rolling wrote into `folder`, and from the case
+/// and the fit that it names, which must not have changed since. Throws Error(kBadInput) if one of
+/// them is missing or damaged.
+void report_rolling(const std::filesystem::path& folder, const StopToken& stop);
+
+}  // namespace viscontact::rolling

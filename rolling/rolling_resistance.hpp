@@ -1,0 +1,78 @@
+// Forces on a sphere that moves along a plane and turns: the fluid's resistance (physics.md (2.12))
+// and dry friction. x is along the plane, y the axis of rotation, q the gap. Lengths, masses and
+// times are in any one consistent system of units. The models of rolling_motion.hpp use it.
+#pragma once
+
+#include <vector>
+
+#include "viscontact/motions/pair_fit.hpp"
+#include "viscontact/rolling/rolling_motion.hpp"
+
+namespace viscontact::rolling {
+
+/// Velocity u of the sphere along x relative to the plane, and angular velocity w about y.
+struct RollingVelocity {
+  double move = 0;  ///< [L/T]
+  double turn = 0;  ///< [1/T]
+};
+
+/// A force along x and a torque about y, or an impulse and its moment.
+struct RollingForce {
+  double force = 0,  ///< [M L/T^2], of an impulse [M L/T]
+      torque = 0;    ///< [M L^2/T^2], of an impulse [M L^2/T]
+};
+
+/// The symmetric matrix that maps velocities to the force and torque against them.
+struct RollingResistance {
+  double slide = 0;       ///< [M/T]
+  double roll = 0;        ///< [M L^2/T]
+  double slide_roll = 0;  ///< [M L/T]; the entries off the diagonal are -slide_roll
+};
+
+/// The resistances at a gap, and their derivatives by ln q.
+class RollingFluid {
+ public:
+  /// `fit` must outlive the object. Throws Error(kBadInput) if the fit lacks squeeze, slide, roll
+  /// or slide_roll.
+  explicit RollingFluid(const motions::PairFit& fit);
+
+  /// The resistances at a gap [L] > 0. Below the interval of the fit its formula, which has the
+  /// terms of theory, is continued. Throws Error(kBadInput) above the interval.
+  RollingResistance at(double gap) const;
+  RollingResistance slopes(double gap) const;  ///< d/d ln q of at()
+
+  /// r of the sphere [L], > 0.
+  double radius() const { return fit_.radius; }
+  /// Largest gap at which the resistances are known [L].
+  double largest_gap() const { return fit_.gap_interval[1]; }
+
+ private:
+  void check(double gap) const;
+
+  const motions::PairFit& fit_;
+  // The coefficients of the entries in the order of lubrication::all_terms().
+  std::vector<double> slide_, roll_, slide_roll_;
+};
+
+/// The force of the fluid.
+inline RollingForce fluid_force(const RollingResistance& r, const RollingVelocity& v) {
+  return {-r.slide * v.move + r.slide_roll * v.turn, r.slide_roll * v.move - r.roll * v.turn};
+}
+
+/// The velocity of the sphere's lowest point relative to the plane [L/T].
+inline double slip_of(const RollingVelocity& v, double radius) { return v.move - radius * v.turn; }
+
+/// Dry friction (Coulomb): the force along x on the lowest point of a sphere, and what it does.
+struct Friction {
+  double force = 0;  ///< [M L/T^2], of an impulse [M L/T]
+  /// kRolling if the friction prevents slip, otherwise kSliding.
+  SolidContact contact = SolidContact::kRolling;
+};
+
+/// Coulomb's friction T on a sphere. Its lowest point would have the slip `slip` [L/T] without
+/// friction, and has `slip` + `compliance` T with it; or these are rates of the slip [L/T^2], and T
+/// is a force instead of an impulse. If |T| <= bound is enough, there is no slip; otherwise T is
+/// bound or -bound, against the slip. compliance > 0, bound >= 0.
+Friction coulomb(double slip, double compliance, double bound);
+
+}  // namespace viscontact::rolling

@@ -1,0 +1,54 @@
+// The case of a swimmer (TOML, docs/case-file.md): spheres on a line, the table of their resistance
+// matrices, and the strokes that are computed with it. Lengths, masses and times are in any one
+// consistent system of units. Keys are declared in swimmer_case.cpp (keys.hpp). The stage of a
+// swimmer and its sweeps read it. A change must keep accepting the cases that users have written.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viscontact/case_file/case_template.hpp"
+#include "viscontact/case_file/keys.hpp"
+#include "viscontact/swimmer/optimal_stroke.hpp"
+#include "viscontact/swimmer/stroke.hpp"
+#include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
+
+namespace viscontact::swimmer {
+
+/// Content of a case file of a swimmer: spheres in a line, connected by arms.
+struct SwimmerCase {
+  std::string title;  ///< a title for pages; may be empty
+  /// The spheres, and the fluid and container for which their resistances are tabulated.
+  CollinearSpheres spheres;
+  /// For each arm, the gaps of the table between its two spheres [L], > 0, rising.
+  std::vector<std::vector<double>> gaps;
+  /// The stroke that the swimmer makes; nothing if the file has no section [stroke].
+  std::optional<Stroke> stroke;
+  /// What the optimal stroke must achieve; nothing if the file has no section [optimal].
+  std::optional<OptimalStrokeRequest> optimal;
+  double optimal_period = 1;                        ///< of the optimal stroke [T], > 0
+  std::string text;                                 ///< content of the file
+  std::filesystem::path path;                       ///< the case file
+  std::vector<std::filesystem::path> stroke_files;  ///< files from which the stroke was read
+};
+
+/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
+/// value and what is allowed.
+SwimmerCase read_swimmer_case(const std::filesystem::path& path);
+
+/// What docs/case-file.md says about the keys of each section.
+std::vector<case_file::KeyTable> tables_of_swimmer_case();
+
+}  // namespace viscontact::swimmer
+
+namespace viscontact::case_file {
+
+/// The case of a swimmer whose root table is `root` (case_template.hpp).
+template <>
+swimmer::SwimmerCase case_of_root(const TomlSection& root, std::string text,
+                                  const std::filesystem::path& path);
+
+}  // namespace viscontact::case_file

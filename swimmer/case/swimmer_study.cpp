@@ -1,0 +1,88 @@
+// Computes the strokes of a sweep (swimmer_study.hpp). Lengths, masses and times are in the units
+// of the case. A change must keep the names of the columns, which scripts of users read.
+#include "viscontact/swimmer/case/swimmer_study.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/swimmer/case/swimmer_case.hpp"
+#include "viscontact/swimmer/swim.hpp"
+
+namespace viscontact::swimmer {
+namespace {
+
+constexpr std::string_view kSwimmerResults[] = {"displacement", "energy",
+                                                "energy_at_constant_power", "efficiency"};
+
+void add_sums(const std::string& prefix, const SwimSums& sums, sweep::RowResults& results) {
+  results.values[prefix + "displacement"] = sums.displacement;
+  results.values[prefix + "energy"] = sums.energy;
+  results.values[prefix + "energy_at_constant_power"] = sums.energy_at_constant_power;
+  results.values[prefix + "efficiency"] = sums.efficiency;
+}
+
+/// Throws Error(kWrongUsage) if the key is not one of a stroke or the viscosity.
+void check_swimmer_key(const std::string& key) {
+  if (key.starts_with("stroke.") || key.starts_with("optimal.") || key == "fluid.viscosity") return;
+  throw Error(ErrorKind::kWrongUsage,
+              fmt::format("{} cannot be varied with one fit, because it changes the table; keys of "
+                          "[stroke], [optimal] and fluid.viscosity can, and `viscontact swimmer` "
+                          "makes another table",
+                          key));
+}
+
+sweep::RowResults swim_strokes(const SwimmerCase& c, ResistanceFit fit, const StopToken& stop) {
+  sweep::RowResults results;
+  fit.viscosity = c.spheres.viscosity;  // the resistances of the fit are proportional to it
+  const Swimmer swimmer(fit);
+  if (c.stroke)
+    sweep::add_part(results, [&] { add_sums("", swim_sums(swimmer, *c.stroke), results); });
+  if (c.optimal)
+    sweep::add_part(results, [&] {
+      const auto found = find_optimal_stroke(swimmer, *c.optimal, stop);
+      add_sums("optimal.", swim_sums(swimmer, stroke_of(found.loop, c.optimal_period)), results);
+    });
+  stop.throw_if_stop_requested();
+  return results;
+}
+
+}  // namespace
+
+sweep::Study swimmer_study(const std::filesystem::path& case_path, sweep::Points points,
+                           const ResistanceFit& fit, const std::string& version) {
+  const case_file::CaseTemplate<SwimmerCase> cases(case_path);
+  if (points.variations.empty())
+    throw Error(ErrorKind::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
+  for (const auto& key : points.keys()) check_swimmer_key(key);
+  sweep::refuse_doubles(points.keys(), "the key");
+  SwimmerCase last;
+  sweep::check_ends(points, [&](const auto& numbers) {
+    last = cases.with(numbers);
+    if (last.spheres.radii != fit.radii)
+      throw_bad_input({case_path.string()},
+                      "swimmer.radii differ from the radii of the fit; give the fit that "
+                      "`viscontact swimmer` made from this case");
+  });
+  if (!last.stroke && !last.optimal)
+    throw Error(ErrorKind::kWrongUsage, "the case has neither [stroke] nor [optimal]");
+  sweep::Study study;
+  for (const auto result : kSwimmerResults)
+    if (last.stroke) study.results.emplace_back(result);
+  for (const auto result : kSwimmerResults)
+    if (last.optimal) study.results.push_back("optimal." + std::string(result));
+  study.comments =
+      sweep::head_of("sweep of a swimmer", cases.text(), points, sweep::text_of(points), version);
+  study.comments["fit"] = sha256(write_resistance_fit(fit));
+  study.run = [cases, points, fit](std::uint64_t index, const StopToken& stop) {
+    sweep::RowResults results;
+    sweep::add_part(results,
+                    [&] { results = swim_strokes(cases.with(points.numbers(index)), fit, stop); });
+    return results;
+  };
+  study.points = std::move(points);
+  return study;
+}
+
+}  // namespace viscontact::swimmer

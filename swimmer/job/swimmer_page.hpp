@@ -1,0 +1,51 @@
+// The report of a swimmer: a page with pictures and tables. Lengths, masses and times are in the
+// units of the case.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/swimmer/case/swimmer_case.hpp"
+#include "viscontact/swimmer/optimal_stroke.hpp"
+#include "viscontact/swimmer/resistance/resistance_fit.hpp"
+#include "viscontact/swimmer/resistance/resistance_table.hpp"
+#include "viscontact/swimmer/swim.hpp"
+#include "viscontact/swimmer/swim_errors.hpp"
+
+namespace viscontact::swimmer {
+
+/// A stroke and what it does.
+struct StrokeResult {
+  double period = 0;          ///< [T], > 0
+  SwimSums sums;              ///< displacement, energy and efficiency of a period
+  SwimErrors errors;          ///< estimates of their errors
+  std::vector<SwimRow> rows;  ///< over one period, in order of time
+};
+
+/// What a run of a swimmer has computed.
+struct SwimmerResults {
+  SwimmerCase c;
+  ResistanceTable table;
+  ResistanceFit fit;
+  std::optional<StrokeResult> stroke;   ///< of the section [stroke]; nothing if there is none
+  std::optional<StrokeResult> optimal;  ///< of the section [optimal]; nothing if there is none
+  /// How the search for the optimal stroke converged, with the energies of the case's period; empty
+  /// without an optimal stroke.
+  std::vector<OptimalStrokeStep> convergence;
+  /// Derivative of the least energy by the displacement [M L/T^2]; 0 without an optimal stroke.
+  double energy_per_displacement = 0;
+};
+
+/// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not
+/// write.
+void check_swimmer_report(const std::filesystem::path& folder);
+
+/// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no
+/// still pictures, and a warning says so; throws Error(kExternalProgram) if gnuplot fails.
+void write_swimmer_report(const SwimmerResults& results, const std::filesystem::path& folder,
+                          const results::Provenance& provenance, const StopToken& stop);
+
+}  // namespace viscontact::swimmer

@@ -1,0 +1,259 @@
+// Runs the stages of a swimmer one after the other (swimmer_stage.hpp). Numbers are in the units of
+// the case. The keys of swimmer.json and the columns of stroke.csv are in docs/file-formats.md.
+#include "viscontact/swimmer/job/swimmer_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <span>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/json.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/results/run_folder.hpp"
+#include "viscontact/results/versions.hpp"
+#include "viscontact/swimmer/fit/fit_resistance.hpp"
+#include "viscontact/swimmer/job/swimmer_page.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact::swimmer {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SwimmerFolder {
+  fs::path path;
+  fs::path table() const { return path / "table.csv"; }
+  fs::path fit() const { return path / "fit.json"; }
+  fs::path results() const { return path / "swimmer.json"; }
+  fs::path stroke() const { return path / "stroke.csv"; }
+  fs::path optimal() const { return path / "optimal_stroke.csv"; }
+};
+
+void check_files(const SwimmerFolder& folder) {
+  results::refuse_other_kind(folder.table(), "# viscontact: resistance table",
+                             "table of resistance matrices");
+  results::refuse_other_kind(folder.fit(), "\"resistance fit\"", "fit of resistance matrices");
+  results::refuse_other_kind(folder.results(), "\"swimmer\"", "swimmer.json");
+  for (const auto& stroke : {folder.stroke(), folder.optimal()})
+    results::refuse_other_kind(stroke, "# viscontact: stroke of a swimmer", "stroke");
+  check_swimmer_report(folder.path);
+}
+
+/// Fits the table and writes fit.json, unless it is there already.
+ResistanceFit fit_table(const SwimmerFolder& folder, const ResistanceTable& table,
+                        const results::Provenance& provenance) {
+  auto fit = with_place(folder.table().string(), [&] { return fit_resistance(table); });
+  fit.table_sha256 = results::content_sha256(read_file(folder.table()));
+  fit.versions = results::library_versions();
+  if (const auto text = write_resistance_fit(fit); results::has_content(folder.fit(), text))
+    terminal::say(fmt::format("fit: {} is up to date", folder.fit().string()));
+  else
+    results::write_output(folder.fit(), TextKind::kJson, text, provenance);
+  terminal::say(fmt::format(
+      "fit: a row predicted from the others is off by {:.2g} at most (relative), {:.2g} rms",
+      fit.largest_left_one_out_error, fit.rms_left_one_out_error));
+  return fit;
+}
+
+StrokeResult result_of(const SwimmerResults& results, const Stroke& stroke, double multiplier) {
+  constexpr int kIntervals = 400;  // rows of stroke.csv, for smooth curves
+  const Swimmer swimmer(results.fit);
+  const auto sums = swim_sums(swimmer, stroke);
+  const auto perturbed = perturbed_fits(results.table, results.fit);
+  return {stroke.period, sums,
+          swim_errors(sums, stroke, perturbed.lower_degrees, perturbed.table_errors, multiplier),
+          swim_rows(swimmer, stroke, kIntervals)};
+}
+
+std::string stroke_csv(const StrokeResult& stroke) {
+  const auto& first = stroke.rows.front();
+  std::string text = write_csv_comments(
+      {{"viscontact", "stroke of a swimmer"}, {"rows", std::to_string(stroke.rows.size())}});
+  text += "time";
+  for (Eigen::Index k = 0; k < first.arms.size(); ++k) text += fmt::format(",x{}", k + 1);
+  text += ",position";
+  for (Eigen::Index i = 0; i < first.forces.size(); ++i) text += fmt::format(",force{}", i + 1);
+  text += ",power\n";
+  for (const auto& row : stroke.rows) {
+    text += format_number(row.time);
+    for (const double arm : row.arms) text += "," + format_number(arm);
+    text += "," + format_number(row.position);
+    for (const double force : row.forces) text += "," + format_number(force);
+    text += "," + format_number(row.power) + "\n";
+  }
+  return text;
+}
+
+Json json_of(const StrokeResult& stroke) {
+  return {{"displacement", stroke.sums.displacement},
+          {"displacement_error_estimate", stroke.errors.displacement},
+          {"energy", stroke.sums.energy},
+          {"energy_error_estimate", stroke.errors.energy},
+          {"energy_at_constant_power", stroke.sums.energy_at_constant_power},
+          {"efficiency", stroke.sums.efficiency},
+          {"period", stroke.period}};
+}
+
+std::string results_json(const SwimmerResults& results) {
+  Json json = {{"kind", "swimmer"}, {"title", results.c.title}};
+  if (results.stroke) json.update(json_of(*results.stroke));
+  if (results.optimal) {
+    auto& optimal = json["optimal"] = json_of(*results.optimal);
+    const auto& last = results.convergence.back();
+    optimal["polynomials"] = last.polynomials;
+    optimal["euler_lagrange_residual"] = last.euler_lagrange_residual;
+    optimal["energy_per_displacement"] = results.energy_per_displacement;
+    for (const auto& step : results.convergence)
+      optimal["convergence"].push_back({{"polynomials", step.polynomials},
+                                        {"energy", step.energy},
+                                        {"euler_lagrange_residual", step.euler_lagrange_residual}});
+  }
+  json["fit"] = {{"largest_left_one_out_error", results.fit.largest_left_one_out_error},
+                 {"rms_left_one_out_error", results.fit.rms_left_one_out_error}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// Computes the strokes of the case.
+void compute_strokes(SwimmerResults& results, const StopToken& stop) {
+  const std::string place = results.c.path.string();
+  if (results.c.stroke)
+    results.stroke =
+        with_place(place + ": [stroke]", [&] { return result_of(results, *results.c.stroke, 0); });
+  if (!results.c.optimal) return;
+  terminal::show_progress("swimmer: searching for the optimal stroke");
+  results.optimal = with_place(place + ": [optimal]", [&] {
+    const auto search = find_optimal_stroke(Swimmer(results.fit), *results.c.optimal, stop);
+    // The search has the period 1. With another period an energy is divided by the period.
+    const double period = results.c.optimal_period;
+    results.energy_per_displacement = search.multiplier / period;
+    results.convergence = search.convergence;
+    for (auto& step : results.convergence) step.energy /= period;
+    return result_of(results, stroke_of(search.loop, period), results.energy_per_displacement);
+  });
+  terminal::clear_progress();
+}
+
+/// Writes the file of a stroke, or removes that of an earlier run.
+void write_stroke(const fs::path& path, const std::optional<StrokeResult>& stroke,
+                  const results::Provenance& provenance) {
+  if (stroke)
+    results::write_output(path, TextKind::kHashComment, stroke_csv(*stroke), provenance);
+  else
+    remove_file(path);
+}
+
+/// Reads what json_of and stroke_csv wrote for a swimmer with this number of spheres.
+StrokeResult read_stroke(const Json& json, const fs::path& path, std::size_t spheres) {
+  StrokeResult stroke{json.at("period"),
+                      {json.at("displacement"), json.at("energy"),
+                       json.at("energy_at_constant_power"), json.at("efficiency")},
+                      {json.at("displacement_error_estimate"), json.at("energy_error_estimate")},
+                      {}};
+  std::vector<std::string> motion = {"time", "position", "power"}, forces;
+  for (std::size_t k = 1; k < spheres; ++k) motion.push_back(fmt::format("x{}", k));
+  for (std::size_t i = 1; i <= spheres; ++i) forces.push_back(fmt::format("force{}", i));
+  const auto numbers_of = [&](std::span<const std::optional<double>> fields, int line) {
+    Eigen::VectorXd numbers(std::ssize(fields));
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (!fields[i]) throw_bad_input({path.string(), line}, "lacks a number");
+      numbers[static_cast<Eigen::Index>(i)] = *fields[i];
+    }
+    return numbers;
+  };
+  // The reader takes as many columns at once as a row has without the forces.
+  CsvComments comments;
+  std::set<std::string> contradictions;
+  read_csv_rows(path, motion, motion.size(), comments, contradictions,
+                [&](std::span<const std::optional<double>> fields, int line) {
+                  const auto row = numbers_of(fields, line);
+                  stroke.rows.push_back({row[0], row.tail(row.size() - 3), row[1], {}, row[2]});
+                });
+  std::size_t next = 0;
+  read_csv_rows(path, forces, forces.size(), comments, contradictions,
+                [&](std::span<const std::optional<double>> fields, int line) {
+                  stroke.rows.at(next++).forces = numbers_of(fields, line);
+                });
+  if (stroke.rows.empty()) throw_bad_input({path.string()}, "has no rows");
+  return stroke;
+}
+
+/// Reads the results of a run of the case from its folder.
+SwimmerResults read_results(const SwimmerFolder& folder, const fs::path& case_file) {
+  SwimmerResults results;
+  results.c = read_swimmer_case(case_file);
+  results.table = read_resistance_table(folder.table());
+  results.fit = read_resistance_fit(folder.fit());
+  const auto spheres = results.c.spheres.radii.size();
+  read_json(folder.results(), [&](const Json& json) {
+    if (results.c.stroke) results.stroke = read_stroke(json, folder.stroke(), spheres);
+    if (!results.c.optimal) return;
+    const auto& optimal = json.at("optimal");
+    results.optimal = read_stroke(optimal, folder.optimal(), spheres);
+    for (const auto& step : optimal.at("convergence"))
+      results.convergence.push_back(
+          {step.at("polynomials"), step.at("energy"), step.at("euler_lagrange_residual")});
+  });
+  return results;
+}
+
+void tell(const std::string& name, const StrokeResult& stroke) {
+  terminal::say(fmt::format(
+      "{}: displacement {:.9g} (error estimate {:.1g}), energy {:.9g} ({:.1g}), efficiency {:.4g}",
+      name, stroke.sums.displacement, stroke.errors.displacement, stroke.sums.energy,
+      stroke.errors.energy, stroke.sums.efficiency));
+}
+
+}  // namespace
+
+pipeline::CaseTable case_table(const SwimmerCase& c, const fs::path& table) {
+  return {c.path, c.text, table, resistance_table_plan(c.spheres, c.gaps), {}, {}};
+}
+
+void run_swimmer(const SwimmerRequest& request) {
+  SwimmerResults results;
+  results.c = read_swimmer_case(request.case_file);
+  const SwimmerFolder folder{request.folder};
+  check_files(folder);
+  const LockedFolder lock(folder.path, results::kFolderIsLocked);
+  std::vector<fs::path> given = {results.c.path};
+  given.insert(given.end(), results.c.stroke_files.begin(), results.c.stroke_files.end());
+  const auto of_fit = results::provenance_of({given, {}});
+
+  // A table of matrices is written whole or not at all, so that no failure is returned.
+  (void)pipeline::tabulate_stage({case_table(results.c, folder.table())}, request.jobs,
+                                 request.stop);
+  request.stop.throw_if_stop_requested();
+  results.table = read_resistance_table(folder.table());
+  results.fit = fit_table(folder, results.table, of_fit);
+  compute_strokes(results, request.stop);
+
+  const auto provenance = results::provenance_of({given, {folder.table(), folder.fit()}});
+  write_stroke(folder.stroke(), results.stroke, provenance);
+  write_stroke(folder.optimal(), results.optimal, provenance);
+  const auto json = results_json(results);
+  results::write_output(folder.results(), TextKind::kJson, json, provenance);
+  if (results.stroke) tell("stroke", *results.stroke);
+  if (results.optimal) tell("optimal stroke", *results.optimal);
+  write_swimmer_report(results, folder.path, provenance, request.stop);
+  if (request.json) fmt::print("{}", json);
+}
+
+void report_swimmer(const fs::path& path, const StopToken& stop) {
+  const SwimmerFolder folder{path};
+  auto files = results::given_inputs(folder.results());
+  const auto results = read_results(folder, files.front());
+  files.insert(files.end(), {folder.table(), folder.fit(), folder.results()});
+  if (results.stroke) files.push_back(folder.stroke());
+  if (results.optimal) files.push_back(folder.optimal());
+  write_swimmer_report(results, path, results::provenance_of({files, {}}), stop);
+}
+
+}  // namespace viscontact::swimmer

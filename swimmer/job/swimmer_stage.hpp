@@ -1,0 +1,37 @@
+// The command `swimmer`: table, fit, strokes and report of a swimmer. Results are in the units of
+// the case. A change must keep the names of the files, keys and columns, which scripts of users
+// read.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
+#include "viscontact/swimmer/case/swimmer_case.hpp"
+
+namespace viscontact::swimmer {
+
+/// The table of resistance matrices of a case, in the file `table`.
+pipeline::CaseTable case_table(const SwimmerCase& c, const std::filesystem::path& table);
+
+/// The options of the command `swimmer`.
+struct SwimmerRequest {
+  std::string case_file, folder;  ///< path of the case, and of the folder for the results
+  int jobs = 1;                   ///< FreeFEM processes at once, >= 1
+  bool json = false;              ///< true: print swimmer.json to standard output
+  StopToken stop{};               ///< a stop throws Error(kInterrupted); finished files are kept
+};
+
+/// Writes table.csv, fit.json, stroke.csv, optimal_stroke.csv, swimmer.json and the report into the
+/// folder (docs/file-formats.md). A table or fit that was made from the same inputs is kept, and
+/// rows that an interrupted call has finished are not computed again. Throws Error(kBadInput)
+/// before anything is written if the case is wrong or a file must not be replaced, and the errors
+/// of tabulate_stage, fit_resistance, swim_sums and find_optimal_stroke.
+void run_swimmer(const SwimmerRequest& request);
+
+/// Writes the report again from the files that run_swimmer wrote into `folder`, and from the case,
+/// which must not have changed since. Throws Error(kBadInput) if one of them is missing or damaged.
+void report_swimmer(const std::filesystem::path& folder, const StopToken& stop);
+
+}  // namespace viscontact::swimmer

@@ -1,0 +1,285 @@
+// Newton's method for the stroke of least energy (optimal_stroke.hpp). Lengths, masses and times
+// are in the units of the fit; energies are those at a period of 1.
+#include "viscontact/swimmer/optimal_stroke.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "viscontact/common/error.hpp"
+
+namespace viscontact::swimmer {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// A loop that satisfies the conditions of an optimum for its displacement.
+struct Extremal {
+  PolynomialLoop loop;
+  double multiplier = 0;
+  double energy = 0;
+};
+
+/// The loops of least energy with a fixed number of polynomials.
+class LoopOptimizer {
+ public:
+  LoopOptimizer(const Swimmer& swimmer, const VectorXd& through, Index polynomials)
+      : functional_(swimmer, polynomials),
+        scale_(functional_.constant_metric_hessian(swimmer.at(through).metric)),
+        factor_(scale_) {}
+
+  /// Newton's method from `start`. Nothing if it does not converge or all steps leave the table.
+  std::optional<Extremal> solve(const Extremal& start, double displacement,
+                                const StopToken& stop) const;
+
+ private:
+  /// The multiple of the loop that has this displacement. Nothing if none was found in the table.
+  std::optional<PolynomialLoop> scaled_to(PolynomialLoop loop, double displacement) const;
+  /// The Hessian of the Lagrangian at a loop. Nothing if a loop beside this one leaves the table.
+  std::optional<MatrixXd> lagrangian_hessian(const PolynomialLoop& loop, double multiplier) const;
+  /// Newton's step, which keeps the displacement to first order, and in the last entry the new
+  /// multiplier. Nothing if there is no Hessian.
+  std::optional<VectorXd> newton_step(const PolynomialLoop& loop, const LoopSums& sums,
+                                      double multiplier) const;
+
+  LoopFunctional functional_;
+  MatrixXd scale_;
+  Eigen::LLT<MatrixXd> factor_;
+};
+
+PolynomialLoop moved(const PolynomialLoop& loop, const VectorXd& step, double share) {
+  return {loop.through, loop.coefficients + share * step.reshaped(loop.coefficients.rows(),
+                                                                  loop.coefficients.cols())};
+}
+
+std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
+                                                       double displacement) const {
+  // The displacement grows nearly like the square of the size, so that a few steps suffice.
+  constexpr int kMostSteps = 50;
+  constexpr double kTolerance = 1e-13;
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (!functional_.contains(loop)) return {};
+    const double ratio = displacement / functional_.displacement(loop);
+    if (std::abs(ratio - 1) <= kTolerance) return loop;
+    if (!(ratio > 0)) return {};
+    loop.coefficients *= std::sqrt(ratio);
+  }
+  return {};
+}
+
+/// Central differences of the exact gradient.
+std::optional<MatrixXd> LoopOptimizer::lagrangian_hessian(const PolynomialLoop& loop,
+                                                          double multiplier) const {
+  // The best step balances the rounding of the gradients (1e-14) with the third derivatives.
+  constexpr double kRelativeStep = 1e-5;
+  const double step = kRelativeStep * loop.coefficients.norm();
+  MatrixXd hessian(loop.coefficients.size(), loop.coefficients.size());
+  for (Index i = 0; i < hessian.cols(); ++i) {
+    const VectorXd direction = VectorXd::Unit(hessian.cols(), i);
+    if (!functional_.contains(moved(loop, direction, step)) ||
+        !functional_.contains(moved(loop, direction, -step)))
+      return {};
+    const auto gradient = [&](double share) -> VectorXd {
+      const auto sums = functional_(moved(loop, direction, share));
+      return sums.energy_gradient - multiplier * sums.displacement_gradient;
+    };
+    hessian.col(i) = (gradient(step) - gradient(-step)) / (2 * step);
+  }
+  return MatrixXd((hessian + hessian.transpose()) / 2);
+}
+
+std::optional<VectorXd> LoopOptimizer::newton_step(const PolynomialLoop& loop, const LoopSums& sums,
+                                                   double multiplier) const {
+  const VectorXd& normal = sums.displacement_gradient;
+  const auto exact = lagrangian_hessian(loop, multiplier);
+  if (!exact) return {};
+  // On the plane of constant displacement the Hessian must be positive definite, or Newton's method
+  // would go to a saddle. A multiple of the constant metric's Hessian makes it so.
+  const Eigen::HouseholderQR<MatrixXd> qr(normal);
+  const MatrixXd basis = MatrixXd(qr.householderQ()).rightCols(normal.size() - 1);
+  MatrixXd hessian = *exact;
+  for (double shift = 1e-4;
+       Eigen::LLT<MatrixXd>(basis.transpose() * hessian * basis).info() != Eigen::Success;
+       shift *= 4)
+    hessian = *exact + shift * scale_;
+  MatrixXd conditions = MatrixXd::Zero(normal.size() + 1, normal.size() + 1);
+  conditions.topLeftCorner(normal.size(), normal.size()) = hessian;
+  conditions.topRightCorner(normal.size(), 1) = -normal;
+  conditions.bottomLeftCorner(1, normal.size()) = normal.transpose();
+  VectorXd rest(normal.size() + 1);
+  rest.head(normal.size()) = -sums.energy_gradient;
+  rest[normal.size()] = 0;
+  return VectorXd(conditions.partialPivLu().solve(rest));
+}
+
+std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displacement,
+                                             const StopToken& stop) const {
+  // With exact gradients and a Hessian by differences, errors fall by 1e-4 or more a step, so that
+  // 1e-8 is met with a step to spare; the energy is then exact to the square of this.
+  constexpr double kTolerance = 1e-8;
+  constexpr int kMostSteps = 200, kMostHalvings = 30;
+  auto loop = scaled_to(start.loop, displacement);
+  double multiplier = start.multiplier;
+  for (int iteration = 0; loop && iteration < kMostSteps; ++iteration) {
+    stop.throw_if_stop_requested();
+    const auto sums = functional_(*loop);
+    const VectorXd gradient = sums.energy_gradient - multiplier * sums.displacement_gradient;
+    if (std::sqrt(gradient.dot(factor_.solve(gradient)) / sums.energy) < kTolerance)
+      return Extremal{*loop, multiplier, sums.energy};
+    const auto step = newton_step(*loop, sums, multiplier);
+    if (!step) return {};
+    const VectorXd direction = step->head(step->size() - 1);
+    multiplier = (*step)[step->size() - 1];
+    // Along a straight step the displacement changes to second order. Each trial is therefore
+    // scaled to the wanted displacement, so that only the energy must fall.
+    std::optional<PolynomialLoop> next;
+    double share = 1;
+    for (int halvings = 0; !next && halvings < kMostHalvings; ++halvings, share /= 2) {
+      next = scaled_to(moved(*loop, direction, share), displacement);
+      // The allowance is for rounding near the end.
+      if (next && functional_(*next).energy > sums.energy * (1 + 1e-13)) next.reset();
+    }
+    loop = next;
+  }
+  return {};
+}
+
+/// True if the table contains the loop at all points, not only those of the quadrature.
+bool is_contained(const Swimmer& swimmer, const PolynomialLoop& loop) {
+  constexpr int kPoints = 2000;
+  for (int i = 0; i <= kPoints; ++i) {
+    const auto basis = loop_basis(static_cast<double>(i) / kPoints, loop.coefficients.cols());
+    if (!swimmer.contains(loop.through + loop.coefficients * basis.values)) return false;
+  }
+  return true;
+}
+
+/// The plane of arm velocities in which small loops of a given energy have the largest
+/// displacement: two columns that span it, each of unit power, and the displacement of the loop of
+/// the unit square that they span.
+struct BestPlane {
+  MatrixXd directions;
+  double curl = 0;
+};
+
+BestPlane best_plane(const Swimmer& swimmer, const VectorXd& through) {
+  const auto mechanics = swimmer.at(through, true);
+  const Index arms = through.size();
+  MatrixXd curl(arms, arms);
+  for (Index i = 0; i < arms; ++i)
+    for (Index j = 0; j < arms; ++j)
+      curl(i, j) = mechanics.displacement_form_slopes[static_cast<std::size_t>(i)][j] -
+                   mechanics.displacement_form_slopes[static_cast<std::size_t>(j)][i];
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(mechanics.metric);
+  const MatrixXd root = eigen.operatorInverseSqrt();
+  const Eigen::JacobiSVD<MatrixXd> svd(root * curl * root,
+                                       Eigen::ComputeFullU | Eigen::ComputeFullV);
+  MatrixXd directions(arms, 2);
+  directions << root * svd.matrixU().col(0), root * svd.matrixV().col(0);
+  return {directions, svd.singularValues()[0]};
+}
+
+/// A small circle through `through` in the best plane, for a small displacement. `angle` is the
+/// direction in this plane from `through` to the centre.
+PolynomialLoop small_loop(const BestPlane& plane, const VectorXd& through, double displacement,
+                          double angle, Index polynomials) {
+  const double radius = std::sqrt(std::abs(displacement) / (std::numbers::pi * plane.curl));
+  const double turn = displacement > 0 ? 2 * std::numbers::pi : -2 * std::numbers::pi;
+  return project_loop(
+      [&](double s) -> VectorXd {
+        const double now = angle + std::numbers::pi + turn * s;
+        const Eigen::Vector2d place(std::cos(angle) + std::cos(now),
+                                    std::sin(angle) + std::sin(now));
+        return through + radius * plane.directions * place;
+      },
+      polynomials);
+}
+
+/// Follows the optimal loop from a small displacement to the wanted one. Nothing if a loop on the
+/// way leaves the table.
+std::optional<Extremal> follow(const Swimmer& swimmer, const OptimalStrokeRequest& request,
+                               double angle, const StopToken& stop) {
+  constexpr Index kPolynomials = 8;  // enough to follow; more are added at the end
+  constexpr double kFirstShare = 1. / 64, kSmallestFactor = 1.02;
+  const LoopOptimizer optimizer(swimmer, request.through, kPolynomials);
+  const auto plane = best_plane(swimmer, request.through);
+  double share = kFirstShare;
+  const double first = share * request.displacement;
+  const double sign = first > 0 ? 1 : -1;
+  // The energy of a circle is 4 pi |displacement| / curl.
+  auto now = optimizer.solve({small_loop(plane, request.through, first, angle, kPolynomials),
+                              sign * 4 * std::numbers::pi / plane.curl, 0},
+                             first, stop);
+  for (double factor = 2; now && share < 1;) {
+    const double next = std::min(1.0, share * factor);
+    Extremal start = *now;
+    start.loop.coefficients *= std::sqrt(next / share);
+    const auto larger = optimizer.solve(start, next * request.displacement, stop);
+    if (larger) {
+      now = larger;
+      share = next;
+    } else {
+      factor = std::sqrt(factor);
+      if (factor < kSmallestFactor) return {};
+    }
+  }
+  return now;
+}
+
+}  // namespace
+
+OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeRequest& request,
+                                  const StopToken& stop) {
+  std::optional<Extremal> best;
+  for (const double quarter : {0, 1, 2, 3}) {
+    const auto found = follow(swimmer, request, quarter * std::numbers::pi / 2, stop);
+    if (found && is_contained(swimmer, found->loop) && (!best || found->energy < best->energy))
+      best = found;
+  }
+  if (!best)
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("no loop through this shape with the displacement {:.6g} was found "
+                            "within the table; ask for less, begin at a shape farther from the "
+                            "table's borders, or make a table of more arms",
+                            request.displacement));
+  // For fewer polynomials than `best` has, the search starts from the first polynomials of `best`.
+  // The result does not replace `best`, because with few polynomials it may be far from the others.
+  OptimalStroke optimal;
+  for (Index count = kFewestPolynomials;; count += 2) {
+    count = std::min(count, request.polynomials);
+    const LoopOptimizer optimizer(swimmer, request.through, count);
+    Extremal start = *best;
+    if (count < start.loop.coefficients.cols())
+      start.loop.coefficients = start.loop.coefficients.leftCols(count).eval();
+    else
+      start.loop = with_more_polynomials(start.loop, count);
+    const auto found = optimizer.solve(start, request.displacement, stop);
+    if (found) {
+      if (count >= best->loop.coefficients.cols()) best = found;
+      optimal.convergence.push_back(
+          {count, found->energy, euler_lagrange_residual(swimmer, found->loop, found->multiplier)});
+    }
+    if (count == request.polynomials) {
+      if (!found)
+        throw Error(ErrorKind::kNotConverged,
+                    fmt::format("Newton's method for the optimal stroke fails with {} polynomials "
+                                "an arm; ask for fewer",
+                                count));
+      break;
+    }
+  }
+  optimal.loop = best->loop;
+  optimal.multiplier = best->multiplier;
+  return optimal;
+}
+
+}  // namespace viscontact::swimmer

@@ -1,0 +1,82 @@
+// Closed loops of polynomials through a given shape, and the displacement and energy of these loops
+// as functions of their coefficients, for the optimal stroke (optimal_stroke.hpp). Lengths, masses
+// and times are in the units of the swimmer's fit.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "viscontact/swimmer/shape_mechanics.hpp"
+#include "viscontact/swimmer/stroke.hpp"
+
+namespace viscontact::swimmer {
+
+/// The arms x(s) = through + s (1 - s) sum_j c_j P_j(2 s - 1), s from 0 to 1, with Legendre's
+/// polynomials P_j. c_j is column j of `coefficients` [L]. The loop may have a corner at `through`.
+struct PolynomialLoop {
+  Eigen::VectorXd through;       ///< [L]
+  Eigen::MatrixXd coefficients;  ///< [L], a row for each arm, at least one column
+};
+
+/// The values of s (1 - s) P_j(2 s - 1) and their first and second derivatives by s, j < count.
+struct LoopBasis {
+  Eigen::VectorXd values,  ///< [1]
+      slopes,              ///< first derivatives [1]
+      second_slopes;       ///< second derivatives [1]
+};
+/// The first `count` > 0 functions of the basis at `s` from 0 to 1.
+LoopBasis loop_basis(double s, Eigen::Index count);
+
+/// The loop as a stroke of one leg.
+Stroke stroke_of(const PolynomialLoop& loop, double period);
+
+/// The loop with `count` polynomials, more than it has, and the same shape.
+PolynomialLoop with_more_polynomials(const PolynomialLoop& loop, Eigen::Index count);
+
+/// Energy and displacement of a loop that is run in a unit of time, with their gradients by the
+/// coefficients in the order of PolynomialLoop::coefficients, column by column.
+struct LoopSums {
+  double energy = 0;                ///< [M L^2/T], energy times period
+  double displacement = 0;          ///< [L]
+  Eigen::VectorXd energy_gradient,  ///< [M L/T], with the same factor as `energy`
+      displacement_gradient;        ///< [1]
+};
+
+/// Computes LoopSums by a quadrature that is exact for polynomials of four times the degree of the
+/// loop.
+class LoopFunctional {
+ public:
+  /// For loops with `polynomials` polynomials of each arm. `swimmer` must outlive the object.
+  LoopFunctional(const Swimmer& swimmer, Eigen::Index polynomials);
+
+  /// True if the table contains the loop at all points of the quadrature.
+  bool contains(const PolynomialLoop& loop) const;
+
+  /// The displacement alone [L]. Throws as the function below does.
+  double displacement(const PolynomialLoop& loop) const;
+
+  /// Throws Error(kBadInput) if the table does not contain the loop.
+  LoopSums operator()(const PolynomialLoop& loop) const;
+
+  /// The Hessian of integral dx/ds' G0 dx/ds for a constant G0: the natural scale of the
+  /// coefficients.
+  Eigen::MatrixXd constant_metric_hessian(const Eigen::MatrixXd& metric) const;
+
+ private:
+  const Swimmer& swimmer_;
+  Eigen::VectorXd points_, weights_;
+  Eigen::MatrixXd values_, slopes_;  ///< a column for each point
+};
+
+/// The coefficients of the polynomials that are nearest to a given loop `shape(s)` through
+/// shape(0).
+PolynomialLoop project_loop(const std::function<Eigen::VectorXd(double s)>& shape,
+                            Eigen::Index polynomials);
+
+/// The residual of Euler and Lagrange's equation of the problem "least energy at a given
+/// displacement" (physics.md (7.7)): the root mean square along the loop of
+/// d/ds (2 Phi v - eta A) - grad_x (v.Phi v - eta A.v), with v = dx/ds and A, Phi of
+/// shape_mechanics.hpp, over that of 2 Phi dv/ds [1]. `eta` is the multiplier of the displacement
+/// [M L/T^2] (OptimalStroke).
+double euler_lagrange_residual(const Swimmer& swimmer, const PolynomialLoop& loop, double eta);
+
+}  // namespace viscontact::swimmer

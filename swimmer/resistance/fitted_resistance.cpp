@@ -1,0 +1,127 @@
+// Evaluates R = mu (R_lub + l exp(S)) and its derivatives (resistance_fit.hpp). Lengths, masses and
+// times are in the units of the fit.
+#include "viscontact/swimmer/resistance/fitted_resistance.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/swimmer/resistance/pair_lubrication.hpp"
+
+namespace viscontact::swimmer {
+namespace {
+
+std::vector<Eigen::VectorXd> inverse_distances(const ResistanceFit& fit) {
+  std::vector<Eigen::VectorXd> nodes;
+  for (std::size_t k = 0; k < fit.gaps.size(); ++k) {
+    Eigen::VectorXd inverse(static_cast<Eigen::Index>(fit.gaps[k].size()));
+    for (Eigen::Index i = 0; i < inverse.size(); ++i)
+      inverse[i] = 1 / (fit.gaps[k][static_cast<std::size_t>(i)] + fit.radii[k] + fit.radii[k + 1]);
+    nodes.push_back(inverse);
+  }
+  return nodes;
+}
+
+/// The entries on and above the diagonal of each matrix, one column for each.
+Eigen::MatrixXd columns_of(const std::vector<Eigen::MatrixXd>& matrices) {
+  const auto spheres = matrices.front().rows();
+  Eigen::MatrixXd columns(spheres * (spheres + 1) / 2, static_cast<Eigen::Index>(matrices.size()));
+  for (std::size_t m = 0; m < matrices.size(); ++m) {
+    Eigen::Index row = 0;
+    for (Eigen::Index i = 0; i < spheres; ++i)
+      for (Eigen::Index j = i; j < spheres; ++j)
+        columns(row++, static_cast<Eigen::Index>(m)) = matrices[m](i, j);
+  }
+  return columns;
+}
+
+Eigen::MatrixXd symmetric_matrix(const Eigen::VectorXd& entries, Eigen::Index spheres) {
+  Eigen::MatrixXd matrix(spheres, spheres);
+  Eigen::Index row = 0;
+  for (Eigen::Index i = 0; i < spheres; ++i)
+    for (Eigen::Index j = i; j < spheres; ++j) matrix(i, j) = matrix(j, i) = entries[row++];
+  return matrix;
+}
+
+/// The divided difference (exp a - exp b)/(a - b) of exp, which is exp a for a = b.
+double divided_difference_of_exp(double a, double b) {
+  const double half = (a - b) / 2;
+  const double ratio = std::abs(half) < 1e-4 ? 1 + half * half / 6 : std::sinh(half) / half;
+  return std::exp((a + b) / 2) * ratio;
+}
+
+}  // namespace
+
+FittedResistance::FittedResistance(const ResistanceFit& fit)
+    : viscosity_(fit.viscosity),
+      radii_(fit.radii),
+      lubrication_terms_(fit.lubrication_terms),
+      unit_length_(std::ranges::max(fit.radii)),
+      logarithm_(inverse_distances(fit), columns_of(fit.logarithms)) {
+  for (const auto& gaps : fit.gaps) intervals_.push_back({gaps.front(), gaps.back()});
+}
+
+bool FittedResistance::contains(std::span<const double> gaps) const {
+  constexpr double kRounding = 1e-12;
+  for (std::size_t k = 0; k < gaps.size(); ++k)
+    if (!(gaps[k] >= intervals_[k][0] * (1 - kRounding) &&
+          gaps[k] <= intervals_[k][1] * (1 + kRounding)))
+      return false;
+  return true;
+}
+
+ResistanceWithSlopes FittedResistance::operator()(std::span<const double> gaps) const {
+  if (!contains(gaps))
+    for (std::size_t k = 0; k < gaps.size(); ++k)
+      if (!contains(gaps.first(k + 1)))
+        throw Error(ErrorKind::kBadInput,
+                    fmt::format("the gap between spheres {} and {} is {}; the table has gaps from "
+                                "{} to {}",
+                                k + 1, k + 2, gaps[k], intervals_[k][0], intervals_[k][1]));
+  const auto spheres = static_cast<Eigen::Index>(radii_.size());
+  std::vector<double> inverse(gaps.size());
+  for (std::size_t k = 0; k < gaps.size(); ++k)
+    inverse[k] = 1 / (gaps[k] + radii_[k] + radii_[k + 1]);
+  const Eigen::MatrixXd logarithm = logarithm_(inverse);
+
+  // Let S = Q diag(s) Q^T, and dS its derivative by a gap. The derivative of exp(S) is
+  // Q (F o (Q^T dS Q)) Q^T, where o multiplies entry by entry and F_ij is the divided difference of
+  // exp at s_i and s_j (Daleckii & Krein 1965).
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      symmetric_matrix(logarithm.col(0), spheres));
+  const auto& s = eigen.eigenvalues();
+  const auto& q = eigen.eigenvectors();
+  Eigen::MatrixXd differences(spheres, spheres);
+  for (Eigen::Index i = 0; i < spheres; ++i)
+    for (Eigen::Index j = 0; j < spheres; ++j)
+      differences(i, j) = divided_difference_of_exp(s[i], s[j]);
+
+  ResistanceWithSlopes resistance;
+  resistance.value =
+      viscosity_ *
+      (lubrication_matrix(radii_, gaps, lubrication_terms_) +
+       unit_length_ * (q * s.array().exp().matrix().asDiagonal() * q.transpose()).eval());
+  for (std::size_t k = 0; k < gaps.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k) + 1;
+    // The polynomials are in t = 1/(distance of centres), so that d/dgap = -t^2 d/dt.
+    const Eigen::MatrixXd slope =
+        -inverse[k] * inverse[k] * symmetric_matrix(logarithm.col(column), spheres);
+    Eigen::MatrixXd matrix =
+        unit_length_ *
+        (q * (differences.cwiseProduct(q.transpose() * slope * q)) * q.transpose()).eval();
+    const double pair =
+        pair_lubrication_slope(radii_[k], radii_[k + 1], gaps[k], lubrication_terms_);
+    const auto i = static_cast<Eigen::Index>(k);
+    matrix(i, i) += pair;
+    matrix(i + 1, i + 1) += pair;
+    matrix(i, i + 1) -= pair;
+    matrix(i + 1, i) -= pair;
+    resistance.slopes.emplace_back(viscosity_ * matrix);
+  }
+  return resistance;
+}
+
+}  // namespace viscontact::swimmer

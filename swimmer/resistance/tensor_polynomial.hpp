@@ -1,0 +1,33 @@
+// Polynomials of several variables that interpolate values on a grid, with their derivatives. Fits
+// of resistance matrices are such polynomials. Numbers have any dimension; nothing is checked.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+namespace viscontact::swimmer {
+
+/// Barycentric weights of nodes: w_j = 1 / prod_{i != j} (t_j - t_i), scaled so that the largest is
+/// 1 (Berrut & Trefethen 2004, SIAM Review 46, 501, equation (3.2)). The nodes must differ.
+Eigen::VectorXd barycentric_weights(const Eigen::VectorXd& nodes);
+
+/// Interpolates vectors of values at all combinations of the nodes of each variable. The degree of
+/// the polynomial in a variable is one less than the number of that variable's nodes.
+class TensorPolynomial {
+ public:
+  /// `nodes[k]` are those of variable k, and a column of `values` belongs to each combination; the
+  /// last variable changes fastest.
+  TensorPolynomial(const std::vector<Eigen::VectorXd>& nodes, const Eigen::MatrixXd& values);
+
+  /// Column 0: the values at a point; column 1 + k: their derivatives by variable k.
+  Eigen::MatrixXd operator()(std::span<const double> point) const;
+
+ private:
+  std::vector<Eigen::VectorXd> nodes_, weights_;
+  /// The values and, below them, the derivatives by each variable, at all combinations of nodes.
+  Eigen::MatrixXd values_;
+  Eigen::Index size_ = 0;  ///< number of values
+};
+
+}  // namespace viscontact::swimmer

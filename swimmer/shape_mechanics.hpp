@@ -1,0 +1,71 @@
+// A swimmer made of spheres on a line that changes its arms, in a fluid without inertia (Najafi &
+// Golestanian 2004, Phys. Rev. E 69, 062901; Alouges, DeSimone & Lefebvre 2008, J. Nonlinear Sci.
+// 18, 277; physics.md, section 7). Lengths, masses and times are in the units of the fit.
+//
+// x_k is the distance between the centres of spheres k and k + 1. With the resistance matrix R(x),
+// the spheres move at U_i = V + sum_k B_ik dx_k/dt, where V is the velocity of the middle sphere.
+// The total force vanishes, sum_ij R_ij U_j = 0, so that
+//
+//   V = sum_k A_k(x) dx_k/dt,   power = sum_kl Phi_kl(x) dx_k/dt dx_l/dt.
+//
+// B_ik is 1 if arm k is between the middle sphere and a sphere i behind it, -1 if sphere i is
+// before it, else 0. The displacement of a closed stroke is the integral of A along its loop, and
+// does not depend on the time law.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "viscontact/swimmer/resistance/fitted_resistance.hpp"
+
+namespace viscontact::swimmer {
+
+/// A and Phi at one shape.
+struct ShapeMechanics {
+  Eigen::RowVectorXd displacement_form;  ///< A [1]: velocity of the middle sphere per arm velocity
+  Eigen::MatrixXd metric;                ///< Phi [M/T], symmetric and positive definite
+  /// U = motion * dx/dt: velocities of all spheres per arm velocity [1].
+  Eigen::MatrixXd motion;
+  Eigen::MatrixXd resistance;  ///< R [M/T]
+  /// sum_ij R_ij [M/T]: the drag of the rigid swimmer per velocity.
+  double towing_resistance = 0;
+  // Derivatives by each arm, if they were asked for.
+  std::vector<Eigen::RowVectorXd> displacement_form_slopes;  ///< dA/dx_k [1/L]
+  std::vector<Eigen::MatrixXd> metric_slopes;                ///< dPhi/dx_k [M/(L T)]
+};
+
+/// Number of the middle sphere, from 0: of an even number of spheres, the first of the two.
+inline std::size_t middle_sphere(std::size_t spheres) { return (spheres - 1) / 2; }
+
+/// The mechanics of a swimmer as a function of its shape.
+class Swimmer {
+ public:
+  /// The swimmer of the spheres of `fit`, which need not outlive the object.
+  explicit Swimmer(const ResistanceFit& fit) : resistance_(fit) {}
+
+  /// Number of arms, one less than there are spheres.
+  Eigen::Index arms() const { return static_cast<Eigen::Index>(radii().size()) - 1; }
+  /// The radii of the spheres along the line [L], > 0.
+  const std::vector<double>& radii() const { return resistance_.radii(); }
+
+  /// The smallest and the largest arm k of the table [L].
+  std::array<double, 2> arm_interval(Eigen::Index k) const;
+
+  /// True if the table contains the shape with these arms [L].
+  bool contains(const Eigen::VectorXd& arms) const;
+
+  /// The mechanics at a shape, with derivatives if `with_slopes`. Throws Error(kBadInput) if the
+  /// table does not contain the shape.
+  ShapeMechanics at(const Eigen::VectorXd& arms, bool with_slopes = false) const;
+
+ private:
+  std::vector<double> gaps_of(const Eigen::VectorXd& arms) const;
+
+  FittedResistance resistance_;
+};
+
+/// dA_2/dx_1 - dA_1/dx_2 [1/L] at a shape of a swimmer with two arms: the displacement of a small
+/// loop, counter-clockwise in (x_1, x_2), over its area.
+double displacement_curl(const Swimmer& swimmer, const Eigen::VectorXd& arms);
+
+}  // namespace viscontact::swimmer

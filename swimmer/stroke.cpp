@@ -1,0 +1,75 @@
+// Makes strokes from corners, samples and ellipses (stroke.hpp).
+#include "viscontact/swimmer/stroke.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "viscontact/common/error.hpp"
+
+namespace viscontact::swimmer {
+namespace {
+
+StrokeLeg straight_leg(double start, double end, const Eigen::VectorXd& from,
+                       const Eigen::VectorXd& to) {
+  return {start, end, [=](double time) {
+            const double share = (time - start) / (end - start);
+            return ArmState{from + share * (to - from), (to - from) / (end - start)};
+          }};
+}
+
+}  // namespace
+
+Stroke polygon_stroke(const std::vector<Eigen::VectorXd>& corners, double period) {
+  Stroke stroke{period, {}};
+  const auto count = static_cast<double>(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto number = static_cast<double>(i);
+    const double end = i + 1 == corners.size() ? period : period * (number + 1) / count;
+    stroke.legs.push_back(
+        straight_leg(period * number / count, end, corners[i], corners[(i + 1) % corners.size()]));
+  }
+  return stroke;
+}
+
+Stroke sampled_stroke(const std::vector<double>& times,
+                      const std::vector<Eigen::VectorXd>& samples) {
+  constexpr double kRounding = 1e-9;  // samples written with ten digits close the loop
+  const Eigen::VectorXd opening = samples.back() - samples.front();
+  if (opening.cwiseAbs().maxCoeff() > kRounding * samples.front().cwiseAbs().maxCoeff())
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("the loop is open: its last arms differ from its first ones by {:.3g}; "
+                            "add a row with the first arms at the end of the period",
+                            opening.cwiseAbs().maxCoeff()));
+  Stroke stroke{times.back() - times.front(), {}};
+  for (std::size_t i = 0; i + 1 < times.size(); ++i)
+    stroke.legs.push_back(straight_leg(times[i] - times.front(), times[i + 1] - times.front(),
+                                       samples[i],
+                                       i + 2 == times.size() ? samples.front() : samples[i + 1]));
+  return stroke;
+}
+
+Stroke elliptic_stroke(const Eigen::VectorXd& centre, const Eigen::VectorXd& semi_axes,
+                       const Eigen::VectorXd& phases, double period) {
+  const double pi = std::numbers::pi, frequency = 2 * pi / period;
+  const auto state = [=](double time) {
+    const Eigen::ArrayXd angle = frequency * time + phases.array();
+    return ArmState{centre.array() + semi_axes.array() * angle.cos(),
+                    -frequency * semi_axes.array() * angle.sin()};
+  };
+  // The legs meet where the first arm turns. If all arms turn there, the square root of the power
+  // has a kink.
+  const double first_turn = -phases[0] / pi - std::floor(-phases[0] / pi);
+  Stroke stroke{period, {}};
+  double start = 0;
+  for (const double half_periods : {first_turn, first_turn + 1, 2.0})
+    if (const double end = std::min(half_periods, 2.0) * period / 2; end > start) {
+      stroke.legs.push_back({start, end, state});
+      start = end;
+    }
+  return stroke;
+}
+
+}  // namespace viscontact::swimmer

@@ -1,0 +1,46 @@
+// Strokes: closed paths of a swimmer's arms, with their time law. An arm is the distance between
+// the centres of neighbouring spheres. Lengths and times are in the units of the case.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+namespace viscontact::swimmer {
+
+/// The arms and their velocities at one time.
+struct ArmState {
+  Eigen::VectorXd arms;   ///< x [L]
+  Eigen::VectorXd rates;  ///< dx/dt [L/T]
+};
+
+/// A part of a stroke on which the arms are a smooth function of time.
+struct StrokeLeg {
+  double start = 0,                            ///< [T], < end
+      end = 0;                                 ///< [T]
+  std::function<ArmState(double time)> state;  ///< for times from start to end
+};
+
+/// A closed stroke: the legs follow each other from time 0 to the period, and the last one ends at
+/// the shape with which the first one starts.
+struct Stroke {
+  double period = 0;            ///< [T], > 0
+  std::vector<StrokeLeg> legs;  ///< in order of time, at least one
+};
+
+/// Straight legs from corner to corner [L] and back to the first one. Each leg takes the same time,
+/// at constant velocity. Needs at least two corners.
+Stroke polygon_stroke(const std::vector<Eigen::VectorXd>& corners, double period);
+
+/// Straight legs between samples of the arms [L] at rising times [T], at constant velocity each.
+/// The first time is that of the stroke's beginning, and the last sample closes the loop; throws
+/// Error(kBadInput) if it differs from the first one by more than rounding.
+Stroke sampled_stroke(const std::vector<double>& times,
+                      const std::vector<Eigen::VectorXd>& samples);
+
+/// x_k = centre_k + semi_axes_k cos(2 pi t/period + phase_k): an ellipse if there are two arms.
+/// Phases are in radians.
+Stroke elliptic_stroke(const Eigen::VectorXd& centre, const Eigen::VectorXd& semi_axes,
+                       const Eigen::VectorXd& phases, double period);
+
+}  // namespace viscontact::swimmer

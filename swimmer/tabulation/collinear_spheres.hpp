@@ -1,0 +1,51 @@
+// Rigid spheres on a line in a viscous fluid: the inputs of a table of their resistance matrices,
+// and the solution of one row by FreeFEM (physics.md, section 7). The commands `tabulate` and
+// `swimmer` use it. Lengths, masses and times are in any one consistent system of units. If a
+// change alters collinear_spheres_hash(), finished tables are computed again.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viscontact/freefem_axi/journal/table_plan.hpp"
+#include "viscontact/swimmer/resistance/resistance_table.hpp"
+
+namespace viscontact::swimmer {
+
+/// A cylinder without slip whose axis is the line of the spheres [L].
+struct Tube {
+  double radius = 0;  ///< larger than all spheres
+  /// Distance of the closed ends, with the row of spheres in the middle; longer than the longest
+  /// row. Nothing: the tube is so long that its ends do not matter.
+  std::optional<double> height{};
+};
+
+/// The inputs of a table of resistance matrices R.
+struct CollinearSpheres {
+  double viscosity = 0;          ///< mu [M/(L T)], > 0
+  std::vector<double> radii;     ///< along the line [L], 2 to 10 of them, > 0
+  std::optional<Tube> tube{};    ///< nothing: unbounded fluid
+  double relative_accuracy = 0;  ///< largest error estimate asked of an entry of R [1], in (0, 1)
+};
+
+/// "unbounded", "tube of radius 3", or "closed cylinder, radius 3, height 40".
+std::string surroundings_in_words(const CollinearSpheres& spheres);
+
+/// Solves for the matrix at these gaps [L] > 0, one less than there are spheres. Throws
+/// Error(kExternalProgram) with the last lines of FreeFEM if it fails or exceeds its time limit.
+ResistanceRow solve_resistance(const freefem_axi::FreeFem& freefem, const CollinearSpheres& spheres,
+                               const std::vector<double>& gaps);
+
+/// The table of all combinations of the gaps grid[k] between spheres k and k + 1 [L], > 0 and
+/// rising. A row's point is its gaps. If the row of spheres is its own mirror image, with equal
+/// grids, only one of each two mirrored rows is computed, and the other one is its reflection.
+freefem_axi::TablePlan resistance_table_plan(const CollinearSpheres& spheres,
+                                             const std::vector<std::vector<double>>& grid);
+
+/// The table of all rows of such a plan. No row may be missing in the record.
+ResistanceTable assemble_table(const CollinearSpheres& spheres,
+                               const std::vector<std::vector<double>>& grid,
+                               const freefem_axi::RowRecord& record);
+
+}  // namespace viscontact::swimmer

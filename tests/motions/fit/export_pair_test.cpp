@@ -1,0 +1,104 @@
+// The exported unit of a pair, compiled and run, beside the fit.
+#include "viscontact/motions/fit/export_pair.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
+
+namespace viscontact::motions {
+namespace {
+
+constexpr std::array<double, 4> kGaps = {1e-3, 0.01, 0.3, 1};
+
+class ExportOfAPair : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  /// Runs a command and compares the numbers that it prints, five for each gap.
+  void expect_values(const std::vector<std::string>& command) const {
+    const auto result = run_process(command);
+    ASSERT_EQ(result.exit_status, 0) << result.output;
+    std::istringstream numbers(result.output);
+    for (const double gap : kGaps)
+      for (std::size_t i = 0; i < 5; ++i) {
+        double value = 0;
+        ASSERT_TRUE(numbers >> value) << result.output;
+        const double expected = entry_value(fit_, static_cast<PairEntry>(i), gap);
+        // Compilers may contract products and sums, which changes the last digit of a term.
+        EXPECT_NEAR(value / expected, 1, 1e-13) << i << " " << gap;
+      }
+  }
+
+  PairFit fit_ =
+      read_pair_fit(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/fits/pairs/plane.json");
+  TemporaryFolder folder_;
+};
+
+TEST_F(ExportOfAPair, CHeaderHasAllFunctions) {
+  put_text(path("pair.h"), export_pair(fit_, "c-header", "plane.json"));
+  std::string calls;
+  for (const double gap : kGaps)
+    for (const char* name : {"squeeze", "slide", "roll", "slide_roll", "spin"})
+      calls += fmt::format("  printf(\"%.17g\\n\", viscontact_{}({:.17e}));\n", name, gap);
+  put_text(path("main.c"), "#include <stdio.h>\n#include \"pair.h\"\nint main(void) {\n" + calls +
+                               "  return !isnan(viscontact_roll(2.0));\n}\n");
+  for (const auto& compiler : {std::vector<std::string>{"gcc", "-std=c99", "-x", "c"},
+                               std::vector<std::string>{"g++", "-std=c++11", "-x", "c++"}}) {
+    auto command = compiler;
+    command.insert(command.end(), {"-Wall", "-Wextra", "-Wpedantic", "-Werror", path("main.c"),
+                                   "-o", path("program"), "-lm"});
+    ASSERT_EQ(run_process(command).exit_status, 0);
+    expect_values({path("program")});
+  }
+}
+
+TEST_F(ExportOfAPair, FortranModuleHasAllFunctions) {
+  put_text(path("pair.f90"), export_pair(fit_, "fortran", ""));
+  std::string calls;
+  for (const double gap : kGaps)
+    for (const char* name : {"squeeze", "slide", "roll", "slide_roll", "spin"}) {
+      auto text = fmt::format("{:.17e}", gap);
+      text[text.find('e')] = 'd';
+      calls += fmt::format("  print '(es25.16e3)', viscontact_{}({})\n", name, text);
+    }
+  put_text(path("main.f90"),
+           "program main\n  use viscontact_pair\n  implicit none\n" + calls + "end program\n");
+  const auto compiled =
+      run_process({"gfortran", "-std=f2008", "-Wall", "-Werror", "-J", folder_.path().string(),
+                   path("pair.f90"), path("main.f90"), "-o", path("program")});
+  ASSERT_EQ(compiled.exit_status, 0) << compiled.output;
+  expect_values({path("program")});
+}
+
+TEST_F(ExportOfAPair, PythonModuleHasAllFunctions) {
+  put_text(path("pair.py"), export_pair(fit_, "python", ""));
+  std::string calls =
+      "import sys\nsys.path.insert(0, '" + folder_.path().string() + "')\nfrom pair import *\n";
+  for (const double gap : kGaps)
+    for (const char* name : {"squeeze", "slide", "roll", "slide_roll", "spin"})
+      calls += fmt::format("print(repr({}({:.17e})))\n", name, gap);
+  calls += "try:\n    roll(2.0)\nexcept ValueError:\n    sys.exit(0)\nsys.exit(1)\n";
+  put_text(path("main.py"), calls);
+  expect_values({"python3", path("main.py")});
+}
+
+TEST_F(ExportOfAPair, JsonAndCsvHaveSamplesOfAllFunctions) {
+  const auto json = nlohmann::json::parse(export_pair(fit_, "json", ""));
+  for (const auto& entry : pair_entries()) {
+    EXPECT_FALSE(json["functions"][std::string(entry.name)]["terms"].empty());
+    EXPECT_EQ(json["samples"][std::string(entry.name)].size(), json["samples"]["gap"].size());
+  }
+  EXPECT_THAT(export_pair(fit_, "csv", ""),
+              ::testing::HasSubstr("\ngap,squeeze,slide,roll,slide_roll,spin\n0.001,"));
+}
+
+}  // namespace
+}  // namespace viscontact::motions

@@ -1,0 +1,228 @@
+// The page that plays a motion of particles, in a browser (chromium) and as text.
+#include "viscontact/particles/picture/particles_page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/common/regular_expressions.hpp"
+#include "tests/particles/picture/page_reader.hpp"
+#include "tests/particles/picture/playbacks.hpp"
+#include "viscontact/particles/picture/particles_picture.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Appended to a page: looks at the canvas at both ends, plays, points, zooms, turns, and gives
+/// what it saw to tell().
+constexpr std::string_view kReader = R"JS(
+(async () => {
+  const pause = () => new Promise(done => setTimeout(done, 60));
+  const player = window.viscontactPlayer, canvas = document.getElementById('stage');
+  const copy = document.createElement('canvas');
+  const look = () => {
+    copy.width = canvas.width;
+    copy.height = canvas.height;
+    const pen = copy.getContext('2d', {willReadFrequently: true});
+    pen.drawImage(canvas, 0, 0);
+    const {data} = pen.getImageData(0, 0, copy.width, copy.height);
+    const colours = new Map();
+    let sum = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const colour = data[i] << 16 | data[i + 1] << 8 | data[i + 2];
+      colours.set(colour, (colours.get(colour) || 0) + 1);
+      sum = (sum * 31 + colour) % 4294967291;
+    }
+    return {colours: colours.size, paper: Math.max(...colours.values()) / (data.length / 4), sum};
+  };
+  const press = (key, target = document.body) => target.dispatchEvent(
+    new KeyboardEvent('keydown', {key, bubbles: true, cancelable: true}));
+  const send = (Kind, type, x, y, more = {}) => {
+    const box = canvas.getBoundingClientRect();
+    canvas.dispatchEvent(new Kind(type, {
+      bubbles: true, cancelable: true, pointerId: 1, pointerType: 'mouse',
+      clientX: box.left + x * box.width, clientY: box.top + y * box.height, ...more}));
+  };
+  const found = {width: innerWidth, bodyWidth: document.documentElement.scrollWidth,
+                 heading: document.querySelector('h1').textContent,
+                 words: document.querySelector('header p').textContent,
+                 ticks: document.querySelectorAll('.ticks span').length};
+  await pause();
+  found.first = look();
+  player.seek(player.last);
+  await pause();
+  found.last = {...look(), time: Number(canvas.dataset.time),
+                contacts: Number(canvas.dataset.contacts),
+                clock: document.getElementById('clock').textContent};
+  document.getElementById('films').click();
+  await pause();
+  found.withoutContacts = {...look(), contacts: Number(canvas.dataset.contacts)};
+  document.getElementById('films').click();
+  press('Home');
+  await pause();
+  found.home = player.time;
+  press('ArrowRight');
+  found.second = player.time;
+  press('ArrowLeft');
+  found.again = player.time;
+  press(' ');
+  for (let i = 0; i < 500 && player.playing && player.time === 0; ++i) await pause();
+  found.played = player.time;
+  press(' ');
+  const stopped = player.time;
+  await pause();
+  found.stays = player.time === stopped;
+  player.seek(player.last);
+  for (let y = 0.02; y < 1 && !found.readout; y += 0.02)
+    for (let x = 0.02; x < 1 && !found.readout; x += 0.02) {
+      send(PointerEvent, 'pointermove', x, y);
+      await pause();
+      found.readout = document.getElementById('readout').textContent;
+    }
+  send(PointerEvent, 'pointerleave', 0, 0);
+  await pause();
+  const before = look();
+  send(PointerEvent, 'pointerdown', 0.5, 0.5);
+  send(PointerEvent, 'pointermove', 0.6, 0.55);
+  send(PointerEvent, 'pointerup', 0.6, 0.55);
+  send(PointerEvent, 'pointerleave', 0, 0);
+  await pause();
+  const dragged = look();
+  send(WheelEvent, 'wheel', 0.3, 0.3, {deltaY: -300});
+  await pause();
+  const zoomed = look();
+  document.getElementById('whole').click();
+  await pause();
+  found.drags = dragged.sum !== before.sum;
+  found.zooms = zoomed.sum !== dragged.sum;
+  found.comesBack = look().sum === before.sum;
+  tell(found);
+})();
+)JS";
+
+class ParticlesInBrowser : public ::testing::TestWithParam<int> {};
+
+TEST_P(ParticlesInBrowser, MotionIsPlayedReadOffAndLookedAtFromElsewhere) {
+  const auto found =
+      read_page(particles_page(falling_row(GetParam(), 5, 5), "Five in a row"), kReader, 390);
+  ASSERT_TRUE(found.is_object());
+  // A phone: nothing sticks out.
+  EXPECT_EQ(found["width"], 390);
+  EXPECT_LE(found["bodyWidth"], 390);
+  EXPECT_EQ(found["heading"], "Five in a row");
+  EXPECT_THAT(found["words"].get<std::string>(), HasSubstr("t = 0 to 2 in 5 frames."));
+  EXPECT_THAT(found["words"].get<std::string>(), Not(HasSubstr("shown")));
+  EXPECT_GE(found["ticks"], 3);
+  // Neither blank nor one colour; a canvas without particles has at most a few.
+  EXPECT_GT(found["first"]["colours"], 10);
+  EXPECT_LT(found["first"]["paper"], 0.99);
+  EXPECT_NE(found["first"]["sum"], found["last"]["sum"]);
+  EXPECT_EQ(found["last"]["time"], 2);
+  EXPECT_EQ(found["last"]["clock"], "t = 2.00");
+  EXPECT_EQ(found["last"]["contacts"], 4 + 5);
+  EXPECT_EQ(found["withoutContacts"]["contacts"], 0);
+  EXPECT_NE(found["withoutContacts"]["sum"], found["last"]["sum"]);
+  EXPECT_EQ(found["home"], 0);
+  EXPECT_EQ(found["second"], 0.5);
+  EXPECT_EQ(found["again"], 0);
+  EXPECT_GT(found["played"], 0);
+  EXPECT_EQ(found["stays"], true);
+  EXPECT_TRUE(has_match(found["readout"].get<std::string>(),
+                        "^particle [0-4]: radius 1, at \\([0-9., ]*\\), "))
+      << found["readout"];
+  EXPECT_EQ(found["drags"], true);
+  EXPECT_EQ(found["zooms"], true);
+  EXPECT_EQ(found["comesBack"], true);
+}
+
+TEST_P(ParticlesInBrowser, BodiesLinksTurnsAndContactsThatSlideAreDrawn) {
+  // Counts the points of some colours in the last frame, and reads off what the first particle is.
+  constexpr std::string_view kColours = R"JS(
+(async () => {
+  const pause = () => new Promise(done => setTimeout(done, 60));
+  const player = window.viscontactPlayer, canvas = document.getElementById('stage');
+  player.seek(player.last);
+  await pause();
+  const copy = document.createElement('canvas');
+  copy.width = canvas.width;
+  copy.height = canvas.height;
+  const pen = copy.getContext('2d', {willReadFrequently: true});
+  pen.drawImage(canvas, 0, 0);
+  const {data} = pen.getImageData(0, 0, copy.width, copy.height);
+  const found = {spring: 0, sliding: 0, mark: 0};
+  const names = {0x2b6e3f: 'spring', 0xd55e00: 'sliding', 0x4a4a44: 'mark'};
+  for (let i = 0; i < data.length; i += 4) {
+    const name = names[data[i] << 16 | data[i + 1] << 8 | data[i + 2]];
+    if (name) ++found[name];
+  }
+  found.legend = document.querySelector('.legend').textContent;
+  tell(found);
+})();
+)JS";
+  const auto found = read_page(particles_page(linked_row(GetParam(), 3), "Linked"), kColours, 700);
+  ASSERT_TRUE(found.is_object());
+  EXPECT_GT(found["spring"], 10);
+  EXPECT_GT(found["sliding"], 10);
+  EXPECT_GT(found["mark"], 10);
+  EXPECT_THAT(found["legend"].get<std::string>(), HasSubstr("sliding"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Dimensions, ParticlesInBrowser, ::testing::Values(2, 3));
+
+TEST(ParticlesPage, OneParticleInOneFrameStands) {
+  const auto found = read_page(particles_page(one_particle(), "One"), kReader, 1200);
+  ASSERT_TRUE(found.is_object());
+  EXPECT_GT(found["first"]["colours"], 2);
+  EXPECT_EQ(found["last"]["contacts"], 0);
+  EXPECT_EQ(found["played"], 0);
+  EXPECT_EQ(found["ticks"], 0);
+  EXPECT_EQ(found["readout"], "particle 0: radius 0.5, at (3, 4), 0 contacts");
+  // A particle that has an id is named by it.
+  auto named = one_particle();
+  named.ids = {1207};
+  EXPECT_EQ(read_page(particles_page(named, "One"), kReader, 1200)["readout"],
+            "particle 1207: radius 0.5, at (3, 4), 0 contacts");
+}
+
+TEST(ParticlesPage, FetchesNothingAndTakesItsTitleAsText) {
+  const auto page =
+      particles_page(falling_row(2, 3, 3), "</title><script>alert(1)</script> & \"so\"");
+  EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
+  EXPECT_THAT(page, HasSubstr("&lt;script&gt;alert(1)&lt;/script&gt; &amp; &quot;so&quot;"));
+  EXPECT_FALSE(has_match(page, "(src|href|action|data)=[\"']?(https?:)?//"));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+}
+
+// results/provenance.cpp writes a line of its own there, and takes the line away again.
+TEST(ParticlesPage, HasAPlaceForTheLineThatSaysHowItWasMade) {
+  const auto playback = falling_row(2, 3, 3);
+  const auto page = particles_page(playback, "</head>");
+  EXPECT_EQ(page.find("</head>"), page.find("\n</head>") + 1);
+  EXPECT_LT(page.find("</head>"), page.find("<body>"));
+  const auto svg = particles_picture(playback, "<svg>", 2);
+  EXPECT_EQ(svg.find(">", svg.find("<svg")), svg.find(">\n<title>"));
+}
+
+TEST(ParticlesPage, NeverOutgrowsABrowser) {
+  // A row so long takes floats: 213 kB of text in a frame, and 53 kB for its contacts.
+  const auto page = particles_page(falling_row(2, 20000, 300), "Many");
+  EXPECT_LT(page.size(), 24'000'000U);
+  EXPECT_GT(page.size(), 12'000'000U);
+  EXPECT_THAT(page.substr(0, 20'000),
+              HasSubstr("t = 0 to 149.5 in 300 frames. Every 4th frame is shown."));
+}
+
+TEST(ParticlesPage, DrawsSomeOfVeryMany) {
+  const auto page = particles_page(falling_row(3, 450000, 2), "Very many");
+  EXPECT_LT(page.size(), 24'000'000U);
+  EXPECT_THAT(page, HasSubstr("One particle in 3 is shown"));
+}
+
+TEST(ParticlesPage, WithoutFramesSaysSo) {
+  EXPECT_THAT(particles_page({}, "Nothing"), HasSubstr("0 discs, no frames."));
+}
+
+}  // namespace
+}  // namespace viscontact::particles

@@ -1,0 +1,115 @@
+// The case of a rolling sphere: what is read and what is refused.
+#include "viscontact/rolling/case/rolling_case.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <string>
+
+#include "tests/case_file/edited_case.hpp"
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+
+namespace viscontact::rolling {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::string kIncline =
+    std::string(VISCONTACT_SOURCE_FOLDER) + "/data/cases/rolling/incline.toml";
+
+class RollingCaseFile : public ::testing::Test {
+ protected:
+  /// The shipped case with one text replaced by another one.
+  RollingCase changed(const std::string& from, const std::string& to) const {
+    return read_rolling_case(folder_.file("case.toml", case_file::text_with(kIncline, from, to)));
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(RollingCaseFile, ShippedOneHasTheWeightAlongAndTowardsThePlane) {
+  const auto c = read_rolling_case(kIncline);
+  EXPECT_EQ(case_file::kind_of_case(kIncline), case_file::CaseKind::kRolling);
+  EXPECT_EQ(c.radius, 1);
+  EXPECT_EQ(c.motion.mass, 0.1);
+  EXPECT_DOUBLE_EQ(c.motion.moment_of_inertia, 0.04);  // of a solid sphere, 2/5 m r^2
+  EXPECT_DOUBLE_EQ(c.motion.force, std::sin(0.3));
+  EXPECT_DOUBLE_EQ(c.motion.normal_force, -std::cos(0.3));
+  EXPECT_EQ(c.motion.roughness, 1e-3);
+  EXPECT_EQ(c.motion.velocity, 0);
+  EXPECT_THAT(c.models, ElementsAre("smooth", "rough", "viscous_contact"));
+  EXPECT_FALSE(c.tabulation);
+  ASSERT_TRUE(c.fit);
+  EXPECT_TRUE(std::filesystem::exists(*c.fit));
+}
+
+TEST_F(RollingCaseFile, ForceMayBeGivenByItsComponents) {
+  const auto c = changed("weight = 1.0\nincline = 0.3", "force = [0.25, -2.0]\ntorque = 0.5");
+  EXPECT_EQ(c.motion.force, 0.25);
+  EXPECT_EQ(c.motion.normal_force, -2);
+  EXPECT_EQ(c.motion.torque, 0.5);
+}
+
+TEST_F(RollingCaseFile, TablesAreMadeOfTheMotionsThatItNeeds) {
+  const auto with_tabulation = [&](const std::string& keys) {
+    return changed("[fit]\nfile = \"../../fits/pairs/plane.json\"",
+                   "[tabulation]\ngaps = [0.01, 0.1, 1.0]\nreference_velocities = [1.0]\n"
+                   "container = \"unbounded\"\nrelative_accuracy = 1e-4\n" +
+                       keys);
+  };
+  EXPECT_EQ(with_tabulation("motion = \"all\"").tabulation->motions.size(), 4U);
+  EXPECT_THAT(bad_input([&] { (void)with_tabulation("motion = [\"approach\", \"slide\"]"); }),
+              HasSubstr("lacks roll; a sphere that rolls needs approach, slide and roll"));
+  EXPECT_THAT(bad_input([&] {
+                (void)with_tabulation("motion = \"all\"\ngeometry = { kind = \"free_surface\" }");
+              }),
+              HasSubstr("is free_surface; a sphere rolls on a plane"));
+}
+
+struct RefusedRolling {
+  std::string name, from, to, message;
+};
+std::ostream& operator<<(std::ostream& out, const RefusedRolling& refused) {
+  return out << refused.name;
+}
+
+class RollingCaseRefusal : public RollingCaseFile,
+                           public ::testing::WithParamInterface<RefusedRolling> {};
+
+TEST_P(RollingCaseRefusal, NamesFileLineValueAndWhatIsAllowed) {
+  const auto& p = GetParam();
+  EXPECT_THAT(bad_input([&] { (void)changed(p.from, p.to); }),
+              AllOf(HasSubstr("case.toml:"), HasSubstr(p.message)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, RollingCaseRefusal,
+    ::testing::Values(
+        RefusedRolling{"AnAngleInDegrees", "incline = 0.3", "incline = 17.0",
+                       "rolling.incline is 17; it must be a number of radians from -1.6 to 1.6"},
+        RefusedRolling{"InclineOfAForce", "weight = 1.0", "force = [1.0, -1.0]",
+                       "belongs to weight; give weight in place of force"},
+        RefusedRolling{"ForceOfThreeNumbers", "weight = 1.0\nincline = 0.3",
+                       "force = [1.0, 2.0, 3.0]", "has 3 numbers; it must have two"},
+        RefusedRolling{"RoughnessOfARadius", "roughness = 1e-3", "roughness = 1.0",
+                       "it must be less than the sphere's radius, 1"},
+        RefusedRolling{"GapInTheRoughness", "initial_gap = 0.5", "initial_gap = 5e-4",
+                       "it must be at least the roughness, 0.001"},
+        RefusedRolling{"LongStep", "time_step = 0.01", "time_step = 30.0",
+                       "it must be at most end_time, 20"},
+        RefusedRolling{"ModelTwice", "time_step = 0.01",
+                       "time_step = 0.01\nmodels = [\"smooth\", \"smooth\"]", "twice"},
+        RefusedRolling{"Tolerance", "time_step = 0.01",
+                       "time_step = 0.01\nrelative_tolerance = 0.5", "from 1e-13 to 0.01"},
+        RefusedRolling{"UnknownKey", "friction = 0.3", "frction = 0.3",
+                       "is not a key that is known here"},
+        RefusedRolling{"NoFit", "[fit]\nfile = \"../../fits/pairs/plane.json\"", "",
+                       "or fit must be there, one of the two"}),
+    [](const auto& p) { return p.param.name; });
+
+}  // namespace
+}  // namespace viscontact::rolling

@@ -1,0 +1,106 @@
+#include "viscontact/swimmer/resistance/resistance_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+
+namespace viscontact::swimmer {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Two rows of three spheres, with numbers that have no short decimal form.
+ResistanceTable sample() {
+  ResistanceTable table;
+  table.viscosity = 1. / 3;
+  table.radii = {1, 2. / 3, 0.5};
+  table.container = "tube of radius 3";
+  table.case_hash = "some-hash";
+  table.versions["FreeFEM"] = "4.9";
+  for (const double gap : {1. / 7, 2. / 7})
+    table.rows.push_back({{gap, 1. / 9},
+                          {20. / 3, -1. / 3, -0.1, 30. / 7, -1, 10},
+                          {1e-6, 2e-6, 3e-6, 4e-6, 5e-6, 6e-6 / 7},
+                          12345,
+                          0.1,
+                          35. / 9});
+  return table;
+}
+
+class ResistanceTableFile : public ::testing::Test {
+ protected:
+  std::string refusal(const std::string& from, const std::string& to) const {
+    auto text = write_resistance_table(sample());
+    const auto at = text.find(from);
+    if (at == std::string::npos) return "the text has no '" + from + "'";
+    put_text(path(), text.replace(at, from.size(), to));
+    return bad_input([&] { (void)read_resistance_table(path()); });
+  }
+  std::filesystem::path path() const { return scratch_.path() / "table.csv"; }
+  TemporaryFolder scratch_;
+};
+
+TEST(ResistanceColumns, NameGapsAndEntriesByTheirSpheres) {
+  const auto columns = resistance_columns(3);
+  EXPECT_THAT(std::vector(columns.begin(), columns.begin() + 8),
+              ElementsAre("gap12", "gap23", "R11", "R12", "R13", "R22", "R23", "R33"));
+  EXPECT_EQ(columns[8], "R11_relative_error_estimate");
+  EXPECT_EQ(columns[14], "relative_error_estimate");
+  EXPECT_THAT(resistance_columns(10), ::testing::IsSupersetOf({"gap9_10", "R1_10", "R10_10"}));
+}
+
+TEST_F(ResistanceTableFile, ReadsBackWhatWasWrittenBitForBit) {
+  const auto table = sample();
+  put_text(path(), write_resistance_table(table));
+  const auto again = read_resistance_table(path());
+  EXPECT_EQ(again.viscosity, table.viscosity);
+  EXPECT_EQ(again.radii, table.radii);
+  EXPECT_EQ(again.container, table.container);
+  EXPECT_EQ(again.case_hash, table.case_hash);
+  EXPECT_EQ(again.versions, table.versions);
+  ASSERT_EQ(again.rows.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(again.rows[i].gaps, table.rows[i].gaps);
+    EXPECT_EQ(again.rows[i].entries, table.rows[i].entries);
+    EXPECT_EQ(again.rows[i].relative_error_estimates, table.rows[i].relative_error_estimates);
+    EXPECT_EQ(again.rows[i].degrees_of_freedom, table.rows[i].degrees_of_freedom);
+    EXPECT_EQ(again.rows[i].seconds, table.rows[i].seconds);
+    EXPECT_EQ(again.rows[i].observed_order, table.rows[i].observed_order);
+  }
+}
+
+TEST_F(ResistanceTableFile, OfTenSpheresHasMoreColumnsThanTheReaderTakesAtOnce) {
+  ResistanceTable table;
+  table.viscosity = 1;
+  table.radii.assign(10, 1.0);
+  ResistanceRow row;
+  row.gaps.assign(9, 0.5);
+  for (std::size_t i = 0; i < 10; ++i)
+    for (std::size_t j = i; j < 10; ++j)
+      row.entries.push_back(i == j ? 20 + static_cast<double>(i)
+                                   : -1. / static_cast<double>(j + 1));
+  row.relative_error_estimates.assign(row.entries.size(), 1e-6);
+  table.rows = {row};
+  put_text(path(), write_resistance_table(table));
+  EXPECT_EQ(read_resistance_table(path()).rows.at(0).entries, row.entries);
+}
+
+TEST_F(ResistanceTableFile, ErrorsNameFileLineAndWhatIsAllowed) {
+  EXPECT_THAT(refusal("# radii: 1 0.", "# radii: 1 -0."),
+              AllOf(HasSubstr("table.csv"), HasSubstr("contains '-0.6666666666666666'")));
+  EXPECT_THAT(refusal("# viscosity: 0.", "# viscosity: -0."), HasSubstr("it must be > 0"));
+  EXPECT_THAT(refusal("gap12", "gap"), HasSubstr("gap12"));
+  EXPECT_THAT(refusal("\n0.14285714285714285,", "\n-1,"),
+              AllOf(HasSubstr("gap12 is -1; it must be > 0"), HasSubstr("table.csv:")));
+  EXPECT_THAT(refusal(",6.666666666666667,", ",-6.666666666666667,"),
+              HasSubstr("the matrix R is not positive definite"));
+  EXPECT_THAT(refusal(",6.666666666666667,", ",,"), HasSubstr("R11 is empty; it must be a number"));
+  EXPECT_THAT(refusal("# rows: 2", "# rows: 3"), HasSubstr("the file may be cut off"));
+}
+
+}  // namespace
+}  // namespace viscontact::swimmer
