@@ -19,8 +19,9 @@ namespace viscontact::particles {
 namespace {
 
 // Version 7 differs from version 6 by memories that version 6 has no array for. It is written only
-// where a pair has such a memory.
-constexpr int kVersion = 7;
+// where a pair has such a memory. Version 8 has the flow of a fluid with inertia, and is written only
+// where there is one.
+constexpr int kVersion = 8;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -92,6 +93,9 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   if (version < 7) return;
   field(arrays.names);
   field(arrays.memories);
+  if (version < 8) return;
+  field(state.step_before);
+  field(state.flow);
 }
 
 /// The first of kMemoryFields that has no array of its own in version 6.
@@ -298,7 +302,7 @@ std::string write_restart(const State& state) {
     arrays.bodies.push_back({body.centre, body.velocity, body.angle, body.orientation,
                              body.angular_momentum, body.angular_velocity});
   std::string bytes;
-  const int version = arrays.names.empty() ? kVersion - 1 : kVersion;
+  const int version = !state.flow.empty() ? kVersion : arrays.names.empty() ? 6 : 7;
   for_fields(state, arrays, version, Writer{bytes});
   std::string text;
   text.append(kWhat).append(std::to_string(version)).append(", ").append(kOrder).append("\n");
