@@ -157,7 +157,8 @@ const std::string kGoodHead = kHead + kColumnsLine;  // three lines
 INSTANTIATE_TEST_SUITE_P(
     TableOfTheApproach, Wrong,
     ::testing::Values(
-        WrongTable{"Empty", "", ": has no header line"},
+        WrongTable{"Empty", "", ": the line '# viscosity: NUMBER' is missing"},
+        WrongTable{"HeadAlone", kHead, ": has no header line"},
         WrongTable{"NoRows", kGoodHead, ": has no rows"},
         WrongTable{"NoViscosity", "# radius: 1\n" + kColumnsLine + "1,-1,1\n",
                    ": the line '# viscosity: NUMBER' is missing"},
