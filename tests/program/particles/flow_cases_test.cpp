@@ -141,6 +141,19 @@ TEST_F(FlowCase, ContinuesWithTheSameBits) {
   EXPECT_EQ(column("motion.csv", "vy").back(), whole.back());
 }
 
+TEST_F(FlowCase, RefusesARestartWithoutAFlow) {
+  const std::string coarse = "\"rigid\"\nedges_per_particle = 8";
+  const auto stokes = replaced_matches(
+      with("falling_disc", {{"time_step", "0.02"}, {"end_time", "0.04"}, {"constraint", coarse}}),
+      "\ndensity = 1.0\n", "\n");
+  compute(stokes);
+  const auto result =
+      run(put_case(with("falling_disc",
+                        {{"time_step", "0.02"}, {"end_time", "0.1"}, {"constraint", coarse}})),
+          out("other"), {"--restart", (out() / "restart.bin").string()});
+  expect_refusal(result, ErrorKind::kBadInput, HasSubstr("the restart file has no flow"));
+}
+
 TEST_F(FlowCase, RefusesAStepThatLeadsThroughTheMesh) {
   const std::string coarse = "\"rigid\"\nedges_per_particle = 8";
   const auto result =
