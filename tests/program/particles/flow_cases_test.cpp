@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "tests/program/particles/particles_command.hpp"
-#include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
