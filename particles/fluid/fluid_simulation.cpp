@@ -61,11 +61,16 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
     p.angular_velocities.resize(p.count());
   }
   wrap_into_cell(state_);
-  if (!state_.flow.empty()) {
+  if (setting_.fluid->has_inertia() && state_.steps > 0) {
+    if (state_.flow.empty())
+      throw Error(
+          ErrorKind::kBadInput,
+          "the restart file has no flow, because its run had a fluid without inertia; a case "
+          "with fluid.density > 0 can continue runs of such cases only");
     solver_->load_flow(std::string(state_.flow.begin(), state_.flow.end()));
-    state_.flow.clear();
     has_flow_ = true;
   }
+  state_.flow.clear();
   if (setting_.links.empty() && p.bodies.empty()) return;
   auto held = std::make_unique<HeldSolver>(std::move(solver_), error_of_answers(*setting_.fluid));
   held_ = held.get();

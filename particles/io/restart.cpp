@@ -1,4 +1,4 @@
-// Writes and reads the binary restart file (restart.hpp). Files of versions 1 to 7 must stay
+// Writes and reads the binary restart file (restart.hpp). Files of versions 1 to 8 must stay
 // readable; a change of the fields of State or Pair needs a new version.
 #include "viscontact/particles/io/restart.hpp"
 
@@ -273,7 +273,8 @@ bool is_consistent(const State& state) {
          is_empty_or(state.earlier_velocities, p.count() * motion_components(p.dimension)) &&
          is_empty_or(state.earlier_forces, p.count() * motion_components(p.dimension)) &&
          std::isfinite(state.velocity_lag) && state.velocity_lag >= 0 &&
-         std::isfinite(state.earlier_step) && state.earlier_step >= 0;
+         std::isfinite(state.earlier_step) && state.earlier_step >= 0 &&
+         std::isfinite(state.step_before) && state.step_before >= 0;
 }
 
 bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "tests/program/particles/particles_command.hpp"
-#include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
@@ -139,6 +138,19 @@ TEST_F(FlowCase, ContinuesWithTheSameBits) {
   fs::copy_file(restart, copy);
   expect_done(run(put_case(text("0.2")), out(), {"--restart", copy.string()}));
   EXPECT_EQ(column("motion.csv", "vy").back(), whole.back());
+}
+
+TEST_F(FlowCase, RefusesARestartWithoutAFlow) {
+  const std::string coarse = "\"rigid\"\nedges_per_particle = 8";
+  const auto stokes = replaced_matches(
+      with("falling_disc", {{"time_step", "0.02"}, {"end_time", "0.04"}, {"constraint", coarse}}),
+      "\ndensity = 1.0\n", "\n");
+  compute(stokes);
+  const auto result =
+      run(put_case(with("falling_disc",
+                        {{"time_step", "0.02"}, {"end_time", "0.1"}, {"constraint", coarse}})),
+          out("other"), {"--restart", (out() / "restart.bin").string()});
+  expect_refusal(result, ErrorKind::kBadInput, HasSubstr("the restart file has no flow"));
 }
 
 TEST_F(FlowCase, RefusesAStepThatLeadsThroughTheMesh) {
