@@ -235,14 +235,14 @@ class Iteration {
   /// slide. If a step is not solved, a more accurate solution follows. With a smaller epsilon the
   /// rounding errors of the gaps, divided by epsilon, would be larger.
   void solve_convex(int max_iterations) {
-    constexpr double kAccuracy = 1e-6, kBestAccuracy = 1e-12, kFactor = 1e-2;
+    constexpr double kBestAccuracy = 1e-12, kFactor = 1e-2;
     constexpr double kFirstEpsilonOfSteps = 1e-5, kEpsilonOfSteps = 1e-4;
     constexpr int kMostIterations = 60;
     const auto left = [&] {
       return std::min(max_iterations - best_.result.iterations, kMostIterations);
     };
     InteriorPoints<D> interior(problem_, w_);
-    for (double accuracy = kAccuracy; residual_ > 1 && left() > 0; accuracy *= kFactor) {
+    for (double accuracy = first_accuracy(); residual_ > 1 && left() > 0; accuracy *= kFactor) {
       best_.result.iterations += interior.solve(std::max(accuracy, kBestAccuracy), left());
       problem_.impulses = interior.impulses();
       update();
@@ -251,6 +251,18 @@ class Iteration {
       proximal_->set_epsilon(kEpsilonOfSteps);
       while (is_solved && residual_ > 1 && left() > 0) is_solved = take_convex_step(left());
     }
+  }
+
+  /// The accuracy of the first solution by interior points: a tenth of what is allowed for a rough
+  /// solution, and otherwise enough for the proximal steps that follow.
+  double first_accuracy() const {
+    constexpr double kRough = 1e-3, kAccurate = 1e-6, kShare = 0.1;
+    const auto free = motions<D>(problem_, std::vector<double>(problem_.rows.size(), 0.0));
+    double size = 0, allowed = std::numeric_limits<double>::infinity();
+    for (std::size_t r = 0; r < problem_.rows.size(); ++r)
+      size = std::max(size, std::abs(problem_.rows[r].offset + problem_.product(r, free)));
+    for (const auto& block : problem_.blocks) allowed = std::min(allowed, block.allowed);
+    return size > 0 ? std::clamp(kShare * allowed / size, kAccurate, kRough) : kRough;
   }
 
   /// Takes a proximal step for the convex relaxation (5.9). Returns false, and stays where it is, if
