@@ -232,36 +232,52 @@ class Iteration {
 
   /// Solves the convex relaxation (5.9) by interior points, and makes the solution more accurate by
   /// proximal steps. These converge in a few steps if the solution shows which contacts stick and
-  /// slide; if not, a more accurate one follows. The larger epsilon makes smaller rounding errors.
+  /// slide. If a step is not solved, a more accurate solution follows. With a smaller epsilon the
+  /// rounding errors of the gaps, divided by epsilon, would be larger.
   void solve_convex(int max_iterations) {
-    constexpr double kFirstAccuracy = 1e-6, kBestAccuracy = 1e-12, kFactor = 1e-2;
-    constexpr std::array kEpsilons = {1e-5, 1e-4};
-    constexpr int kMostIterations = 60, kMostSteps = 40;
-    const auto left = [&] { return max_iterations - best_.result.iterations; };
+    constexpr double kBestAccuracy = 1e-12, kFactor = 1e-2;
+    constexpr double kFirstEpsilonOfSteps = 1e-5, kEpsilonOfSteps = 1e-4;
+    constexpr int kMostIterations = 60;
+    const auto left = [&] {
+      return std::min(max_iterations - best_.result.iterations, kMostIterations);
+    };
     InteriorPoints<D> interior(problem_, w_);
-    for (double accuracy = kFirstAccuracy; residual_ > 1 && left() > 0; accuracy *= kFactor) {
-      best_.result.iterations +=
-          interior.solve(std::max(accuracy, kBestAccuracy), std::min(left(), kMostIterations));
+    for (double accuracy = first_accuracy(); residual_ > 1 && left() > 0; accuracy *= kFactor) {
+      best_.result.iterations += interior.solve(std::max(accuracy, kBestAccuracy), left());
       problem_.impulses = interior.impulses();
       update();
-      for (std::size_t n = 0; n < kMostSteps && residual_ > 1 && left() > 0; ++n) {
-        proximal_->set_epsilon(kEpsilons[n % kEpsilons.size()]);
-        take_convex_step(std::min(left(), kMostIterations));
-      }
+      proximal_->set_epsilon(kFirstEpsilonOfSteps);
+      bool is_solved = residual_ > 1 && left() > 0 && take_convex_step(left());
+      proximal_->set_epsilon(kEpsilonOfSteps);
+      while (is_solved && residual_ > 1 && left() > 0) is_solved = take_convex_step(left());
     }
   }
 
-  /// Takes a proximal step for the convex relaxation (5.9), or goes back if it was not solved.
-  void take_convex_step(int max_iterations) {
+  /// The accuracy of the first solution by interior points: a tenth of what is allowed for a rough
+  /// solution, and otherwise enough for the proximal steps that follow.
+  double first_accuracy() const {
+    constexpr double kRough = 1e-3, kAccurate = 1e-6, kShare = 0.1;
+    const auto free = motions<D>(problem_, std::vector<double>(problem_.rows.size(), 0.0));
+    double size = 0, allowed = std::numeric_limits<double>::infinity();
+    for (std::size_t r = 0; r < problem_.rows.size(); ++r)
+      size = std::max(size, std::abs(problem_.rows[r].offset + problem_.product(r, free)));
+    for (const auto& block : problem_.blocks) allowed = std::min(allowed, block.allowed);
+    return size > 0 ? std::clamp(kShare * allowed / size, kAccurate, kRough) : kRough;
+  }
+
+  /// Takes a proximal step for the convex relaxation (5.9). Returns false, and stays where it is, if
+  /// the step was not solved.
+  bool take_convex_step(int max_iterations) {
     constexpr double kLittle = 0.9;
     const auto center = problem_.impulses;
     const double before = residual_;
     const int taken = proximal_->solve(center, motions_, max_iterations);
     best_.result.iterations += taken;
-    if (proximal_->failed() || taken >= max_iterations) return;
+    if (proximal_->failed() || taken >= max_iterations) return false;
     problem_.impulses = proximal_->impulses();
     update();
     if (residual_ > kLittle * before && residual_ < before / kLittle) extend_change(center);
+    return true;
   }
 
   /// Between jammed particles, impulses that balance each other grow by the same small amounts in
