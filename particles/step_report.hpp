@@ -42,7 +42,8 @@ struct StepReport {
   /// Largest overlap -(D + h G v) after the step, divided by the mean radius. It is computed from
   /// linearised gaps; no gap is smaller than its linearised gap.
   double largest_overlap = 0;
-  /// Number of parts that the step was divided into, 1 to 256 (2^Simulation::kMostHalvings).
+  /// Number of parts that the step was divided into, 1 to 256, because a step is halved at most 8
+  /// times (simulation.hpp).
   int parts = 0;
   /// Number of contacts that turn further than kLargestTurn (contact.hpp) in the smallest parts.
   std::size_t unresolved = 0;
