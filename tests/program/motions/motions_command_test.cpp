@@ -14,7 +14,6 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
-#include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact {
 namespace {
