@@ -128,8 +128,7 @@ std::vector<bool> end_rows(const lubrication::MotionTable& table) {
   std::vector<bool> is_end;
   for (const auto& row : table.rows)
     is_end.push_back((row.gap == smallest.gap || row.gap == largest.gap) &&
-                     std::ranges::count(table.rows, row.gap, &lubrication::MotionRow::gap) ==
-                         1);
+                     std::ranges::count(table.rows, row.gap, &lubrication::MotionRow::gap) == 1);
   return is_end;
 }
 
@@ -472,9 +471,8 @@ lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const Fi
   fit.reference_velocity = table.rows.front().reference_velocity;
   fit.viscosity = table.viscosity;
   fit.radius = table.radius;
-  fit.gap_interval = {
-      std::ranges::min_element(table.rows, {}, &lubrication::MotionRow::gap)->gap,
-      std::ranges::max_element(table.rows, {}, &lubrication::MotionRow::gap)->gap};
+  fit.gap_interval = {std::ranges::min_element(table.rows, {}, &lubrication::MotionRow::gap)->gap,
+                      std::ranges::max_element(table.rows, {}, &lubrication::MotionRow::gap)->gap};
   fit.weights = settings.weights;
   fit.loss = settings.loss;
   fit.geometry = table.geometry;

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact::fitting {
 

@@ -27,8 +27,8 @@
 
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
-#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 

@@ -48,7 +48,7 @@ void run_extended(std::vector<std::string> arguments) {
 
 /// The table of a floor with that slip length in unbounded fluid, r = 1, at accuracy 1e-5.
 lubrication::MotionTable slip_table(const fs::path& folder, const std::string& slip_length,
-                                   const std::string& gaps) {
+                                    const std::string& gaps) {
   write_case(folder / "slip.toml",
              {{"gaps", gaps},
               {"container", "\"unbounded\""},

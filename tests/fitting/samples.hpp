@@ -27,8 +27,8 @@ inline std::vector<double> log_spaced(double from, double to, int count) {
 /// A table with the exact drag of a plane in a half-space, as a solver without errors would make
 /// it.
 inline lubrication::MotionTable exact_drag_table(const std::vector<double>& gaps,
-                                                const std::vector<double>& velocities,
-                                                double viscosity, double radius) {
+                                                 const std::vector<double>& velocities,
+                                                 double viscosity, double radius) {
   lubrication::MotionTable table;
   table.viscosity = viscosity;
   table.radius = radius;

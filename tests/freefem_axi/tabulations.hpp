@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/freefem_axi/motion_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
+#include "viscontact/freefem_axi/motion_table_plan.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact::freefem_axi {
@@ -32,8 +32,8 @@ inline std::string tabulation_hash(const Tabulation& tabulation) {
 
 /// Computes all rows, and writes the table to a file beside `table_path` and reads it.
 inline lubrication::MotionTable tabulate(const FreeFem& freefem, const Tabulation& tabulation,
-                                        int jobs, const std::filesystem::path& table_path,
-                                        const TabulateReport& report) {
+                                         int jobs, const std::filesystem::path& table_path,
+                                         const TabulateReport& report) {
   const auto plan = force_table_plan(tabulation);
   compute_rows({freefem, jobs, ""}, plan, plan.points, table_path, report);
   const auto copy = table_path.parent_path() / "copy.csv";

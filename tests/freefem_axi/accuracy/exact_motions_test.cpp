@@ -18,8 +18,8 @@ using lubrication::MotionKind;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-Tabulation in_unbounded_fluid(const std::string& geometry,
-                                           std::vector<double> parameters, double accuracy) {
+Tabulation in_unbounded_fluid(const std::string& geometry, std::vector<double> parameters,
+                              double accuracy) {
   Tabulation tabulation = unit_tabulation({1}, 1, accuracy);
   tabulation.container.reset();
   tabulation.geometry = geometry;
@@ -61,19 +61,19 @@ TEST(MotionsAboveAPlane, AreWithinTheirEstimatesAndTheAccuracyThatWasAsked) {
     const auto& slide = across.at(0);
     const auto& roll = across.at(1);
     // T_y = +8 pi mu r^2 U T_t and F_x = +6 pi mu r^2 w F_r.
-    expect_factor(slide.force_factor, exact.slide_force, exact.slide_force, slide.relative_error_estimate,
-                  kAccuracy);
-    expect_factor(slide.torque_factor, -exact.slide_torque, exact.slide_force, slide.torque_error_estimate,
-                  kAccuracy);
-    expect_factor(roll.force_factor, -exact.roll_force, exact.roll_torque, roll.relative_error_estimate,
-                  kAccuracy);
-    expect_factor(roll.torque_factor, exact.roll_torque, exact.roll_torque, roll.torque_error_estimate,
-                  kAccuracy);
+    expect_factor(slide.force_factor, exact.slide_force, exact.slide_force,
+                  slide.relative_error_estimate, kAccuracy);
+    expect_factor(slide.torque_factor, -exact.slide_torque, exact.slide_force,
+                  slide.torque_error_estimate, kAccuracy);
+    expect_factor(roll.force_factor, -exact.roll_force, exact.roll_torque,
+                  roll.relative_error_estimate, kAccuracy);
+    expect_factor(roll.torque_factor, exact.roll_torque, exact.roll_torque,
+                  roll.torque_error_estimate, kAccuracy);
     const auto around = solve_motions(default_freefem(), plane, MotionGroup::kAround, exact.gap);
     const auto& spin = around.at(0);
     EXPECT_EQ(spin.force_factor, 0);
-    expect_factor(spin.torque_factor, exact.spin_torque, exact.spin_torque, spin.torque_error_estimate,
-                  kAccuracy);
+    expect_factor(spin.torque_factor, exact.spin_torque, exact.spin_torque,
+                  spin.torque_error_estimate, kAccuracy);
   }
 }
 
@@ -81,10 +81,8 @@ TEST(MotionsInACavity, AreThoseOfConcentricSpheres) {
   constexpr double kRadius = 2.5, kAccuracy = 1e-5;
   const auto cavity = in_unbounded_fluid("cavity", {kRadius}, kAccuracy);
   const double gap = kRadius - 1;
-  const auto across = solve_motions(default_freefem(), cavity,
-                                                 MotionGroup::kAcross, gap);
-  const auto around = solve_motions(default_freefem(), cavity,
-                                                 MotionGroup::kAround, gap);
+  const auto across = solve_motions(default_freefem(), cavity, MotionGroup::kAcross, gap);
+  const auto around = solve_motions(default_freefem(), cavity, MotionGroup::kAround, gap);
   // Haberman & Sayre 1958; Happel & Brenner 1983, (4-22.11).
   const double l = 1 / kRadius;
   const double drag = (1 - std::pow(l, 5)) / (1 - 9. / 4 * l + 5. / 2 * std::pow(l, 3) -
@@ -103,10 +101,8 @@ TEST(MotionsOfAPair, AreThoseBesideAFreeSurfaceIfTheFlowIsSymmetric) {
   // normal.
   const auto surface = in_unbounded_fluid("free_surface", {}, kAccuracy);
   const auto mirrored = in_unbounded_fluid("sphere", {1, 1, -1}, kAccuracy);
-  const auto one = solve_motions(default_freefem(), surface,
-                                              MotionGroup::kAcross, 0.2);
-  const auto pair = solve_motions(default_freefem(), mirrored,
-                                               MotionGroup::kAcross, 0.4);
+  const auto one = solve_motions(default_freefem(), surface, MotionGroup::kAcross, 0.2);
+  const auto pair = solve_motions(default_freefem(), mirrored, MotionGroup::kAcross, 0.4);
   for (std::size_t motion : {0, 1}) {
     const auto& both = pair.at(motion);
     const auto& alone = one.at(motion);
@@ -117,9 +113,10 @@ TEST(MotionsOfAPair, AreThoseBesideAFreeSurfaceIfTheFlowIsSymmetric) {
     EXPECT_NEAR(both.neighbour->torque_factor, -both.torque_factor, 2 * kAccuracy);
   }
   const auto spinning = in_unbounded_fluid("sphere", {1, 0, 1}, kAccuracy);
-  EXPECT_NEAR(solve_motions(default_freefem(), spinning, MotionGroup::kAround, 0.4).at(0).torque_factor,
-              solve_motions(default_freefem(), surface, MotionGroup::kAround, 0.2).at(0).torque_factor,
-              2 * kAccuracy);
+  EXPECT_NEAR(
+      solve_motions(default_freefem(), spinning, MotionGroup::kAround, 0.4).at(0).torque_factor,
+      solve_motions(default_freefem(), surface, MotionGroup::kAround, 0.2).at(0).torque_factor,
+      2 * kAccuracy);
 }
 
 TEST(MotionsOfAPair, AreThoseOfARigidBodyIfItTurnsAsAWhole) {

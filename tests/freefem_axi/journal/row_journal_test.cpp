@@ -10,8 +10,8 @@
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/freefem_axi/motion_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
+#include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {

@@ -12,9 +12,9 @@
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/brenner.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/freefem_axi/motion_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
+#include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {

@@ -139,7 +139,9 @@ TEST(PairFits, RefuseTablesThatDoNotBelongTogether) {
               HasSubstr("different pairs: the geometry"));
   EXPECT_THAT(refused([](PairTables& t) { t[MotionKind::kSlide].neighbour_moves = true; }),
               HasSubstr("a velocity of its own"));
-  EXPECT_THAT(refused([](PairTables& t) { t[MotionKind::kRoll].rows.erase(t[MotionKind::kRoll].rows.begin()); }),
+  EXPECT_THAT(refused([](PairTables& t) {
+                t[MotionKind::kRoll].rows.erase(t[MotionKind::kRoll].rows.begin());
+              }),
               HasSubstr("the table of rolling has no row at gap 0.001"));
   EXPECT_THAT(refused([](PairTables& t) { t = {}; }), HasSubstr("no table"));
 }

@@ -10,8 +10,8 @@
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
-#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact {
 namespace {
