@@ -9,8 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "viscontact/particles/constraints/cone.hpp"
-#include "viscontact/particles/constraints/interior_points.hpp"
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 namespace viscontact::particles {
@@ -172,13 +170,10 @@ class Iteration {
     if (start_ == ConstraintStart::kSweeps) sweep_while_it_gains(max_iterations);
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return finish();
     proximal_.emplace(problem_, w_);
-    if (problem_.lifts_sliding) {
-      solve_convex(max_iterations);
-      return finish();
-    }
     proximal_->set_epsilon(epsilon_);
     while (residual_ > 1 && best_.result.iterations < max_iterations)
-      take_proximal_step(max_iterations);
+      problem_.lifts_sliding ? take_convex_step(max_iterations)
+                             : take_proximal_step(max_iterations);
     return finish();
   }
 
@@ -206,101 +201,51 @@ class Iteration {
   /// opens. Small epsilons go there fast, but Newton's method then fails more often, so that
   /// epsilon follows what it achieves. Where even the easiest step fails, sweeps go on.
   void take_proximal_step(int max_iterations) {
-    constexpr int kMostIterations = 200, kFewIterations = 2;
-    constexpr double kLeastEpsilon = 1e-12, kLargestEpsilon = 1, kFactor = 3, kLargeFactor = 10;
+    constexpr int kMostIterations = 50, kFewIterations = 4;
+    constexpr double kLeastEpsilon = 1e-12, kLargestEpsilon = 1, kFactor = 3, kMuchWorse = 5;
     const auto center = problem_.impulses;
+    const double before = residual_;
     const int most = std::clamp(max_iterations - best_.result.iterations, 1, kMostIterations);
     const int taken = proximal_->solve(center, motions_, most);
     best_.result.iterations += taken;
-    if (!proximal_->failed() && taken < most) {
-      problem_.impulses = proximal_->impulses();
-      update();
-    }
-    if (proximal_->failed() || taken >= most || !std::isfinite(residual_)) {
+    problem_.impulses = proximal_->impulses();
+    update();
+    if (proximal_->failed() || taken == most || !(residual_ <= kMuchWorse * before)) {
       problem_.impulses = center;
       update();
       if (epsilon_ == kLargestEpsilon) sweep();
       epsilon_ = std::min(kLargestEpsilon, kFactor * epsilon_);
       proximal_->set_epsilon(epsilon_);
-      return;
-    }
-    if (proximal_->followed_path()) return;
-    epsilon_ /= taken <= kFewIterations ? kLargeFactor : kFactor;
-    epsilon_ = std::max(kLeastEpsilon, epsilon_);
-    proximal_->set_epsilon(epsilon_);
-  }
-
-  /// Solves the convex relaxation (5.9) by interior points, and makes the solution more accurate by
-  /// proximal steps. These converge in a few steps if the solution shows which contacts stick and
-  /// slide. If a step is not solved, a more accurate solution follows. With a smaller epsilon the
-  /// rounding errors of the gaps, divided by epsilon, would be larger.
-  void solve_convex(int max_iterations) {
-    constexpr double kBestAccuracy = 1e-12, kFactor = 1e-2;
-    constexpr double kFirstEpsilonOfSteps = 1e-5, kEpsilonOfSteps = 1e-4;
-    constexpr int kMostIterations = 60;
-    const auto left = [&] {
-      return std::min(max_iterations - best_.result.iterations, kMostIterations);
-    };
-    InteriorPoints<D> interior(problem_, w_);
-    for (double accuracy = first_accuracy(); residual_ > 1 && left() > 0; accuracy *= kFactor) {
-      best_.result.iterations += interior.solve(std::max(accuracy, kBestAccuracy), left());
-      problem_.impulses = interior.impulses();
-      update();
-      proximal_->set_epsilon(kFirstEpsilonOfSteps);
-      bool is_solved = residual_ > 1 && left() > 0 && take_convex_step(left());
-      proximal_->set_epsilon(kEpsilonOfSteps);
-      while (is_solved && residual_ > 1 && left() > 0) is_solved = take_convex_step(left());
+    } else if (taken <= kFewIterations && epsilon_ > kLeastEpsilon) {
+      epsilon_ /= kFactor;
+      proximal_->set_epsilon(epsilon_);
     }
   }
 
-  /// The accuracy of the first solution by interior points: a tenth of what is allowed for a rough
-  /// solution, and otherwise enough for the proximal steps that follow.
-  double first_accuracy() const {
-    constexpr double kRough = 1e-3, kAccurate = 1e-6, kShare = 0.1;
-    const auto free = motions<D>(problem_, std::vector<double>(problem_.rows.size(), 0.0));
-    double size = 0, allowed = std::numeric_limits<double>::infinity();
-    for (std::size_t r = 0; r < problem_.rows.size(); ++r)
-      size = std::max(size, std::abs(problem_.rows[r].offset + problem_.product(r, free)));
-    for (const auto& block : problem_.blocks) allowed = std::min(allowed, block.allowed);
-    return size > 0 ? std::clamp(kShare * allowed / size, kAccurate, kRough) : kRough;
-  }
-
-  /// Takes a proximal step for the convex relaxation (5.9). Returns false, and stays where it is, if
-  /// the step was not solved.
-  bool take_convex_step(int max_iterations) {
-    constexpr double kLittle = 0.9;
+  /// Takes a proximal step for the convex relaxation (5.9). Each step leads nearer to the solution
+  /// but for rounding errors, which are those of the gaps divided by epsilon. Therefore epsilon
+  /// falls until the impulses between jammed particles have grown as far as they must, then rises
+  /// until the errors are gone, and falls again if that was not far enough.
+  void take_convex_step(int max_iterations) {
+    constexpr int kMostIterations = 50;
+    constexpr double kLeastEpsilon = 1e-8, kFactor = 10;
     const auto center = problem_.impulses;
-    const double before = residual_;
-    const int taken = proximal_->solve(center, motions_, max_iterations);
+    const int most = std::clamp(max_iterations - best_.result.iterations, 1, kMostIterations);
+    const int taken = proximal_->solve(center, motions_, most);
     best_.result.iterations += taken;
-    if (proximal_->failed() || taken >= max_iterations) return false;
     problem_.impulses = proximal_->impulses();
     update();
-    if (residual_ > kLittle * before && residual_ < before / kLittle) extend_change(center);
-    return true;
-  }
-
-  /// Between jammed particles, impulses that balance each other grow by the same small amounts in
-  /// each step, and the residual stays, until a contact slips or opens. Goes there at once.
-  void extend_change(const std::vector<double>& center) {
-    const auto& p = problem_.impulses;
-    double length = std::numeric_limits<double>::infinity();
-    for (const auto& block : problem_.blocks) {
-      if (!block.is_contact) continue;
-      const bool is_cone = is_in_cone(block, true, p[block.row]);
-      ConePoint here{p[block.row] - (is_cone ? block.capacity : block.lowest)}, change{};
-      for (std::size_t k = 0; k < (is_cone ? block.rows : 1); ++k) {
-        if (k > 0) here[k] = p[block.row + k] / block.friction;
-        change[k] = (p[block.row + k] - center[block.row + k]) / (k > 0 ? block.friction : 1);
-      }
-      // Contacts on the boundary stay there.
-      constexpr double kInside = 1e-9;
-      if (determinant(here) > kInside * here[0] * here[0])
-        length = std::min(length, length_to_boundary(here, change));
+    const bool is_solved = !proximal_->failed() && taken < most;
+    const bool is_largest = epsilon_ >= kFirstEpsilon, is_least = epsilon_ <= kLeastEpsilon;
+    if (!is_solved) {
+      problem_.impulses = center;
+      update();
+      if (is_largest) sweep();
     }
-    if (!std::isfinite(length)) return;
-    for (std::size_t r = 0; r < p.size(); ++r) problem_.impulses[r] += length * (p[r] - center[r]);
-    update();
+    is_rising_ = !is_largest && (is_rising_ || is_least || !is_solved);
+    epsilon_ = is_rising_ ? std::min(kFirstEpsilon, kFactor * epsilon_)
+                          : std::max(kLeastEpsilon, epsilon_ / kFactor);
+    proximal_->set_epsilon(epsilon_);
   }
 
   /// Computes motions and residuals, and keeps the solution if it is the best so far.
@@ -343,6 +288,7 @@ class Iteration {
   std::vector<Motion<D>> motions_;
   std::vector<BlockResidual> residuals_;
   ConstraintSolution<D> best_;
+  bool is_rising_ = false;
   double residual_ = 0, epsilon_ = kFirstEpsilon;
 };
 
