@@ -43,6 +43,7 @@ struct MotionRow : Action {
   double observed_order = 0;
 };
 
+/// A table of one of the motions.
 using MotionTable = Table<MotionRow>;
 
 /// The columns of a row: gap and velocity, the action on the sphere, what the row says of its

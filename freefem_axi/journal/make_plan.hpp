@@ -40,7 +40,7 @@ struct PlanParts {
   /// All rows of a table in its order, from a function that returns the row that was computed at a
   /// point. Without it, the rows are those at `points`.
   using Computed = std::function<std::optional<Row>(const RowPoint&)>;
-  std::function<std::vector<Row>(const Computed&)> arrange{};
+  std::function<std::vector<Row>(const Computed&)> arrange{};  ///< makes the rows of the table
 };
 
 /// The numbers of `row` that a journal stores behind its point.

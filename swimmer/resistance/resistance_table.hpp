@@ -33,6 +33,7 @@ struct ResistanceRow {
 
 using lubrication::kFewestSpheres;
 using lubrication::kMostSpheres;
+/// A table of resistance matrices.
 using ResistanceTable = lubrication::Table<ResistanceRow>;
 
 /// Position of R_ij in ResistanceRow::entries of `spheres` spheres; i and j count from 0, in any

@@ -128,11 +128,11 @@ TEST(ExtendedBasis, FindsTheSlipLengthFromATableByThePagesCommands) {
 // is its own files and few lines elsewhere.
 TEST(Extending, ChangesNoOtherFiles) {
   EXPECT_EQ(read_file(fs::path(VISCONTACT_EXTENDED).parent_path() / "source/changed_files"),
-            "particles/case/particles_case.cpp\n"
             "freefem_axi/geometry.cpp\n"
             "freefem_axi/scripts/axisymmetric_stokes.idp\n"
             "freefem_axi/scripts/slip_plane.edp\n"
             "lubrication/terms.cpp\n"
+            "particles/case/particles_case.cpp\n"
             "particles/contact/ageing_law.hpp\n"
             "particles/contact/contact_laws.hpp\n"
             "particles/pair_memory.hpp\n"
