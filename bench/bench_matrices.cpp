@@ -1,12 +1,12 @@
-// Measures errors, error estimates, time and memory of resistance matrices of three spheres on a line
-// in unbounded fluid, beside exact ones (tests/oracles/collinear_spheres.hpp). Gaps are random,
-// log-uniform from 0.02 to 8 of the smaller radius beside them; every second row has unequal radii, from
-// 0.5 to 2.
+// Measures errors, error estimates, time and memory of resistance matrices of three spheres on a
+// line in unbounded fluid, beside exact ones (tests/oracles/collinear_spheres.hpp). Gaps are
+// random, log-uniform from 0.02 to 8 of the smaller radius beside them; every second row has
+// unequal radii, from 0.5 to 2.
 //
 //   bench_matrices [ROWS=20 [SEED=1]]
 //
-// Prints every entry whose error is above its estimate, then sums over all entries; last, the time of
-// one row of ten spheres.
+// Prints every entry whose error is above its estimate, then sums over all entries; last, the time
+// of one row of ten spheres.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -19,7 +19,7 @@
 #include "bench/statistics.hpp"
 #include "tests/oracles/collinear_spheres.hpp"
 #include "viscontact/common/splitmix.hpp"
-#include "viscontact/swimmer/resistance/resistance_matrix.hpp"
+#include "viscontact/swimmer/resistance/resistance_table.hpp"
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 namespace viscontact {
@@ -78,7 +78,7 @@ void measure_ten() {
     fmt::print(
         "ten spheres, gaps {}: {:.1f} s, {:.0f} unknowns, largest estimate {:.2g}, peak memory "
         "{:.0f} MB\n",
-        gap, row.seconds, row.degrees_of_freedom, row.largest_error_estimate(),
+        gap, row.seconds, row.degrees_of_freedom, row.relative_error_estimate,
         static_cast<double>(usage.ru_maxrss) / 1024);
   }
 }

@@ -1,8 +1,8 @@
-// Measures errors, error estimates and times of the motions across the axis and around it, at random
-// gaps (log-uniform from 0.001 to 10 radii) beside a plane, a free surface, spheres of random size
-// at rest or with a velocity of their own, and in a cavity. The reference is the same row at a
-// hundredth of the accuracy, whose own error was checked above a plane against exact values
-// (tests/freefem_axi/motions).
+// Measures errors, error estimates and times of the motions across the axis and around it, at
+// random gaps (log-uniform from 0.001 to 10 radii) beside a plane, a free surface, spheres of
+// random size at rest or with a velocity of their own, and in a cavity. The reference is the same
+// row at a hundredth of the accuracy, whose own error was checked above a plane against exact
+// values (tests/freefem_axi/motions).
 //
 //   bench_motions [ROWS=12 [SEED=1]]
 //
@@ -24,15 +24,14 @@ namespace viscontact {
 namespace {
 
 using freefem_axi::MotionGroup;
-using lubrication::ActionFactors;
+using lubrication::Action;
 
 constexpr double kAccuracy = 1e-5;
 
 struct Sums {
   std::vector<double> errors, ratios, cost;
 
-  void add(const ActionFactors& row, const ActionFactors& exact, double diagonal,
-           const std::string& what) {
+  void add(const Action& row, const Action& exact, double diagonal, const std::string& what) {
     const auto one = [&](double error, double estimate, const char* name) {
       if (estimate == 0) return;  // the force of a sphere that spins
       errors.push_back(error);
@@ -40,8 +39,10 @@ struct Sums {
       if (error > estimate)
         fmt::print("  {}: {} has error {:.2g}, estimate {:.2g}\n", what, name, error, estimate);
     };
-    one(std::abs(row.force - exact.force) / diagonal, row.force_error_estimate, "force");
-    one(std::abs(row.torque - exact.torque) / diagonal, row.torque_error_estimate, "torque");
+    one(std::abs(row.force_factor - exact.force_factor) / diagonal, row.relative_error_estimate,
+        "force");
+    one(std::abs(row.torque_factor - exact.torque_factor) / diagonal, row.torque_error_estimate,
+        "torque");
   }
 };
 
@@ -75,18 +76,18 @@ void measure_motions(int rows, std::uint64_t seed) {
     for (const auto group : {MotionGroup::kAcross, MotionGroup::kAround}) {
       tabulation.relative_accuracy = kAccuracy;
       const auto row = solve_motions(freefem, tabulation, group, gap);
-      seconds += row.seconds;
+      seconds += row.front().seconds;
       tabulation.relative_accuracy = kAccuracy / 100;
       const auto exact = solve_motions(freefem, tabulation, group, gap);
-      for (std::size_t i = 0; i < row.results.size(); ++i) {
-        const auto& result = row.results[i];
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        const auto& result = row[i];
         const bool slides = group == MotionGroup::kAcross && i == 0;
-        const double diagonal = slides ? result.sphere.force : result.sphere.torque;
+        const double diagonal = slides ? result.force_factor : result.torque_factor;
         const auto what = fmt::format("{}, gap {:.4g}, motion {}",
                                       freefem_axi::geometry_in_words(tabulation), gap, i);
-        sums.add(result.sphere, exact.results[i].sphere, diagonal, what);
+        sums.add(result, exact[i], diagonal, what);
         if (result.neighbour)
-          sums.add(*result.neighbour, *exact.results[i].neighbour, diagonal, what + ", neighbour");
+          sums.add(*result.neighbour, *exact[i].neighbour, diagonal, what + ", neighbour");
       }
     }
     const double cost = (approach.seconds + seconds) / approach.seconds;

@@ -139,7 +139,7 @@ Solved solve(const freefem_axi::FreeFem& freefem, const RandomRow& row) {
                                   row.tabulation.reference_velocities.front(), {}, &output);
     if (row.drag_factor)
       solved.ratio =
-          std::abs(answer.drag_factor / *row.drag_factor - 1) / answer.relative_error_estimate;
+          std::abs(answer.force_factor / *row.drag_factor - 1) / answer.relative_error_estimate;
   }
   solved.seconds = cpu_seconds() - before;
   std::istringstream words(freefem_axi::line_after(output, "viscontact-result"));

@@ -7,7 +7,7 @@
 
 namespace viscontact::fitting {
 
-std::vector<BasisResult> compare_bases(const lubrication::ForceTable& table,
+std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
                                        const FitSettings& settings, const StopToken& stop) {
   auto bases = lubrication::all_bases();
   if (settings.basis.name == lubrication::kOwnTerms) bases.push_back(settings.basis);

@@ -9,7 +9,7 @@
 
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact::fitting {
 
@@ -23,7 +23,7 @@ struct BasisResult {
 /// Fits the table in every named basis, and in the basis of `settings` if that is a user's list of
 /// terms. All other settings are the same. The error of a basis that fails is kept in its result.
 /// Throws Error(kInterrupted) if `stop` requests a stop.
-std::vector<BasisResult> compare_bases(const lubrication::ForceTable& table,
+std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
                                        const FitSettings& settings, const StopToken& stop = {});
 
 /// The result with the smallest information criterion; null if no result has one.

@@ -21,7 +21,7 @@
 #include "viscontact/common/named.hpp"
 #include "viscontact/fitting/robust_least_squares.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/lubrication/spread_gaps.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
@@ -47,11 +47,11 @@ struct FittedSystem {
 
 /// The diagnostics of a fit whose other members are complete. They contain a warning if the fitted
 /// resistance has not the shape that theory demands (FitSettings::shape).
-lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
+lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
                                      const FittedSystem& system, const lubrication::Fit& fit,
                                      lubrication::FittedShape shape);
 
-double gap_of_row(const lubrication::ForceTable& table, Eigen::Index row) {
+double gap_of_row(const lubrication::MotionTable& table, Eigen::Index row) {
   return table.rows[static_cast<std::size_t>(row)].gap;
 }
 
@@ -75,7 +75,7 @@ bool is_outlier(const FittedSystem& system, lubrication::Loss loss, Eigen::Index
 /// Compares the residual of each row with the error estimate of the same row, because the estimate
 /// of another row may be much larger. Outliers count only in chi_squared and in
 /// largest_error_estimate.
-void compare_with_estimates(const lubrication::ForceTable& table, const FittedSystem& system,
+void compare_with_estimates(const lubrication::MotionTable& table, const FittedSystem& system,
                             lubrication::Loss loss, lubrication::FitDiagnostics& d) {
   bool every_row = true;
   double chi_squared = 0, chi_squared_of_inliers = 0;
@@ -122,14 +122,13 @@ Eigen::VectorXd leverages(const Eigen::MatrixXd& matrix) {
 
 /// True for each row that is alone at the smallest or largest gap of the table. The fit of the
 /// other rows extrapolates to such a row and interpolates to every other one.
-std::vector<bool> end_rows(const lubrication::ForceTable& table) {
+std::vector<bool> end_rows(const lubrication::MotionTable& table) {
   const auto [smallest, largest] =
-      std::ranges::minmax(table.rows, {}, &lubrication::ForceTableRow::gap);
+      std::ranges::minmax(table.rows, {}, &lubrication::MotionRow::gap);
   std::vector<bool> is_end;
   for (const auto& row : table.rows)
     is_end.push_back((row.gap == smallest.gap || row.gap == largest.gap) &&
-                     std::ranges::count(table.rows, row.gap, &lubrication::ForceTableRow::gap) ==
-                         1);
+                     std::ranges::count(table.rows, row.gap, &lubrication::MotionRow::gap) == 1);
   return is_end;
 }
 
@@ -139,7 +138,7 @@ void take_largest(std::optional<lubrication::LeftOutRow>& largest,
   if (!largest || row.relative_residual > largest->relative_residual) largest = row;
 }
 
-void leave_one_out(const lubrication::ForceTable& table, const FittedSystem& system,
+void leave_one_out(const lubrication::MotionTable& table, const FittedSystem& system,
                    lubrication::FitDiagnostics& d) {
   if (d.degrees_of_freedom == 0) return;
   const Eigen::VectorXd leverage = leverages(system.weighted_matrix);
@@ -173,7 +172,7 @@ std::optional<double> information_criterion(const FittedSystem& system,
   return n * std::log(squares / n) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
 }
 
-std::vector<lubrication::Outlier> outliers(const lubrication::ForceTable& table,
+std::vector<lubrication::Outlier> outliers(const lubrication::MotionTable& table,
                                            const FittedSystem& system) {
   std::vector<lubrication::Outlier> found;
   for (Eigen::Index i = 0; i < system.scaled_residual.size(); ++i)
@@ -211,7 +210,7 @@ void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
 }
 
 /// The names of the table's failed rows, of many only the first ones.
-std::string names_of_failed_rows(const lubrication::ForceTable& table) {
+std::string names_of_failed_rows(const lubrication::MotionTable& table) {
   constexpr std::size_t kNamed = 5;
   std::vector<std::string> names;
   for (const auto& [name, reason] : table.failed_rows)
@@ -252,7 +251,7 @@ void warn_of_coefficients(const lubrication::Fit& fit, const FittedSystem& syste
   }
 }
 
-lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
+lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
                                      const FittedSystem& system, const lubrication::Fit& fit,
                                      lubrication::FittedShape shape) {
   lubrication::FitDiagnostics d;
@@ -291,8 +290,8 @@ lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
 /// Throws Error(kBadInput) if F/u differs between rows of equal gap by more than their error
 /// estimates. F/u must be equal there, because Stokes flow is linear in the velocity. Rows without
 /// an estimate are not checked.
-void check_linearity(const lubrication::ForceTable& table) {
-  std::map<double, const lubrication::ForceTableRow*> first_at;
+void check_linearity(const lubrication::MotionTable& table) {
+  std::map<double, const lubrication::MotionRow*> first_at;
   for (const auto& row : table.rows) {
     const auto* first = first_at.try_emplace(row.gap, &row).first->second;
     const double allowed = row.relative_error_estimate + first->relative_error_estimate;
@@ -310,7 +309,7 @@ void check_linearity(const lubrication::ForceTable& table) {
 
 /// The value of the fixed coefficient of 1/q [M L^2/T^2]. Throws Error(kBadInput) if the basis has
 /// no such term, or if neither settings nor table give a value.
-double fixed_leading(const lubrication::ForceTable& table, const FitSettings& settings) {
+double fixed_leading(const lubrication::MotionTable& table, const FitSettings& settings) {
   if (find_named(settings.basis.terms, lubrication::kLeadingTerm) == nullptr)
     throw Error(ErrorKind::kBadInput, "the basis has no term 1/q whose coefficient could be fixed");
   if (settings.leading_value) return *settings.leading_value;
@@ -321,7 +320,7 @@ double fixed_leading(const lubrication::ForceTable& table, const FitSettings& se
   return -*table.leading_coefficient * table.rows.front().reference_velocity;
 }
 
-void check_gaps(const lubrication::ForceTable& table, const FitSettings& settings) {
+void check_gaps(const lubrication::MotionTable& table, const FitSettings& settings) {
   if (settings.fix_leading && settings.basis.terms.size() == 1)
     throw Error(ErrorKind::kBadInput,
                 "the only coefficient is fixed, so that there is nothing to fit; give more terms");
@@ -370,7 +369,7 @@ bool is_fixed(const lubrication::Term& term, const FitSettings& settings) {
   return settings.fix_leading && term.name == lubrication::kLeadingTerm;
 }
 
-Equations assemble(const lubrication::ForceTable& table, const FitSettings& settings,
+Equations assemble(const lubrication::MotionTable& table, const FitSettings& settings,
                    double fixed) {
   const auto rows = static_cast<Eigen::Index>(table.rows.size());
   const auto columns =
@@ -457,7 +456,7 @@ FittedSystem residuals_of(const Equations& equations, const RobustSolution& solu
 
 }  // namespace
 
-lubrication::Fit fit_force_table(const lubrication::ForceTable& table, const FitSettings& settings,
+lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const FitSettings& settings,
                                  const StopToken& stop) {
   check_linearity(table);
   check_gaps(table, settings);
@@ -472,9 +471,8 @@ lubrication::Fit fit_force_table(const lubrication::ForceTable& table, const Fit
   fit.reference_velocity = table.rows.front().reference_velocity;
   fit.viscosity = table.viscosity;
   fit.radius = table.radius;
-  fit.gap_interval = {
-      std::ranges::min_element(table.rows, {}, &lubrication::ForceTableRow::gap)->gap,
-      std::ranges::max_element(table.rows, {}, &lubrication::ForceTableRow::gap)->gap};
+  fit.gap_interval = {std::ranges::min_element(table.rows, {}, &lubrication::MotionRow::gap)->gap,
+                      std::ranges::max_element(table.rows, {}, &lubrication::MotionRow::gap)->gap};
   fit.weights = settings.weights;
   fit.loss = settings.loss;
   fit.geometry = table.geometry;
@@ -497,7 +495,7 @@ lubrication::Fit fit_force_table(const lubrication::ForceTable& table, const Fit
   return fit;
 }
 
-lubrication::Fit fit_force_table(const lubrication::ForceTable& table, std::string_view basis,
+lubrication::Fit fit_force_table(const lubrication::MotionTable& table, std::string_view basis,
                                  lubrication::Weights weights) {
   FitSettings settings;
   settings.basis = lubrication::find_basis(basis);

@@ -10,7 +10,7 @@
 
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact::fitting {
@@ -24,7 +24,7 @@ struct FitSettings {
   /// Whether large residuals count less than in least squares (a robust loss).
   lubrication::Loss loss = lubrication::Loss::kSquared;
   /// True: the coefficient of 1/q is fixed. Its value is `leading_value`, or else that of theory
-  /// (ForceTable::leading_coefficient).
+  /// (TableHead::leading_coefficient).
   bool fix_leading = false;
   /// Fixed coefficient of 1/q in the force at the table's first velocity u0 [M L^2/T^2], as in the
   /// fit file: -k u0 with the k of the resistance k/q. Nothing: that of theory. Without effect
@@ -43,12 +43,12 @@ struct FitSettings {
 /// of equal gap have values of F/u that differ by more than their error estimates, or if
 /// `fix_leading` is true but the basis lacks 1/q or there is no value for its coefficient; and the
 /// errors of solve_robust_least_squares(). A row without error estimate (0) is allowed.
-lubrication::Fit fit_force_table(const lubrication::ForceTable& table, const FitSettings& settings,
+lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const FitSettings& settings,
                                  const StopToken& stop = {});
 
 /// The same with a basis by name and the loss kSquared. Throws Error(kBadInput) for an unknown
 /// basis, too.
-lubrication::Fit fit_force_table(const lubrication::ForceTable& table, std::string_view basis,
+lubrication::Fit fit_force_table(const lubrication::MotionTable& table, std::string_view basis,
                                  lubrication::Weights weights);
 
 }  // namespace viscontact::fitting

@@ -13,14 +13,14 @@
 namespace viscontact::fitting {
 namespace {
 
-double resistance_of(const lubrication::ForceTableRow& row) {
+double resistance_of(const lubrication::MotionRow& row) {
   return -row.force / row.reference_velocity;
 }
 
 /// The gap at which the smooth wall has this resistance, by bisection in ln q. The resistance
 /// decreases with the gap.
 double smooth_gap_of(const lubrication::LubricationForce& smooth, double resistance,
-                     const lubrication::ForceTableRow& row) {
+                     const lubrication::MotionRow& row) {
   auto [low, high] = smooth.interval();
   if (!(resistance <= smooth.resistance(low) && resistance >= smooth.resistance(high)))
     throw Error(
@@ -37,7 +37,7 @@ double smooth_gap_of(const lubrication::LubricationForce& smooth, double resista
 
 }  // namespace
 
-WallShift fit_wall_shift(const lubrication::ForceTable& rough,
+WallShift fit_wall_shift(const lubrication::MotionTable& rough,
                          const lubrication::LubricationForce& smooth) {
   if (!equal_up_to_rounding(rough.viscosity, smooth.viscosity()) ||
       !equal_up_to_rounding(rough.radius, smooth.radius()))

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact::fitting {
 
@@ -36,7 +36,7 @@ struct WallShift {
 /// rough wall is that near a smooth wall at a larger distance. Throws Error(kBadInput) if viscosity
 /// or radius of table and smooth force differ, or if the drag of a row is outside the range of the
 /// smooth force in its interval; Error(kNotConverged) if the least squares fail.
-WallShift fit_wall_shift(const lubrication::ForceTable& rough,
+WallShift fit_wall_shift(const lubrication::MotionTable& rough,
                          const lubrication::LubricationForce& smooth);
 
 }  // namespace viscontact::fitting

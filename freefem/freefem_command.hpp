@@ -25,9 +25,9 @@ std::string executable_of_user();
 /// Error(kWrongUsage) if it is not a whole number from 1 to 10 million.
 std::optional<std::chrono::seconds> time_limit_of_user();
 
-/// The folder of the scripts of a part: share/viscontact/PART in the folder of this program (build
-/// tree) or in the folder above (installed), with the file `script` in it. Throws
-/// Error(kExternalProgram) if there is no such folder.
+/// The folder share/viscontact/PART that contains the file `script`, where PART is the name of a
+/// source folder, such as freefem_axi. It is looked for beside this program (build tree), then one
+/// folder above (installed). Throws Error(kExternalProgram) if there is no such folder.
 std::filesystem::path find_script_folder(std::string_view part, std::string_view script);
 
 /// How a process of FreeFEM is started.
@@ -37,8 +37,8 @@ struct Command {
   std::string folder;                    ///< working folder
 };
 
-/// FreeFEM with a script of `script_folder`, without graphics and on one thread. `arguments` are
-/// those of the script, "-name value".
+/// FreeFEM with a script of `script_folder`, without graphics and on one thread. `arguments`
+/// are passed to the script: "-name" and "value" alternate, each an element of its own.
 Command make_command(const std::string& executable, const std::filesystem::path& script_folder,
                      std::string_view script, const std::vector<std::string>& arguments);
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
@@ -17,8 +18,9 @@
 namespace viscontact::freefem_axi {
 namespace {
 
-using lubrication::ActionFactors;
+using lubrication::Action;
 using lubrication::MotionKind;
+using lubrication::MotionRow;
 
 constexpr double kForceUnit = 6 * std::numbers::pi, kTorqueUnit = 8 * std::numbers::pi;
 
@@ -49,24 +51,29 @@ std::optional<std::vector<ActionLine>> read_action_lines(const std::string& outp
   return actions;
 }
 
-ActionFactors factors_of(const ActionLine& line) {
+/// The factors and their errors.
+Action action_of(const ActionLine& line) {
   // 0 - x is 0 where x is 0, while -x would be written as -0.
-  return {(0 - line.numbers[0]) / kForceUnit, (0 - line.numbers[1]) / kTorqueUnit, line.numbers[2],
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  return {kUnknown,
+          kUnknown,
+          (0 - line.numbers[0]) / kForceUnit,
+          (0 - line.numbers[1]) / kTorqueUnit,
+          line.numbers[2],
           line.numbers[3]};
 }
 
-/// Copies the lines into `row`. Returns false if one is missing or occurs twice.
-bool take(const std::vector<ActionLine>& lines, std::size_t bodies, MotionRow& row) {
-  if (lines.size() != row.results.size() * bodies) return false;
+/// Copies the lines into `rows`. Returns false if one is missing or occurs twice.
+bool take(const std::vector<ActionLine>& lines, std::size_t bodies, std::vector<MotionRow>& rows) {
+  if (lines.size() != rows.size() * bodies) return false;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i].solution != i / bodies || lines[i].body != i % bodies) return false;
-    auto& result = row.results[lines[i].solution];
-    const auto factors = factors_of(lines[i]);
+    auto& row = rows[lines[i].solution];
     if (lines[i].body == 0) {
-      result.sphere = factors;
-      result.observed_order = lines[i].numbers[4];
+      static_cast<Action&>(row) = action_of(lines[i]);
+      row.observed_order = lines[i].numbers[4];
     } else {
-      result.neighbour = factors;
+      row.neighbour = action_of(lines[i]);
     }
   }
   return true;
@@ -75,28 +82,29 @@ bool take(const std::vector<ActionLine>& lines, std::size_t bodies, MotionRow& r
 /// By the reciprocal theorem the power of the forces of rolling at the velocities of sliding is
 /// that of the forces of sliding at the velocities of rolling. Returns the difference of both over
 /// what the error estimates allow.
-double asymmetry(const Tabulation& tabulation, const MotionRow& row) {
-  const auto& slide = row.results.at(0);
-  const auto& roll = row.results.at(1);
-  double difference = kTorqueUnit * slide.sphere.torque - kForceUnit * roll.sphere.force;
-  double slide_error = slide.sphere.torque_error_estimate;
-  double roll_error = roll.sphere.force_error_estimate;
+double asymmetry(const Tabulation& tabulation, const std::vector<MotionRow>& rows) {
+  const auto& slide = rows.at(0);
+  const auto& roll = rows.at(1);
+  double difference = kTorqueUnit * slide.torque_factor - kForceUnit * roll.force_factor;
+  double slide_error = slide.torque_error_estimate;
+  double roll_error = roll.relative_error_estimate;
   if (slide.neighbour && roll.neighbour) {
     const double moves = neighbour_ratio(tabulation, MotionKind::kSlide);
     const double turns = neighbour_ratio(tabulation, MotionKind::kRoll);
-    difference +=
-        turns * kTorqueUnit * slide.neighbour->torque - moves * kForceUnit * roll.neighbour->force;
+    difference += turns * kTorqueUnit * slide.neighbour->torque_factor -
+                  moves * kForceUnit * roll.neighbour->force_factor;
     slide_error += std::abs(turns) * slide.neighbour->torque_error_estimate;
-    roll_error += std::abs(moves) * roll.neighbour->force_error_estimate;
+    roll_error += std::abs(moves) * roll.neighbour->relative_error_estimate;
   }
-  const double allowed = kTorqueUnit * slide_error * std::abs(slide.sphere.force) +
-                         kForceUnit * roll_error * std::abs(roll.sphere.torque);
+  const double allowed = kTorqueUnit * slide_error * std::abs(slide.force_factor) +
+                         kForceUnit * roll_error * std::abs(roll.torque_factor);
   return std::abs(difference) / allowed;
 }
 
 }  // namespace
 
 std::vector<MotionKind> motions_of(MotionGroup group) {
+  if (group == MotionGroup::kAlong) return {MotionKind::kApproach};
   if (group == MotionGroup::kAround) return {MotionKind::kSpin};
   return {MotionKind::kSlide, MotionKind::kRoll};
 }
@@ -106,9 +114,10 @@ bool neighbour_is_sphere(const Tabulation& tabulation) {
   return geometry.curvature != nullptr && geometry.curvature(tabulation.geometry_parameters) > 0;
 }
 
-MotionRow solve_motions(const FreeFem& freefem, const Tabulation& tabulation, MotionGroup group,
-                        double gap, const std::vector<std::string>& further_arguments,
-                        std::string* output) {
+std::vector<MotionRow> solve_motions(const FreeFem& freefem, const Tabulation& tabulation,
+                                     MotionGroup group, double gap,
+                                     const std::vector<std::string>& further_arguments,
+                                     std::string* output) {
   const auto start = std::chrono::steady_clock::now();
   auto scaled = tabulation;
   scaled.viscosity = 1;
@@ -118,25 +127,36 @@ MotionRow solve_motions(const FreeFem& freefem, const Tabulation& tabulation, Mo
   const auto result = run_freefem(freefem, find_geometry(tabulation.geometry).script, arguments);
   if (output != nullptr) *output = result.output;
 
-  MotionRow row;
-  row.results.resize(motions_of(group).size());
+  const auto motions = motions_of(group);
+  std::vector<MotionRow> rows(motions.size());
   std::istringstream answer(line_after(result.output, "viscontact-result"));
-  double value = 0, estimate = 0;
-  answer >> value >> estimate >> row.degrees_of_freedom;
+  double value = 0, estimate = 0, unknowns = 0;
+  answer >> value >> estimate >> unknowns;
   const auto lines = read_action_lines(result.output);
   const std::size_t bodies = neighbour_is_sphere(tabulation) ? 2 : 1;
-  if (result.exit_status != 0 || !answer || !lines || !take(*lines, bodies, row))
+  if (result.exit_status != 0 || !answer || !lines || !take(*lines, bodies, rows))
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("FreeFEM failed at gap {} (exit status {}): {}", format_number(gap),
                             result.exit_status, failure_in_words(result, freefem.row_limit)));
   if (group == MotionGroup::kAcross)
-    if (const double excess = asymmetry(tabulation, row); !(excess <= 1))
+    if (const double excess = asymmetry(tabulation, rows); !(excess <= 1))
       throw Error(ErrorKind::kExternalProgram,
                   fmt::format("at gap {} the torque of sliding and the force of rolling differ by "
                               "{:.2g} times their error estimates; the matrix must be symmetric",
                               format_number(gap), excess));
-  row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return row;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    auto& row = rows[i];
+    row.gap = gap;
+    row.reference_velocity = 1;
+    row.degrees_of_freedom = unknowns;
+    row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    lubrication::TableHead head;
+    head.motion = motions[i];
+    head.viscosity = tabulation.viscosity;
+    head.radius = tabulation.radius;
+    complete(head, row);
+  }
+  return rows;
 }
 
 }  // namespace viscontact::freefem_axi

@@ -1,4 +1,5 @@
-// One row of a tabulation with its flow and its meshes, for the pictures of report/flow. rho is the
+// The flow of one row of a table (one gap and one velocity of the sphere) with its meshes, for the
+// pictures of report/flow. rho is the
 // distance from the axis, z the height, phi the angle about the axis. Lengths, masses and times are
 // in the units of the case. A change must agree with scripts/pictures.idp.
 #pragma once
@@ -12,8 +13,9 @@
 
 namespace viscontact::freefem_axi {
 
-/// The kind of an edge of a boundary. A wall is a no-slip wall or the neighbour; an interface is
-/// inside the fluid, or where unbounded fluid is cut off.
+/// The kind of an edge of a boundary. kWall is a wall of the container without slip, or the body
+/// beside the sphere (the neighbour, such as a plane); kShearFree is a surface without shear
+/// stress; kInterface is a line inside the fluid, or the line where unbounded fluid is cut off.
 enum class BoundaryKind { kWall, kSphere, kAxis, kShearFree, kInterface };
 
 /// A curved edge of a boundary.
@@ -30,7 +32,7 @@ struct RowPicture {
   /// The flow on the finest mesh in the half-plane (rho, z), whose origin is the point of the
   /// neighbour that is nearest to the sphere. The pressure has the mean 0 in a container, and is 0
   /// far away in unbounded fluid. If the sphere slides or rolls, the flow is (u_rho cos phi,
-  /// u_phi sin phi, u_z cos phi) and the pressure p cos phi; these are the values at phi = 0.
+  /// u_phi sin phi, u_z cos phi) and the pressure p cos phi; `flow` has u_rho, u_z and p.
   FlowField flow;
   std::vector<BoundaryEdge> boundary;  ///< of the fluid, and interfaces in it
   /// Of the approach: the stream function psi [L^3/T] at the nodes, with u_rho = -(1/rho) dpsi/dz

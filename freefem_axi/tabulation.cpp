@@ -11,16 +11,11 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {
-
-// Revision of the scripts. Raise it when a change of the scripts alters results by more than their
-// error estimates: tables of another revision are then computed again.
-constexpr int kDragMethod = 3;
 
 /// The first numbers of the script's line "viscontact-result".
 struct Answer {
@@ -84,18 +79,6 @@ std::optional<double> leading_coefficient(const Tabulation& tabulation) {
   return coefficient;
 }
 
-std::string tabulation_hash(const Tabulation& tabulation) {
-  std::string text = fmt::format(
-      "{}; {}; {} {} {} {};", geometry_in_words(tabulation), container_in_words(tabulation),
-      format_number(tabulation.viscosity), format_number(tabulation.radius),
-      format_number(tabulation.relative_accuracy), kDragMethod);
-  for (const double gap : tabulation.gaps) text += " " + format_number(gap);
-  text += ";";
-  for (const double velocity : tabulation.reference_velocities)
-    text += " " + format_number(velocity);
-  return sha256(text);
-}
-
 std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
                                        double reference_velocity) {
   const auto& geometry = find_geometry(tabulation.geometry);
@@ -123,10 +106,10 @@ SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) 
   return {tabulation.viscosity, speed};
 }
 
-lubrication::ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation,
-                                     double gap, double reference_velocity,
-                                     const std::vector<std::string>& further_arguments,
-                                     std::string* output) {
+lubrication::MotionRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
+                                 double reference_velocity,
+                                 const std::vector<std::string>& further_arguments,
+                                 std::string* output) {
   const auto start = std::chrono::steady_clock::now();
   const auto scale = solve_scale(tabulation, reference_velocity);
   auto scaled = tabulation;
@@ -139,7 +122,7 @@ lubrication::ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& t
   const auto [force, estimate, unknowns, order] =
       read_answer(result, gap, reference_velocity, freefem.row_limit);
 
-  lubrication::ForceTableRow row;
+  lubrication::MotionRow row;
   row.gap = gap;
   row.reference_velocity = reference_velocity;
   row.force = force * scale.viscosity * scale.speed;
@@ -150,8 +133,8 @@ lubrication::ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& t
                             "to 1",
                             format_number(gap), format_number(reference_velocity), force,
                             scale.viscosity, scale.speed));
-  row.drag_factor = -force / (lubrication::stokes_resistance(scaled.viscosity, tabulation.radius) *
-                              scaled_velocity);
+  row.force_factor = -force / (lubrication::stokes_resistance(scaled.viscosity, tabulation.radius) *
+                               scaled_velocity);
   row.relative_error_estimate = estimate;
   row.degrees_of_freedom = unknowns;
   row.observed_order = order;

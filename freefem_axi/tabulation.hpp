@@ -1,7 +1,7 @@
 // The tabulation of the lubrication force F_lub(q, u0) (physics.md, section 2): its inputs, and the
 // solution of one row, at the gap q and the velocity u0 of the sphere. Case files and
-// force_table_plan.hpp use it. Lengths, masses and times are in any one consistent system of units.
-// If a change alters tabulation_hash(), finished tables are computed again.
+// motion_table_plan.hpp use it. Lengths, masses and times are in any one consistent system of
+// units.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 #include "viscontact/freefem_axi/freefem.hpp"
 #include "viscontact/freefem_axi/geometry.hpp"
-#include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/motion_kind.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact::freefem_axi {
 
@@ -34,8 +34,7 @@ struct Tabulation {
   double relative_accuracy = 0;                   ///< error estimate asked of a row [1], in (0, 1)
   std::string geometry{default_geometry().name};  ///< name of a Geometry
   std::vector<double> geometry_parameters;        ///< in the order of Geometry::parameters
-  /// The motions that are tabulated, each once. Those other than the approach are tabulated by
-  /// motions/motion_table_plan.hpp.
+  /// The motions that are tabulated, each once.
   std::vector<lubrication::MotionKind> motions = {lubrication::MotionKind::kApproach};
 };
 
@@ -53,9 +52,6 @@ double neighbour_ratio(const Tabulation& tabulation, lubrication::MotionKind mot
 /// Theory's coefficient k [M L/T] of the resistance -F_lub/u0 = k/q near contact. Nothing if it is
 /// not known or too large for a double.
 std::optional<double> leading_coefficient(const Tabulation& tabulation);
-
-/// SHA-256 of everything that the forces depend on. Equal inputs have equal hashes.
-std::string tabulation_hash(const Tabulation& tabulation);
 
 /// The arguments of the geometry's script for one row (q, u0).
 std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
@@ -76,9 +72,9 @@ SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity);
 /// If `output` is not null, it is set to everything that FreeFEM printed, in the units of
 /// solve_scale(). Throws Error(kExternalProgram) with the last lines of FreeFEM if it fails or
 /// exceeds its time limit, and Error(kBadInput) if the force is outside the range of a double.
-lubrication::ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation,
-                                     double gap, double reference_velocity,
-                                     const std::vector<std::string>& further_arguments = {},
-                                     std::string* output = nullptr);
+lubrication::MotionRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
+                                 double reference_velocity,
+                                 const std::vector<std::string>& further_arguments = {},
+                                 std::string* output = nullptr);
 
 }  // namespace viscontact::freefem_axi

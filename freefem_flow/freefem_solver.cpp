@@ -64,6 +64,11 @@ class ScaledSolver : public particles::FluidSolver {
   particles::SecondMesh vary_mesh() override { return solver_->vary_mesh(); }
   /// Velocity and pressure of the last velocities(forces, true).
   particles::FlowField flow() override;
+  /// Keeps the flow, with the motions of the particles; see FluidSolver.
+  void keep_flow(bool at_rest, std::span<const double> motions) override;
+  // The saved flow is in the units of the solver, which follow from the case.
+  std::string saved_flow() override { return solver_->saved_flow(); }
+  void load_flow(const std::string& flow) override { solver_->load_flow(flow); }
   /// Number of unknowns of the last mesh; 0 if the solver does not say.
   std::size_t unknowns() const override { return solver_->unknowns(); }
   /// The largest resident memory of the solver so far [MiB]; 0 if it is no process of its own.
@@ -94,9 +99,14 @@ SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain&
 particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units) {
   fluid.viscosity /= units.viscosity;
   fluid.threshold_gap /= units.length;
+  fluid.density /= units.viscosity / (units.length * units.length);
+  for (auto& gradient : fluid.pressure_gradient) gradient /= units.viscosity / units.length;
   if (auto* sides = std::get_if<particles::SideVelocities>(&fluid.boundary))
-    for (auto& side : *sides)
+    for (auto& side : *sides) {
       for (auto& component : side.value) component /= units.length;
+      for (auto& piece : side.pieces.pieces)
+        for (auto& component : piece.value) component /= units.length;
+    }
   return fluid;
 }
 
@@ -150,7 +160,13 @@ void ScaledSolver::place(const particles::FluidParticles& bodies) {
   auto driven = bodies.driven;
   for (auto& [particle, motion] : driven)
     for (std::size_t c = 0; c < components_; ++c) motion[c] /= velocity_units_[c];
-  solver_->place({&scaled, bodies.angles, std::move(driven), inertia});
+  // The unit of time is that of the case.
+  auto flow_step = bodies.flow_step;
+  std::vector<double> masses(flow_step.masses.begin(), flow_step.masses.end());
+  for (std::size_t i = 0; i < masses.size(); ++i)
+    masses[i] *= velocity_units_[i % components_] / force_units_[i % components_];
+  flow_step.masses = masses;
+  solver_->place({&scaled, bodies.angles, std::move(driven), inertia, flow_step});
 }
 
 std::vector<double> ScaledSolver::scaled_forces(std::span<const double> forces) const {
@@ -173,9 +189,16 @@ std::vector<double> ScaledSolver::velocities(std::span<const double> forces, boo
 particles::FlowQuantities ScaledSolver::quantities() {
   auto quantities = solver_->quantities();
   quantities.dissipation *= power_unit_;
+  quantities.kinetic_energy *= power_unit_;
   for (std::size_t i = 0; i < quantities.fluid_forces.size(); ++i)
     quantities.fluid_forces[i] *= force_units_[i % components_];
   return quantities;
+}
+
+void ScaledSolver::keep_flow(bool at_rest, std::span<const double> motions) {
+  std::vector<double> scaled(motions.begin(), motions.end());
+  for (std::size_t i = 0; i < scaled.size(); ++i) scaled[i] /= velocity_units_[i % components_];
+  solver_->keep_flow(at_rest, scaled);
 }
 
 particles::FlowField ScaledSolver::flow() {

@@ -20,18 +20,6 @@ struct NamedMotion {
   MotionKind kind;        ///< the motion
 };
 
-/// Force and torque of the fluid on a body, over those of the sphere alone but for the sign [1]:
-/// force = -6 pi mu r u0 * force if the sphere slides at u0 [L/T], -6 pi mu r^2 w0 * force if it
-/// turns at w0 [1/T]; torque = -8 pi mu r^2 u0 * torque, or -8 pi mu r^3 w0 * torque. r is always
-/// the radius of the first sphere.
-struct ActionFactors {
-  double force = 0;   ///< factor of the force [1]
-  double torque = 0;  ///< factor of the torque [1]
-  /// Error of `force`, over the sphere's force factor if it slides, or torque factor if it turns.
-  double force_error_estimate = 0;
-  double torque_error_estimate = 0;  ///< error of `torque`, over the same factor
-};
-
 /// All motions, in the order of MotionKind.
 std::span<const NamedMotion> all_motions();
 

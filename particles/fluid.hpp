@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/piecewise_constant.hpp"
 
 namespace viscontact::particles {
 
@@ -32,7 +33,20 @@ enum class Coupling {
   kSplitting,    ///< the velocities that the fluid gives are projected (the lecture's method)
 };
 
+/// How the velocity is carried along in a fluid with inertia, docs/physics.md (6.9).
+enum class Advection {
+  kSemiImplicit,  ///< by the velocity extrapolated from the steps before, within the linear problem
+  kCharacteristics,  ///< the velocities of the steps before are taken where the fluid was
+};
+
+/// How a fluid with inertia begins.
+enum class FlowStart {
+  kRest,    ///< the fluid is at rest
+  kStokes,  ///< it has the Stokes flow of the first instant
+};
+
 /// Velocity of a wall: constant, or a parabola along the wall that is 0 at both ends, or not given.
+/// In a fluid with inertia it may depend on time.
 struct WallVelocity {
   /// What is given on the wall.
   enum class Kind {
@@ -43,6 +57,16 @@ struct WallVelocity {
   Kind kind = Kind::kConstant;  ///< what is given
   /// x and y of a constant velocity; of a parabola value[0] is the largest speed [L/T].
   std::array<double, 2> value{};
+  /// Takes the place of `value` if it has pieces.
+  PiecewiseConstant pieces{};
+  /// If the period [T] is > 0, the velocity is multiplied by 1 + amplitude sin(2 pi time/period).
+  double period = 0;
+  double amplitude = 0;  ///< without dimension
+
+  /// True if the velocity depends on time.
+  bool depends_on_time() const { return !pieces.pieces.empty() || period > 0; }
+  /// The velocity, as in `value`, at `time` [T].
+  std::array<double, 2> at(double time) const;
 };
 
 /// The velocity E x of all walls, with the constant matrix E; where the domain is periodic both
@@ -59,7 +83,12 @@ using SideVelocities = std::array<WallVelocity, 4>;
 /// The fluid around the particles, and how its flow is computed: `[fluid]` of a case.
 struct Fluid {
   double viscosity = 0;  ///< mu [M/(L T)], > 0
-  double density = 0;    ///< of the fluid [M/L^3]; 0: Stokes flow, the only possibility so far
+  double density = 0;    ///< rho_f [M/L^3], >= 0; 0: Stokes flow
+  /// The rest is used by a fluid with a density only.
+  Advection advection = Advection::kSemiImplicit;  ///< how velocities are carried along
+  FlowStart start = FlowStart::kRest;              ///< the flow at time 0
+  /// Uniform pressure gradient that drives the fluid, and acts on particles, too [M/(L^2 T^2)].
+  std::array<double, 2> pressure_gradient{};
   /// How particles are kept rigid; kRigid needs the fitted mesh.
   RigidConstraint constraint = RigidConstraint::kPenalty;
   /// > 0, docs/physics.md (6.1); used by kPenalty only. Velocities have an error proportional to
@@ -75,6 +104,9 @@ struct Fluid {
   std::variant<LinearFlow, SideVelocities> boundary;
   /// Command of a solver of the user's own; empty: FreeFEM.
   std::vector<std::string> solver;
+
+  /// True if the fluid has inertia.
+  bool has_inertia() const { return density > 0; }
 };
 
 }  // namespace viscontact::particles

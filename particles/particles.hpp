@@ -55,6 +55,12 @@ struct Particles {
   Vector velocity(std::size_t k) const { return point_of(velocities.data(), k, dimension); }
 };
 
+/// Area of a disc (dimension 2) [L^2], volume of a sphere (otherwise) [L^3].
+inline double size_of_particle(int dimension, double radius) {
+  constexpr double kPi = 3.141592653589793;
+  return dimension == 2 ? kPi * radius * radius : 4 * kPi / 3 * radius * radius * radius;
+}
+
 /// Moment of inertia of a homogeneous disc or sphere about its centre [M L^2].
 inline double homogeneous_inertia(int dimension, double mass, double radius) {
   return (dimension == 3 ? 0.4 : 0.5) * mass * radius * radius;

@@ -2,6 +2,7 @@
 // times are in the units of the case.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 namespace viscontact::particles {
@@ -19,6 +20,13 @@ struct FluidStepReport {
   /// Apparent viscosity over that of the fluid [1], docs/physics.md (6.6); 0 if the flow without
   /// particles does not dissipate or is not known (FlowQuantities).
   double apparent_viscosity = 0;
+  // In a fluid with inertia:
+  double kinetic_energy = 0;   ///< of the fluid [M L^2/T^2], in two dimensions per unit length
+  double reynolds_number = 0;  ///< largest rho_f |V| 2 r/mu of a particle
+  double courant_number = 0;   ///< FlowQuantities::courant_number
+  /// Sum of the forces of the fluid on the particles whose motion is given [M L/T^2]; on an axis the
+  /// first is that along z.
+  std::array<double, 2> given_force{};
   double seconds = 0;  ///< wall time of the step: mesh, fluid solver and contacts [s]
   /// Errors of the velocities of the particles; < 0 if they were not estimated in this step.
   RelativeErrors velocity_errors;

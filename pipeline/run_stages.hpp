@@ -1,5 +1,7 @@
-// The main job: the stages tabulate, fit, simulate, compare and report, one after the other. The
-// command `run` calls it.
+// Runs the five stages of the main job in order: the drag of the sphere is tabulated over the gap,
+// a formula is fitted to the table, each model simulates the motion, the motions are compared, and
+// the report is written. The command `run` calls it; a change must keep the order, because each
+// stage reads the files of those before it.
 #pragma once
 
 #include <filesystem>

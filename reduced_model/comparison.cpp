@@ -11,7 +11,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/text/json.hpp"
+#include "viscontact/common/text/json_fields.hpp"
 
 namespace viscontact::reduced_model {
 namespace {
@@ -135,84 +135,50 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
   return comparison;
 }
 
+void fields_of(JsonFields& json, Rebound& rebound) {
+  json("time", rebound.time);
+  json("approach_velocity", rebound.approach_velocity);
+  json("solid_impulse", rebound.solid_impulse);
+  json("velocity", rebound.velocity);
+  json("coefficient", rebound.coefficient);
+}
+
+void fields_of(JsonFields& json, MomentumEnergyBudget& budget) {
+  for (const auto& amount : kBudgetEntries) json(std::string(amount.name), budget.*amount.value);
+}
+
+void fields_of(JsonFields& json, ModelComparison& model) {
+  json("minimal_gap", model.minimal_gap);
+  json("minimal_gap_time", model.minimal_gap_time);
+  json("recovered_minimal_gap", model.recovered_minimal_gap);
+  json("contact_interval", model.contact_interval);
+  json("rebounds", model.rebounds, Absence::kAllowed);
+  json("sup_gap_distance", model.sup_gap_distance);
+  json("l1_gap_distance", model.l1_gap_distance);
+  json("l1_velocity_distance", model.l1_velocity_distance);
+  json("books", model.budget, Absence::kAllowed);
+  json("steps", model.steps);
+  json("seconds", model.seconds);
+}
+
+void fields_of(JsonFields& json, Comparison& comparison) {
+  json("reference_model", comparison.reference_model);
+  json.by_name(
+      "models", comparison.models, &ModelComparison::model,
+      [](ModelComparison & model) -> auto& { return model; });
+  json.by_name(
+      "failed_models", comparison.failed_models, &ModelWithoutTrajectory::model,
+      [](ModelWithoutTrajectory & failed) -> auto& { return failed.reason; }, Absence::kAllowed);
+  json.foreign_object("provenance");
+}
+
 std::string write_comparison(const Comparison& comparison) {
-  Json json;
-  json["reference_model"] = comparison.reference_model;
-  json["models"] = Json::object();
-  for (const auto& model : comparison.models) {
-    Json& entry = json["models"][model.model];
-    entry["minimal_gap"] = model.minimal_gap;
-    entry["minimal_gap_time"] = model.minimal_gap_time;
-    entry["recovered_minimal_gap"] =
-        model.recovered_minimal_gap ? Json(*model.recovered_minimal_gap) : Json();
-    entry["contact_interval"] = model.contact_interval ? Json(*model.contact_interval) : Json();
-    entry["rebounds"] = Json::array();
-    for (const auto& of : model.rebounds)
-      entry["rebounds"].push_back({{"time", of.time},
-                                   {"approach_velocity", of.approach_velocity},
-                                   {"solid_impulse", of.solid_impulse},
-                                   {"velocity", of.velocity},
-                                   {"coefficient", of.coefficient}});
-    entry["sup_gap_distance"] = model.sup_gap_distance;
-    entry["l1_gap_distance"] = model.l1_gap_distance;
-    entry["l1_velocity_distance"] = model.l1_velocity_distance;
-    entry["books"] = Json();
-    if (model.budget)
-      for (const auto& amount : kBudgetEntries)
-        entry["books"][std::string(amount.name)] = (*model.budget).*amount.value;
-    entry["steps"] = model.steps;
-    entry["seconds"] = model.seconds;
-  }
-  json["failed_models"] = Json::object();
-  for (const auto& failed : comparison.failed_models)
-    json["failed_models"][failed.model] = failed.reason;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return JsonFields::text_of(comparison);
 }
 
 Comparison read_comparison(const std::filesystem::path& path) {
-  const auto document = JsonDocument::parse(read_file(path), path.string());
-  try {
-    const auto& json = document.root();
-    Comparison comparison;
-    comparison.reference_model = json.at("reference_model").get<std::string>();
-    for (const auto& [name, entry] : json.at("models").items()) {
-      ModelComparison model;
-      model.model = name;
-      model.minimal_gap = entry.at("minimal_gap").get<double>();
-      model.minimal_gap_time = entry.at("minimal_gap_time").get<double>();
-      if (!entry.at("recovered_minimal_gap").is_null())
-        model.recovered_minimal_gap = entry.at("recovered_minimal_gap").get<double>();
-      if (!entry.at("contact_interval").is_null())
-        model.contact_interval = entry.at("contact_interval").get<std::array<double, 2>>();
-      if (entry.contains("rebounds"))
-        for (const auto& of : entry.at("rebounds"))
-          model.rebounds.push_back(
-              {of.at("time").get<double>(), of.at("approach_velocity").get<double>(),
-               of.at("solid_impulse").get<double>(), of.at("velocity").get<double>(),
-               of.at("coefficient").get<double>()});
-      model.sup_gap_distance = entry.at("sup_gap_distance").get<double>();
-      model.l1_gap_distance = entry.at("l1_gap_distance").get<double>();
-      model.l1_velocity_distance = entry.at("l1_velocity_distance").get<double>();
-      if (entry.contains("books") && !entry.at("books").is_null()) {
-        model.budget.emplace();
-        for (const auto& amount : kBudgetEntries)
-          (*model.budget).*amount.value =
-              entry.at("books").at(std::string(amount.name)).get<double>();
-      }
-      model.steps = entry.at("steps").get<long>();
-      model.seconds = entry.at("seconds").get<double>();
-      comparison.models.push_back(model);
-    }
-    if (json.contains("failed_models"))  // Viscontact 0.1.0 did not write this key
-      for (const auto& [name, reason] : json.at("failed_models").items())
-        comparison.failed_models.push_back({name, reason.get<std::string>()});
-    return comparison;
-  } catch (const Json::exception& error) {
-    throw_bad_input(
-        {path.string()},
-        fmt::format("is not a comparison file ({}); write one with 'viscontact compare'",
-                    cause_in_words(error)));
-  }
+  return JsonFields::read<Comparison>(read_file(path), path.string(),
+                                      "; 'viscontact compare' writes such a file");
 }
 
 }  // namespace viscontact::reduced_model

@@ -11,7 +11,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/text/json.hpp"
+#include "viscontact/common/text/json_fields.hpp"
 
 namespace viscontact::reduced_model {
 namespace {
@@ -116,50 +116,31 @@ FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, 
   return result;
 }
 
-namespace {
-
-Json write_gap(const UncertainGap& gap) {
-  return {{"time", gap.time},
-          {"gap", gap.gap},
-          {"random_interval", gap.random},
-          {"misfit_interval", gap.misfit}};
+void fields_of(JsonFields& json, UncertainGap& gap) {
+  json("time", gap.time);
+  json("gap", gap.gap);
+  json("random_interval", gap.random);
+  json("misfit_interval", gap.misfit);
 }
 
-UncertainGap read_gap(const Json& json) {
-  return {json.at("time"), json.at("gap"), json.at("random_interval"), json.at("misfit_interval")};
+void fields_of(JsonFields& json, FitUncertainty& uncertainty) {
+  double level = 0.95;
+  json("level", level);
+  json("draws", uncertainty.draws);
+  json("refused_draws", uncertainty.refused);
+  json("misfit", uncertainty.misfit);
+  json("minimal_gap", uncertainty.smallest);
+  json("gaps", uncertainty.gaps);
+  json.foreign_object("provenance");
 }
-
-}  // namespace
 
 std::string write_uncertainty(const FitUncertainty& uncertainty) {
-  Json json;
-  json["level"] = 0.95;
-  json["draws"] = uncertainty.draws;
-  json["refused_draws"] = uncertainty.refused;
-  json["misfit"] = uncertainty.misfit;
-  json["minimal_gap"] = write_gap(uncertainty.smallest);
-  json["gaps"] = Json::array();
-  for (const auto& gap : uncertainty.gaps) json["gaps"].push_back(write_gap(gap));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return JsonFields::text_of(uncertainty);
 }
 
 FitUncertainty read_uncertainty(const std::filesystem::path& path) {
-  const auto document = JsonDocument::parse(read_file(path), path.string());
-  try {
-    const auto& json = document.root();
-    FitUncertainty uncertainty;
-    uncertainty.draws = json.at("draws");
-    uncertainty.refused = json.at("refused_draws");
-    uncertainty.misfit = json.at("misfit");
-    uncertainty.smallest = read_gap(json.at("minimal_gap"));
-    for (const auto& gap : json.at("gaps")) uncertainty.gaps.push_back(read_gap(gap));
-    return uncertainty;
-  } catch (const Json::exception& error) {
-    throw_bad_input(
-        {path.string()},
-        fmt::format("is not an uncertainty file ({}); write one with 'viscontact simulate'",
-                    cause_in_words(error)));
-  }
+  return JsonFields::read<FitUncertainty>(read_file(path), path.string(),
+                                          "; 'viscontact simulate' writes such a file");
 }
 
 }  // namespace viscontact::reduced_model

@@ -1,5 +1,5 @@
-// Values of parameters, progress reports, the number of steps, and the times of rows. Lengths,
-// masses and times are in any one consistent system of units.
+// What the models of motion share: the values of their parameters, reports of their progress, the
+// number of their steps, and the times [T] of the rows of their trajectories (motion.hpp).
 #include "viscontact/reduced_model/motion.hpp"
 
 #include <fmt/format.h>
@@ -47,8 +47,8 @@ std::vector<double> row_times(const Motion& motion, const ModelParameter& parame
   auto jumps = motion.external_force.jumps();
   std::erase_if(jumps,
                 [&](double t) { return t >= motion.end_time || are_one_time(t, motion.end_time); });
-  // A multiple of the step that differs from a jump by round-off only is left out, and the jump
-  // kept.
+  // A multiple of the step within 1e-6 of the spacing from a jump differs from the jump by rounding
+  // only; it is left out, and the jump is kept.
   const auto is_a_jump = [&](double t) {
     const auto next = std::ranges::lower_bound(jumps, t);
     const auto close = [&](double jump) { return std::abs(t - jump) < 1e-6 * spacing; };

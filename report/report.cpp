@@ -135,7 +135,7 @@ void add_unmet_accuracy(Warnings& warnings, const results::RunResults& run) {
       run.table->rows, [&](const auto& row) { return row.relative_error_estimate > asked; });
   if (unmet == 0) return;
   const auto worst = std::ranges::max_element(run.table->rows, {},
-                                              &lubrication::ForceTableRow::relative_error_estimate);
+                                              &lubrication::MotionRow::relative_error_estimate);
   warnings.add("table.csv",
                "Accuracy not met: {} of {} rows of the table have an error estimate above the "
                "relative {:.2g} asked for, the largest {:.2g} at gap {:.4g}",

@@ -270,7 +270,7 @@ Plot plot_minimal_gaps(const reduced_model::Comparison& comparison,
   return {"thinnest_film", 180 + 34 * static_cast<int>(rows), {panel}};
 }
 
-Plot plot_fit(const lubrication::ForceTable& table, const lubrication::Fit& fit) {
+Plot plot_fit(const lubrication::MotionTable& table, const lubrication::Fit& fit) {
   PlotCurve points{"table (FreeFEM)", {kBlack, 0, {}, PointKind::kCircle, 0.7}, {}};
   PlotCurve line{fmt::format("fit, basis {}", fit.basis), {kBlue}, {}};
   PlotCurve residual{"|fit / table - 1|", {kBlue, 1.5, {}, PointKind::kDisc, 0.4}, {}};
@@ -279,7 +279,7 @@ Plot plot_fit(const lubrication::ForceTable& table, const lubrication::Fit& fit)
   const lubrication::LubricationForce force(fit);
   const double stokes = lubrication::stokes_resistance(fit.viscosity, fit.radius);
   for (const auto& row : table.rows) {
-    points.points.emplace_back(row.gap, row.drag_factor);
+    points.points.emplace_back(row.gap, row.force_factor);
     // The fit was made from another table if this one has rows outside the fit's interval.
     if (row.gap < fit.gap_interval[0] || row.gap > fit.gap_interval[1]) continue;
     residual.points.emplace_back(

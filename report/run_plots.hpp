@@ -15,7 +15,7 @@ namespace viscontact::report {
 
 /// The drag factor of the table and of the fit; in a second panel the relative difference of the
 /// two beside the table's error estimates.
-Plot plot_fit(const lubrication::ForceTable& table, const lubrication::Fit& fit);
+Plot plot_fit(const lubrication::MotionTable& table, const lubrication::Fit& fit);
 
 /// The gap q(t) of all trajectories, on a linear scale.
 Plot plot_gaps(const std::vector<reduced_model::Trajectory>& trajectories);

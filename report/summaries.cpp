@@ -86,7 +86,7 @@ std::string basis_json(const std::vector<fitting::BasisResult>& results) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string plot_bases(const lubrication::ForceTable& table,
+std::string plot_bases(const lubrication::MotionTable& table,
                        const std::vector<fitting::BasisResult>& results, TextKind kind,
                        const StopToken& stop) {
   constexpr std::array kColours = {kVermilion, kBlue, kBluishGreen, kReddishPurple};

@@ -26,7 +26,7 @@ std::string basis_json(const std::vector<fitting::BasisResult>& results);
 
 /// A picture of the `kind` kSvg, kPdf or kPng: the relative residuals of every basis over the gap,
 /// beside the table's error estimates. Throws Error(kExternalProgram) as draw_picture does.
-std::string plot_bases(const lubrication::ForceTable& table,
+std::string plot_bases(const lubrication::MotionTable& table,
                        const std::vector<fitting::BasisResult>& results, TextKind kind,
                        const StopToken& stop = {});
 

@@ -8,7 +8,7 @@
 
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
@@ -25,7 +25,7 @@ struct RunResults {
   /// The trajectories of the models in the comparison, as far as their files exist; at least one.
   std::vector<reduced_model::Trajectory> trajectories;
   /// The table that the fit was made from; nothing if the run needs no table.
-  std::optional<lubrication::ForceTable> table;
+  std::optional<lubrication::MotionTable> table;
   std::optional<reduced_model::FitUncertainty> uncertainty;  ///< nothing if the run has none
 };
 

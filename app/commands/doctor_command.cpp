@@ -42,10 +42,10 @@ Finding solve_known_row(const freefem_axi::FreeFem& freefem) {
   tabulation.container = freefem_axi::Container{40, 80};
   tabulation.relative_accuracy = kTolerance;
   const auto row = freefem_axi::solve_row(freefem, tabulation, 0.1, -1);
-  const double error = std::abs(row.drag_factor / kBrenner - 1);
+  const double error = std::abs(row.force_factor / kBrenner - 1);
   return {error < kTolerance,
           fmt::format("FreeFEM solves gap 0.1: drag factor {:.7g}, relative error {:.1e}, {:.1f} s",
-                      row.drag_factor, error, row.seconds)};
+                      row.force_factor, error, row.seconds)};
 }
 
 void examine_freefem(const Report& report) {

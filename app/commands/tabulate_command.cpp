@@ -21,7 +21,6 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/motions/job/motion_tables.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/pipeline/tabulate/picture_stage.hpp"
 #include "viscontact/pipeline/tabulate/tabulate_job.hpp"
@@ -113,11 +112,10 @@ std::vector<pipeline::CaseTable> read_case_tables(const std::vector<std::string>
       tabulation->motions = with_place(
           "--motion", [&] { return freefem_axi::parse_motions(motions, tabulation->geometry); });
     const bool several = tabulation->motions.size() > 1;
-    // The plans keep this function, so it must not refer to variables of this one.
-    const auto path_of = [=](lubrication::MotionKind motion) {
+    const auto path_of = [&](lubrication::MotionKind motion) {
       return several ? name / (std::string(to_string(motion)) + ".csv") : csv;
     };
-    std::ranges::move(motions::case_tables(file, read_file(file), *tabulation, path_of),
+    std::ranges::move(pipeline::case_tables(file, read_file(file), *tabulation, path_of),
                       std::back_inserter(tables));
   }
   return tables;

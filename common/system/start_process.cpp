@@ -1,5 +1,6 @@
-// Starts a child process by fork and exec (start_process.hpp). Between fork and exec only
-// async-signal-safe calls are allowed.
+// Starts a child process by fork and exec (start_process.hpp). Between fork and exec a change may
+// only call functions that POSIX lists as async-signal-safe, which neither allocate memory nor take
+// locks, because another thread may hold a lock at the moment of the fork.
 #include "viscontact/common/system/start_process.hpp"
 
 #include <fmt/format.h>
@@ -21,8 +22,8 @@ struct Pipe {
   Descriptor read_end{}, write_end{};
 };
 
-/// A pair of sockets instead of a pipe: a write to a child that no longer reads returns an error
-/// code, where a pipe would cause SIGPIPE.
+/// Sockets and not a pipe, because send() with MSG_NOSIGNAL returns EPIPE if the child no longer
+/// reads. A write to a pipe would raise SIGPIPE.
 Pipe make_pipe() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
@@ -58,14 +59,14 @@ struct ChildStreams {
   int failure;  ///< where it writes the error number if it cannot become the program
 };
 
-/// Runs in the child between fork and exec, where only async-signal-safe calls are allowed. Becomes
-/// the program, or writes the error number to `streams.failure` and ends.
+/// Runs in the child between fork and exec (see the rule at the head of this file). Becomes the
+/// program, or writes the error number to `streams.failure` and ends.
 [[noreturn]] void become(char* const* arguments, char* const* variables, const char* folder,
                          const ChildStreams& streams, pid_t parent) {
-  // In a process group of its own the child does not receive Ctrl-C. Only this process receives it;
-  // it then kills the child and throws Error(kInterrupted).
+  // In a process group of its own the child does not receive Ctrl-C. Only the parent receives
+  // Ctrl-C, kills the child and throws Error(kInterrupted).
   ::setpgid(0, 0);
-  // The kernel ends the child if this process is killed by SIGKILL.
+  // The kernel ends the child when the parent ends in any way, even by SIGKILL.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(127);
   if (::dup2(streams.input, STDIN_FILENO) >= 0 && ::dup2(streams.output, STDOUT_FILENO) >= 0 &&

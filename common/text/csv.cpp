@@ -76,6 +76,63 @@ void check_not_truncated(const CsvComments& comments, std::size_t rows, const st
                               rows, stated->second));
 }
 
+using Fields = std::span<const std::optional<double>>;
+
+/// Number of columns that the library reads at once. It is one number, because each costs seconds
+/// to compile.
+constexpr std::size_t kColumnsAtOnce = 16;
+
+/// Calls `add_row` with the fields of each row and its line. There are at most kColumnsAtOnce
+/// `names`, of which the first `required` must be in the header line.
+void read_columns(const std::string& text, const std::string& file,
+                  std::span<const std::string> names, std::size_t required,
+                  const std::function<void(Fields fields, int line)>& add_row) {
+  // The names beyond those of the requested columns are such that no header line can contain them.
+  std::array<std::string, kColumnsAtOnce> all_names;
+  all_names.fill("\n");
+  std::ranges::copy(names, all_names.begin());
+  std::istringstream stream(text);
+  // Fields are taken as text: the library's own conversion to double does not round-trip.
+  using Reader = io::CSVReader<kColumnsAtOnce, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>,
+                               io::throw_on_overflow, io::single_line_comment<'#'>>;
+  try {
+    // The reader gets no file name, because it would cut off a long one. The errors below name the
+    // file.
+    Reader reader("", stream);
+    std::apply(
+        [&](const auto&... name) {
+          reader.read_header(io::ignore_extra_column | io::ignore_missing_column, name...);
+        },
+        all_names);
+    for (std::size_t i = 0; i < std::min(required, names.size()); ++i)
+      if (!reader.has_column(names[i]))
+        throw_bad_input({file}, "column '" + names[i] + "' is missing from the header line" +
+                                    hint_of_separator(text));
+    std::array<char*, kColumnsAtOnce> fields{};
+    std::array<std::optional<double>, kColumnsAtOnce> numbers;
+    while (std::apply([&](auto&... field) { return reader.read_row(field...); }, fields)) {
+      const int line = static_cast<int>(reader.get_file_line());
+      for (std::size_t i = 0; i < names.size(); ++i)
+        numbers[i] = number_of(fields[i], names[i], file, line);
+      add_row(std::span(numbers).first(names.size()), line);
+    }
+  } catch (const io::error::duplicated_column_in_header& e) {
+    throw_bad_input({file},
+                    std::string("column '") + e.column_name + "' stands twice in the header line");
+  } catch (const io::error::header_missing&) {
+    throw_bad_input({file},
+                    "has no header line; it must name the columns, such as '" + names[0] + "'");
+  } catch (const io::error::too_few_columns& e) {
+    throw_bad_input({file, e.file_line}, "has fewer fields than the header line");
+  } catch (const io::error::too_many_columns& e) {
+    throw_bad_input({file, e.file_line}, "has more fields than the header line");
+  } catch (const io::error::line_length_limit_exceeded& e) {
+    throw_bad_input({file, e.file_line}, "this line is too long for a CSV file");
+  } catch (const io::error::base& e) {
+    throw_bad_input({file}, e.what());
+  }
+}
+
 }  // namespace
 
 CsvComments read_csv_comments(const std::string& text, std::set<std::string>* contradictions) {
@@ -122,60 +179,31 @@ double csv_comment_number(const CsvComments& comments, const std::string& key,
 }
 
 void read_csv_rows(
-    const std::filesystem::path& path, std::span<const std::string> names, std::size_t required,
-    CsvComments& comments, std::set<std::string>& contradictions,
+    std::string text, const std::string& file, std::span<const std::string> names,
+    std::size_t required,
     const std::function<void(std::span<const std::optional<double>> fields, int line)>& add_row) {
-  const std::string file = path.string();
-  std::string text = read_file(path);
   remove_trailing_blank_lines(text);
-  comments = read_csv_comments(text, &contradictions);
-  // The names beyond those of the requested columns are such that no header line can contain them.
-  std::array<std::string, kMostCsvColumns> all_names;
-  all_names.fill("\n");
-  std::ranges::copy(names, all_names.begin());
-  std::istringstream stream(text);
-  // Fields are taken as text: the library's own conversion to double does not round-trip.
-  using Reader = io::CSVReader<kMostCsvColumns, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>,
-                               io::throw_on_overflow, io::single_line_comment<'#'>>;
   std::size_t count = 0;
-  try {
-    // The reader gets no file name, because it would cut off a long one. The errors below name the
-    // file.
-    Reader reader("", stream);
-    std::apply(
-        [&](const auto&... name) {
-          reader.read_header(io::ignore_extra_column | io::ignore_missing_column, name...);
-        },
-        all_names);
-    for (std::size_t i = 0; i < required; ++i)
-      if (!reader.has_column(names[i]))
-        throw_bad_input({file}, "column '" + names[i] + "' is missing from the header line" +
-                                    hint_of_separator(text));
-    std::array<char*, kMostCsvColumns> fields{};
-    std::array<std::optional<double>, kMostCsvColumns> numbers;
-    while (std::apply([&](auto&... field) { return reader.read_row(field...); }, fields)) {
-      const int line = static_cast<int>(reader.get_file_line());
-      for (std::size_t i = 0; i < names.size(); ++i)
-        numbers[i] = number_of(fields[i], names[i], file, line);
-      add_row(std::span(numbers).first(names.size()), line);
+  if (names.size() <= kColumnsAtOnce) {
+    read_columns(text, file, names, required, [&](Fields fields, int line) {
+      add_row(fields, line);
       ++count;
+    });
+  } else {
+    std::vector<std::pair<int, std::vector<std::optional<double>>>> rows;
+    for (std::size_t first = 0; first < names.size(); first += kColumnsAtOnce) {
+      std::size_t row = 0;
+      read_columns(text, file, names.subspan(first, std::min(kColumnsAtOnce, names.size() - first)),
+                   required - std::min(required, first), [&](Fields fields, int line) {
+                     if (first == 0) rows.push_back({line, {}});
+                     auto& all = rows[row++].second;
+                     all.insert(all.end(), fields.begin(), fields.end());
+                   });
     }
-  } catch (const io::error::duplicated_column_in_header& e) {
-    throw_bad_input({file},
-                    std::string("column '") + e.column_name + "' stands twice in the header line");
-  } catch (const io::error::header_missing&) {
-    throw_bad_input({file},
-                    "has no header line; it must name the columns, such as '" + names[0] + "'");
-  } catch (const io::error::too_few_columns& e) {
-    throw_bad_input({file, e.file_line}, "has fewer fields than the header line");
-  } catch (const io::error::too_many_columns& e) {
-    throw_bad_input({file, e.file_line}, "has more fields than the header line");
-  } catch (const io::error::line_length_limit_exceeded& e) {
-    throw_bad_input({file, e.file_line}, "this line is too long for a CSV file");
-  } catch (const io::error::base& e) {
-    throw_bad_input({file}, e.what());
+    for (const auto& [line, fields] : rows) add_row(fields, line);
+    count = rows.size();
   }
-  check_not_truncated(comments, count, text, file);
+  check_not_truncated(read_csv_comments(text), count, text, file);
 }
 
 }  // namespace viscontact

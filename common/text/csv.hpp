@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 
@@ -54,16 +55,12 @@ double csv_comment_number(const CsvComments& comments, const std::string& key,
 /// The text for a message: if it has more than 60 characters, the first 60 of them and "...".
 std::string shortened(const std::string& text);
 
-/// Largest number of columns that can be requested from a file.
-constexpr std::size_t kMostCsvColumns = 16;
-
-/// Does the work of read_csv, and throws its errors, for up to kMostCsvColumns columns: calls
-/// `add_row` with the fields of each row and the row's line in the file. The templates of the CSV
-/// library are instantiated in csv.cpp alone, because each number of columns takes seconds to
-/// compile.
+/// Does the work of read_csv, and throws its errors, for any number of columns of a file with this
+/// content, which messages call `file`: calls `add_row` with the fields of each row and its line in
+/// the file.
 void read_csv_rows(
-    const std::filesystem::path& path, std::span<const std::string> names, std::size_t required,
-    CsvComments& comments, std::set<std::string>& contradictions,
+    std::string text, const std::string& file, std::span<const std::string> names,
+    std::size_t required,
     const std::function<void(std::span<const std::optional<double>> fields, int line)>& add_row);
 
 /// Reads the columns `names` of a CSV file, in this order. The file may have its columns in another
@@ -76,9 +73,10 @@ void read_csv_rows(
 template <std::size_t columns>
 CsvFile<columns> read_csv(const std::filesystem::path& path,
                           const std::array<std::string, columns>& names, std::size_t required) {
-  static_assert(columns <= kMostCsvColumns);
   CsvFile<columns> result;
-  read_csv_rows(path, names, required, result.comments, result.contradictions,
+  const std::string text = read_file(path);
+  result.comments = read_csv_comments(text, &result.contradictions);
+  read_csv_rows(text, path.string(), names, required,
                 [&](std::span<const std::optional<double>> fields, int line) {
                   auto& row = result.rows.emplace_back();
                   std::copy_n(fields.begin(), columns, row.fields.begin());

@@ -27,8 +27,8 @@
 
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
-#include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
@@ -55,7 +55,7 @@ viscontact::reduced_model::Motion lecture_motion() {
 void print_smallest_gaps(const std::string& table_file) {
   // The table has one row for each gap and velocity. Your own table needs only the columns gap,
   // reference_velocity and force, and the comments viscosity and radius.
-  const viscontact::lubrication::ForceTable table =
+  const viscontact::lubrication::MotionTable table =
       viscontact::lubrication::read_force_table(table_file);
 
   // The fit has the coefficients of a basis, and diagnostics that say how far to trust them.

@@ -21,7 +21,8 @@ using WeightedTerm = std::pair<double, lubrication::Term>;
 /// Writes a number as a double of the language.
 using Literal = std::string (*)(double);
 
-/// A literal of C, Python and other languages whose literals are doubles by default.
+/// A literal of Python, or of another language in which a number without a point is as good as one
+/// with a point. C needs c_literal(). `number` is finite.
 inline std::string plain(double number) { return format_number(number); }
 
 /// A Fortran literal in double precision, such as 56.5d0 or 1d-05.

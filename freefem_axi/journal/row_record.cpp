@@ -2,19 +2,16 @@
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <set>
 #include <string_view>
 #include <system_error>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/descriptor.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/text/on_one_line.hpp"
 #include "viscontact/freefem_axi/journal/journal_line.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
@@ -92,29 +89,6 @@ std::vector<std::string> failures_of(const RowRecord& record, const std::vector<
     if (const auto failed = record.failed.find(point); failed != record.failed.end())
       reasons.push_back(failed->second);
   return reasons;
-}
-
-lubrication::FailedRows failed_rows(const RowRecord& record,
-                                    const std::function<std::string(const RowPoint&)>& name_of) {
-  lubrication::FailedRows failed;
-  for (const auto& [point, reason] : record.failed) failed[name_of(point)] = on_one_line(reason);
-  return failed;
-}
-
-std::map<RowPoint, std::string> failed_points(
-    const lubrication::FailedRows& failed, const std::vector<RowPoint>& points,
-    const std::function<std::string(const RowPoint&)>& name_of) {
-  std::map<RowPoint, std::string> reasons;
-  for (const auto& point : points)
-    if (const auto row = failed.find(name_of(point)); row != failed.end())
-      reasons[point] = row->second;
-  return reasons;
-}
-
-std::string freefem_versions(const RowRecord& record) {
-  std::set<std::string> versions;
-  for (const auto& [point, row] : record.finished) versions.insert(row.freefem_version);
-  return fmt::format("{}", fmt::join(versions, ", "));
 }
 
 void remove_journals(const fs::path& table_path, const std::string& hash) {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "viscontact/freefem_axi/journal/table_plan.hpp"
-#include "viscontact/lubrication/failed_rows.hpp"
 
 namespace viscontact::freefem_axi {
 
@@ -21,17 +20,6 @@ std::vector<RowPoint> missing_points(const RowRecord& record, const std::vector<
 
 /// The reasons of those of `points` that failed.
 std::vector<std::string> failures_of(const RowRecord& record, const std::vector<RowPoint>& points);
-
-/// The failed rows of the record for the head of a table: the words of `name_of` (TablePlan) for
-/// each point, and the reason.
-lubrication::FailedRows failed_rows(const RowRecord& record,
-                                    const std::function<std::string(const RowPoint&)>& name_of);
-
-/// The failed rows that a table in a file names, and the reasons, by those of `points` that have
-/// these names.
-std::map<RowPoint, std::string> failed_points(
-    const lubrication::FailedRows& failed, const std::vector<RowPoint>& points,
-    const std::function<std::string(const RowPoint&)>& name_of);
 
 /// Removes the rows of the table with this hash from its journals, once the table has been written.
 /// Rows of other tables stay, because no file contains them yet; a journal without such rows is

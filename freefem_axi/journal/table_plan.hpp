@@ -1,8 +1,7 @@
 // What the journal and the commands need to know of a table whose rows FreeFEM computes one by one,
-// whatever its rows contain: forces on a sphere (force_table_plan.hpp), forces and torques in other
-// motions (motions/motion_table_plan.hpp), or resistance matrices of spheres on a line
-// (collinear_spheres.hpp). Times are in seconds; other numbers have the units that the plan
-// defines.
+// whatever its rows contain: forces and torques on a sphere (motion_table_plan.hpp), or resistance
+// matrices of spheres on a line (swimmer/tabulation). make_plan.hpp makes it. Times are in seconds;
+// other numbers have the units that the plan defines.
 #pragma once
 
 #include <cstddef>
@@ -84,8 +83,5 @@ struct TablePlan {
   std::function<double(const FinishedRow&)> estimate_of;  ///< relative error of the row [1]
   std::function<double(const FinishedRow&)> seconds_of;   ///< time of the row [s]
 };
-
-/// The versions of FreeFEM that computed the rows of `record`, joined by commas.
-std::string freefem_versions(const RowRecord& record);
 
 }  // namespace viscontact::freefem_axi

@@ -5,12 +5,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/freefem_flow/dissipation_alone.hpp"
 #include "viscontact/freefem_flow/process/opening.hpp"
@@ -72,12 +76,36 @@ std::string words_of(const MeshBoundary& boundary) {
   return text;
 }
 
+/// A new folder for files that the solver reads or writes, which ends with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "viscontact-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+      throw Error(ErrorKind::kExternalProgram,
+                  fmt::format("cannot make the folder {} for the flow of the fluid", name));
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 }  // namespace
 
 FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain& domain,
                          std::span<const double> radii, int dimension, SolverCommand command,
                          MeshBoundaryMaker make_boundary, const SolverLimits& limits)
-    : dimension_(dimension),
+    : fluid_(fluid),
+      domain_(domain),
+      dimension_(dimension),
       components_(radii.size() * particles::motion_components(dimension)),
       make_boundary_(std::move(make_boundary)),
       dissipation_alone_(dissipation_alone(fluid, domain)),
@@ -113,9 +141,19 @@ void FlowProcess::place(const FluidParticles& bodies) {
   placement_ += fmt::format("inertia {}", bodies.inertia.size());
   append(placement_, bodies.inertia, "an inertia");
   placement_ += '\n';
+  if (fluid_.has_inertia()) {
+    const auto& step = bodies.flow_step;
+    assert(step.masses.size() == components_);
+    placement_ += fmt::format("step {}", step.order);
+    append(placement_, std::array{step.length, step.before}, "a time step");
+    placement_ += '\n' + walls_at(fluid_, domain_, step.time) + "masses";
+    append(placement_, step.masses, "a mass");
+    placement_ += '\n';
+  }
   boundary_ = wants_boundary_ ? words_of(make_boundary_(bodies, 1)) : "";
   coarser_boundary_.clear();
-  if (largest_system_ > command_.most_unknowns_reproduced) start();
+  // A fluid with inertia remembers the flow, and its systems are solved without random numbers.
+  if (!fluid_.has_inertia() && largest_system_ > command_.most_unknowns_reproduced) start();
   unknowns_ = ask_to_place(boundary_);
   is_on_coarser_mesh_ = false;
   if (wants_boundary_ && unknowns_ > limits_.most_unknowns_to_refine)
@@ -153,7 +191,40 @@ particles::FlowQuantities FlowProcess::quantities() {
   if (alone == 0) alone = dissipation_alone_;
   quantities.apparent_viscosity = alone == 0 ? 0 : quantities.dissipation / alone;
   quantities.fluid_forces = solver_->numbers(components_);
+  if (fluid_.has_inertia()) {
+    quantities.kinetic_energy = solver_->number();
+    quantities.courant_number = solver_->number();
+  }
   return quantities;
+}
+
+void FlowProcess::keep_flow(bool at_rest, std::span<const double> motions) {
+  assert(motions.size() == components_);
+  std::string text = at_rest ? "keep rest" : "keep flow";
+  append(text, motions, "a velocity");
+  solver_->ask("keep", text + '\n');
+  solver_->expect("kept");
+}
+
+std::string FlowProcess::saved_flow() {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "flow.msh";
+  solver_->ask("save", fmt::format("save {}\n", file.string()));
+  solver_->expect("saved");
+  auto text = read_file(file);
+  if (!text.ends_with("complete\n"))
+    throw Error(
+        ErrorKind::kExternalProgram,
+        fmt::format("the fluid solver could not write {}; is the disk full?", file.string()));
+  return text;
+}
+
+void FlowProcess::load_flow(const std::string& flow) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "flow.msh";
+  write_file(file, flow);
+  solver_->ask("load", fmt::format("load {}\n", file.string()));
+  solver_->expect("loaded");
 }
 
 double FlowProcess::vary_penalty() {

@@ -63,6 +63,9 @@ class FlowProcess : public particles::FluidSolver {
   double vary_penalty() override;
   particles::SecondMesh vary_mesh() override;
   particles::FlowField flow() override;
+  void keep_flow(bool at_rest, std::span<const double> motions) override;
+  std::string saved_flow() override;
+  void load_flow(const std::string& flow) override;
   std::size_t unknowns() const override { return unknowns_; }
   double peak_memory_mebibytes() const override;
 
@@ -70,6 +73,8 @@ class FlowProcess : public particles::FluidSolver {
   void start();
   std::size_t ask_to_place(const std::string& boundary);
 
+  particles::Fluid fluid_;
+  particles::Domain domain_;
   int dimension_;
   std::size_t components_;  ///< of the motions of all particles
   MeshBoundaryMaker make_boundary_;

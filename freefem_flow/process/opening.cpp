@@ -52,20 +52,37 @@ std::string wall_line(int label, const char* kind, const WallCoefficients& coeff
   return fmt::format("{} {}{}\n", label, kind, words_of(coefficients));
 }
 
-std::string side_line(int label, const WallVelocity& velocity) {
+WallCoefficients side_coefficients(int label, const WallVelocity& velocity, double time) {
+  const auto value = velocity.at(time);
   switch (velocity.kind) {
     case WallVelocity::Kind::kConstant:
-      return wall_line(label, "moving", {velocity.value[0], 0, 0, velocity.value[1]});
+      return {value[0], 0, 0, value[1]};
     case WallVelocity::Kind::kOpen:
-      return wall_line(label, "open", {});
+      return {};
     case WallVelocity::Kind::kParabolic:
       break;
   }
-  const double speed = velocity.value[0];  // along the inward normal
+  const double speed = value[0];  // along the inward normal
   const bool inward_is_positive = label == 1 || label == 3;
   WallCoefficients coefficients{};
   coefficients[label <= 2 ? 6 : 7] = inward_is_positive ? speed : -speed;
-  return wall_line(label, "moving", coefficients);
+  return coefficients;
+}
+
+/// The coefficients of the wall with this label at `time`.
+WallCoefficients wall_coefficients(const particles::Fluid& fluid, int label, double time) {
+  if (const auto* flow = std::get_if<particles::LinearFlow>(&fluid.boundary)) {
+    const auto& g = flow->gradient;
+    return {0, g[0], g[1], 0, g[2], g[3], 0, 0};
+  }
+  const auto& sides = std::get<particles::SideVelocities>(fluid.boundary);
+  return side_coefficients(label, sides[static_cast<std::size_t>(label - 1)], time);
+}
+
+bool is_open(const particles::Fluid& fluid, int label) {
+  const auto* sides = std::get_if<particles::SideVelocities>(&fluid.boundary);
+  return sides != nullptr &&
+         (*sides)[static_cast<std::size_t>(label - 1)].kind == WallVelocity::Kind::kOpen;
 }
 
 void check_domain(const particles::Fluid& fluid, const particles::Domain& domain, int dimension) {
@@ -92,8 +109,8 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   check_domain(fluid, domain, dimension);
   const bool penalty = fluid.constraint == particles::RigidConstraint::kPenalty;
   std::string text = fmt::format(
-      "viscontact-fluid 2\ndimension {}\nviscosity {}\nconstraint {}\nmesh {}\nedges {}\n",
-      dimension, format_number(fluid.viscosity),
+      "viscontact-fluid {}\ndimension {}\nviscosity {}\nconstraint {}\nmesh {}\nedges {}\n",
+      fluid.has_inertia() ? 3 : 2, dimension, format_number(fluid.viscosity),
       penalty ? "penalty " + format_number(fluid.penalty) : "rigid 0",
       fluid.mesh == particles::FluidMesh::kFitted ? "fitted" : "fixed", fluid.edges_per_particle);
   text += domain_line(domain) + '\n';
@@ -101,20 +118,27 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   const auto labels = walls_of(domain);
   const auto* flow = std::get_if<particles::LinearFlow>(&fluid.boundary);
   text += fmt::format("walls {}\n", labels.size());
-  for (const int label : labels) {
-    if (flow == nullptr) {
-      const auto& sides = std::get<particles::SideVelocities>(fluid.boundary);
-      text += side_line(label, sides[static_cast<std::size_t>(label - 1)]);
-    } else {
-      const auto& g = flow->gradient;
-      text += wall_line(label, "moving", {0, g[0], g[1], 0, g[2], g[3], 0, 0});
-    }
-  }
+  for (const int label : labels)
+    text += wall_line(label, is_open(fluid, label) ? "open" : "moving",
+                      wall_coefficients(fluid, label, 0));
   // The gradient of a domain with walls is in their velocities.
   const bool mean_gradient = flow != nullptr && labels.empty();
   text += "gradient" + words_of(mean_gradient ? flow->gradient : std::array<double, 4>{}) + '\n';
   text += fmt::format("particles {}\n", radii.size());
   for (const double radius : radii) text += format_number(radius) + '\n';
+  if (fluid.has_inertia())
+    text +=
+        fmt::format("density {}\nadvection {}\ngradient{}\n", format_number(fluid.density),
+                    fluid.advection == particles::Advection::kCharacteristics ? "characteristics"
+                                                                              : "semi_implicit",
+                    words_of(fluid.pressure_gradient));
+  return text;
+}
+
+std::string walls_at(const particles::Fluid& fluid, const particles::Domain& domain, double time) {
+  std::string text;
+  for (const int label : walls_of(domain))
+    text += words_of(wall_coefficients(fluid, label, time)) + '\n';
   return text;
 }
 

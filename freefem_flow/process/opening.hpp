@@ -15,4 +15,8 @@ namespace viscontact::freefem_flow {
 std::string opening(const particles::Fluid& fluid, const particles::Domain& domain,
                     std::span<const double> radii, int dimension);
 
+/// The velocities of all walls at `time` [T]: eight numbers for each wall, in the order of the
+/// opening.
+std::string walls_at(const particles::Fluid& fluid, const particles::Domain& domain, double time);
+
 }  // namespace viscontact::freefem_flow

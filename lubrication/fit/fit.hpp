@@ -14,6 +14,10 @@
 
 #include "viscontact/lubrication/fit/fit_diagnostics.hpp"
 
+namespace viscontact {
+class JsonFields;
+}
+
 namespace viscontact::lubrication {
 
 /// Which residuals the least squares minimises: kRelative, fit/force - 1; kAbsolute, fit - force.
@@ -103,6 +107,9 @@ bool is_exact_plane(const Fit& fit);
 /// The fit for a fluid of another viscosity [M/(L T)] > 0. Stokes flow is linear in the viscosity,
 /// so all coefficients are multiplied by the same factor.
 Fit with_viscosity(Fit fit, double viscosity);
+
+/// The fields of a fit file (common/text/json_fields.hpp).
+void fields_of(JsonFields& json, Fit& fit);
 
 /// Reads a fit file and checks it against docs/fit.schema.json. Throws Error(kBadInput) with the
 /// line, the key and what is allowed.

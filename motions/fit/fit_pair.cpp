@@ -15,66 +15,56 @@
 namespace viscontact::motions {
 namespace {
 
-using lubrication::ForceTable;
+using lubrication::MotionKind;
+using lubrication::MotionRow;
+using lubrication::MotionTable;
 
 /// An entry as a table of forces at the velocity -1, so that the force is the resistance.
 struct EntryTable {
-  ForceTable table;
+  MotionTable table;
   std::vector<double> scales;  ///< FitSettings::row_scales
   std::optional<double> theory;
 };
 
-/// What all tables of a pair have in common.
-struct Pair {
-  double viscosity = 0, radius = 0;
-  std::string geometry, container;
-};
-
-template <class Table>
-Pair pair_of(const Table& table) {
-  if (table.neighbour_moves)
-    throw Error(
-        ErrorKind::kBadInput,
-        "the neighbour has a velocity of its own; resistances need tables in which it is at "
-        "rest (velocity_ratio = 0, rotation_ratio = 0)");
-  return {table.viscosity, table.radius, table.geometry, table.container};
-}
-
-Pair common_pair(const PairTables& tables) {
-  std::vector<Pair> pairs;
-  if (tables.approach) pairs.push_back(pair_of(*tables.approach));
-  for (const auto* table : {&tables.slide, &tables.roll, &tables.spin})
-    if (*table) pairs.push_back(pair_of(**table));
-  if (pairs.empty()) throw Error(ErrorKind::kBadInput, "there is no table to fit");
-  const auto refuse = [](const char* what, const auto& one, const auto& other) {
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("the tables are of different pairs: the {} is {} in one and {} in "
-                            "another one",
-                            what, one, other));
+/// Refuses tables of different pairs. Returns one of them.
+const MotionTable& first_of_pair(const PairTables& tables) {
+  if (tables.empty()) throw Error(ErrorKind::kBadInput, "there is no table to fit");
+  const auto require_same = [](bool is_same, const char* what, const auto& one, const auto& other) {
+    if (!is_same)
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("the tables are of different pairs: the {} is {} in one and {} in "
+                              "another one",
+                              what, one, other));
   };
-  const auto& first = pairs.front();
-  for (const auto& pair : pairs) {
-    if (!equal_up_to_rounding(pair.viscosity, first.viscosity))
-      refuse("viscosity", first.viscosity, pair.viscosity);
-    if (!equal_up_to_rounding(pair.radius, first.radius))
-      refuse("radius", first.radius, pair.radius);
-    if (pair.geometry != first.geometry) refuse("geometry", first.geometry, pair.geometry);
-    if (pair.container != first.container) refuse("container", first.container, pair.container);
+  const auto& first = tables.begin()->second;
+  for (const auto& [motion, table] : tables) {
+    if (table.neighbour_moves)
+      throw Error(
+          ErrorKind::kBadInput,
+          "the neighbour has a velocity of its own; resistances need tables in which it is at "
+          "rest (velocity_ratio = 0, rotation_ratio = 0)");
+    require_same(equal_up_to_rounding(table.viscosity, first.viscosity), "viscosity",
+                 first.viscosity, table.viscosity);
+    require_same(equal_up_to_rounding(table.radius, first.radius), "radius", first.radius,
+                 table.radius);
+    require_same(table.geometry == first.geometry, "geometry", first.geometry, table.geometry);
+    require_same(table.container == first.container, "container", first.container, table.container);
   }
   return first;
 }
 
-EntryTable empty_table(const Pair& pair) {
+EntryTable empty_table(const MotionTable& pair, const MotionTable& of_motion) {
   EntryTable entry;
   entry.table.viscosity = pair.viscosity;
   entry.table.radius = pair.radius;
   entry.table.geometry = pair.geometry;
   entry.table.container = pair.container;
+  entry.table.failed_rows = of_motion.failed_rows;
   return entry;
 }
 
 void add_row(EntryTable& entry, double gap, double value, double scale, double estimate) {
-  lubrication::ForceTableRow row;
+  MotionRow row;
   row.gap = gap;
   row.reference_velocity = -1;
   row.force = value;
@@ -84,16 +74,23 @@ void add_row(EntryTable& entry, double gap, double value, double scale, double e
 }
 
 /// The resistance of a motion to itself.
-EntryTable diagonal_entry(const Pair& pair, const MotionTable& table) {
-  const bool slides = table.motion == lubrication::MotionKind::kSlide;
-  const auto units = action_units(table.motion, pair.viscosity, pair.radius);
+EntryTable diagonal_entry(const MotionTable& pair, const MotionTable& table) {
+  EntryTable entry = empty_table(pair, table);
+  if (table.motion == MotionKind::kApproach) {
+    for (const auto& row : table.rows) {
+      const double value = -row.force / row.reference_velocity;
+      add_row(entry, row.gap, value, value, row.relative_error_estimate);
+    }
+    entry.theory = entry.table.leading_coefficient = table.leading_coefficient;
+    return entry;
+  }
+  const bool slides = table.motion == MotionKind::kSlide;
+  const auto units = lubrication::action_units(table.motion, pair.viscosity, pair.radius);
   const double unit = slides ? units.force : units.torque;
-  EntryTable entry = empty_table(pair);
-  entry.table.failed_rows = table.failed_rows;
   for (const auto& row : table.rows) {
-    const double value = unit * (slides ? row.sphere.force : row.sphere.torque);
+    const double value = unit * (slides ? row.force_factor : row.torque_factor);
     add_row(entry, row.gap, value, value,
-            slides ? row.sphere.force_error_estimate : row.sphere.torque_error_estimate);
+            slides ? row.relative_error_estimate : row.torque_error_estimate);
   }
   const auto leading = slides ? table.leading_force_factor : table.leading_torque_factor;
   if (leading) entry.theory = unit * *leading;
@@ -106,15 +103,15 @@ struct Coupling {
   double value = 0, error = 0, diagonal = 0;
 };
 
-Coupling coupling_of(const MotionTable& table, const MotionTableRow& row, const Pair& pair) {
-  const auto units = action_units(table.motion, pair.viscosity, pair.radius);
-  if (table.motion == lubrication::MotionKind::kSlide)
-    return {-units.torque * row.sphere.torque,
-            units.torque * row.sphere.torque_error_estimate * std::abs(row.sphere.force),
-            units.force * row.sphere.force};
-  return {-units.force * row.sphere.force,
-          units.force * row.sphere.force_error_estimate * std::abs(row.sphere.torque),
-          units.torque * row.sphere.torque};
+Coupling coupling_of(const MotionTable& pair, const MotionTable& table, const MotionRow& row) {
+  const auto units = lubrication::action_units(table.motion, pair.viscosity, pair.radius);
+  if (table.motion == MotionKind::kSlide)
+    return {-units.torque * row.torque_factor,
+            units.torque * row.torque_error_estimate * std::abs(row.force_factor),
+            units.force * row.force_factor};
+  return {-units.force * row.force_factor,
+          units.force * row.relative_error_estimate * std::abs(row.torque_factor),
+          units.torque * row.torque_factor};
 }
 
 /// Both values of slide_roll at a gap must agree, because the matrix is symmetric.
@@ -134,35 +131,35 @@ void check_symmetry(double gap, const Coupling& slide, const Coupling& roll) {
                     gap, slide.value, roll.value, allowed));
 }
 
-EntryTable coupling_entry(const Pair& pair, const PairTables& tables) {
-  EntryTable entry = empty_table(pair);
-  const auto& first = tables.slide ? *tables.slide : *tables.roll;
-  entry.table.failed_rows = first.failed_rows;
+EntryTable coupling_entry(const MotionTable& pair, const PairTables& tables) {
+  const auto slide = tables.find(MotionKind::kSlide), roll = tables.find(MotionKind::kRoll);
+  const bool slides = slide != tables.end(), both = slides && roll != tables.end();
+  const auto& first = slides ? slide->second : roll->second;
+  EntryTable entry = empty_table(pair, first);
   for (const auto& row : first.rows) {
-    const auto one = coupling_of(first, row, pair);
-    if (!tables.slide || !tables.roll) {
-      const double length = tables.slide ? pair.radius : 1 / pair.radius;
+    const auto one = coupling_of(pair, first, row);
+    if (!both) {
+      const double length = slides ? pair.radius : 1 / pair.radius;
       add_row(entry, row.gap, one.value, one.diagonal * length,
               one.error / (one.diagonal * length));
       continue;
     }
-    const auto match = std::ranges::find(tables.roll->rows, row.gap, &MotionTableRow::gap);
-    if (match == tables.roll->rows.end())
+    const auto& others = roll->second.rows;
+    const auto match = std::ranges::find(others, row.gap, &MotionRow::gap);
+    if (match == others.end())
       throw Error(
           ErrorKind::kBadInput,
           fmt::format("the table of rolling has no row at gap {}, which that of sliding has",
                       row.gap));
-    const auto other = coupling_of(*tables.roll, *match, pair);
+    const auto other = coupling_of(pair, roll->second, *match);
     check_symmetry(row.gap, one, other);
     const double scale = std::sqrt(one.diagonal * other.diagonal);
     add_row(entry, row.gap, (one.value + other.value) / 2, scale,
             (one.error + other.error) / (2 * scale));
   }
-  const auto units = action_units(first.motion, pair.viscosity, pair.radius);
-  if (tables.slide && first.leading_torque_factor)
-    entry.theory = -units.torque * *first.leading_torque_factor;
-  if (!tables.slide && first.leading_force_factor)
-    entry.theory = -units.force * *first.leading_force_factor;
+  const auto units = lubrication::action_units(first.motion, pair.viscosity, pair.radius);
+  const auto leading = slides ? first.leading_torque_factor : first.leading_force_factor;
+  if (leading) entry.theory = -(slides ? units.torque : units.force) * *leading;
   return entry;
 }
 
@@ -184,22 +181,16 @@ EntryFit fit_entry(PairEntry which, const EntryTable& entry, const PairFitSettin
 }  // namespace
 
 PairFit fit_pair(const PairTables& tables, const PairFitSettings& settings, const StopToken& stop) {
-  const Pair pair = common_pair(tables);
+  const auto& pair = first_of_pair(tables);
   std::map<PairEntry, EntryTable> entries;
-  if (tables.approach) {
-    auto& squeeze = entries.emplace(PairEntry::kSqueeze, empty_table(pair)).first->second;
-    squeeze.table.failed_rows = tables.approach->failed_rows;
-    for (const auto& row : tables.approach->rows) {
-      const double value = -row.force / row.reference_velocity;
-      add_row(squeeze, row.gap, value, value, row.relative_error_estimate);
-    }
-    squeeze.theory = squeeze.table.leading_coefficient = tables.approach->leading_coefficient;
-  }
-  if (tables.slide) entries.emplace(PairEntry::kSlide, diagonal_entry(pair, *tables.slide));
-  if (tables.roll) entries.emplace(PairEntry::kRoll, diagonal_entry(pair, *tables.roll));
-  if (tables.slide || tables.roll)
+  const std::map<MotionKind, PairEntry> diagonal = {{MotionKind::kApproach, PairEntry::kSqueeze},
+                                                    {MotionKind::kSlide, PairEntry::kSlide},
+                                                    {MotionKind::kRoll, PairEntry::kRoll},
+                                                    {MotionKind::kSpin, PairEntry::kSpin}};
+  for (const auto& [motion, table] : tables)
+    entries.emplace(diagonal.at(motion), diagonal_entry(pair, table));
+  if (tables.contains(MotionKind::kSlide) || tables.contains(MotionKind::kRoll))
     entries.emplace(PairEntry::kSlideRoll, coupling_entry(pair, tables));
-  if (tables.spin) entries.emplace(PairEntry::kSpin, diagonal_entry(pair, *tables.spin));
 
   PairFit fit;
   fit.viscosity = pair.viscosity;

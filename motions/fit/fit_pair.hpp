@@ -3,24 +3,18 @@
 // that the matrix of resistances is checked to be symmetric.
 #pragma once
 
-#include <optional>
+#include <map>
 #include <string>
 #include <string_view>
 
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/lubrication/force_table.hpp"
-#include "viscontact/motions/motion_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/motions/pair_fit.hpp"
 
 namespace viscontact::motions {
 
-/// The tables of one pair, at least one of them.
-struct PairTables {
-  std::optional<lubrication::ForceTable> approach;  ///< forces F_z of motion along the axis
-  std::optional<MotionTable> slide;                 ///< of motion across the axis
-  std::optional<MotionTable> roll;                  ///< of rotation about a line across the axis
-  std::optional<MotionTable> spin;                  ///< of rotation about the axis
-};
+/// The tables of one pair by their motions, at least one of them.
+using PairTables = std::map<lubrication::MotionKind, lubrication::MotionTable>;
 
 /// The choices of the fits of a pair, the same for all entries.
 struct PairFitSettings {

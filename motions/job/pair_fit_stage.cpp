@@ -21,15 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using lubrication::MotionKind;
 
-template <class Table>
-void take(std::optional<Table>& place, Table table, const fs::path& file) {
-  if (place)
-    throw Error(
-        ErrorKind::kBadInput,
-        fmt::format("{}: is the second table of its motion; give one of each", file.string()));
-  place = std::move(table);
-}
-
 std::string words_of(const NamedEntry& entry, const EntryFit& one) {
   std::string text = fmt::format("  {:<10}  residual {:.1e} at most (relative)", entry.name,
                                  one.fit.largest_relative_residual);
@@ -122,21 +113,17 @@ bool are_of_pair(const std::vector<std::string>& paths, const std::vector<fs::pa
   return files.size() > 1 ||
          std::ranges::any_of(paths,
                              [](const std::string& path) { return fs::is_directory(path); }) ||
-         (files.size() == 1 && is_motion_table(files.front()));
+         (files.size() == 1 && lubrication::is_motion_table(files.front()));
 }
 
 PairTables read_pair_tables(const std::vector<fs::path>& files) {
   PairTables tables;
   for (const auto& file : files) {
-    if (!is_motion_table(file)) {
-      take(tables.approach, lubrication::read_force_table(file), file);
-      continue;
-    }
-    auto table = read_motion_table(file);
-    auto& place = table.motion == MotionKind::kSlide  ? tables.slide
-                  : table.motion == MotionKind::kRoll ? tables.roll
-                                                      : tables.spin;
-    take(place, std::move(table), file);
+    auto table = lubrication::read_motion_table(file);
+    if (!tables.try_emplace(table.motion, table).second)
+      throw Error(
+          ErrorKind::kBadInput,
+          fmt::format("{}: is the second table of its motion; give one of each", file.string()));
   }
   return tables;
 }

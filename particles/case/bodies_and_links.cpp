@@ -16,7 +16,6 @@
 namespace viscontact::particles {
 namespace {
 
-
 void check_members(const case_file::TomlSection& section, const std::vector<std::int32_t>& members,
                    const ParticlesCase& c) {
   for (auto member = members.begin(); member != members.end(); ++member) {

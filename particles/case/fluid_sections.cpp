@@ -3,6 +3,7 @@
 // users have written cases with them.
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <system_error>
 
 #include "viscontact/particles/case/particles_sections.hpp"
@@ -102,27 +103,57 @@ constexpr std::array kSides = {"left", "right", "bottom", "top"};
 /// Axis of the normal of a side: 0 for left and right, 1 for bottom and top.
 std::size_t axis_of(std::size_t side) { return side / 2; }
 
+/// A side whose velocity is a parabola or depends on time.
+void side_keys(case_file::Keys& keys, WallVelocity& wall) {
+  // pieces() refers to these numbers. A velocity does not end before the case.
+  static const int kAlong = 1, kInPlane = 2;
+  static const double kNoEnd = 0;
+  const bool is_parabola =
+      keys.optional("parabolic", pieces(wall.pieces, kAlong, kNoEnd),
+                    {"largest speed of a parabola along the side, into the box",
+                     "one of both is required", "a number, or pieces"});
+  const bool is_constant = keys.optional(
+      "constant", pieces(wall.pieces, kInPlane, kNoEnd),
+      {"velocity of the whole side", "one of both is required", "`[u, v]`, or pieces"});
+  keys.require(is_parabola != is_constant, "parabolic",
+               "and constant exclude each other; a table of a side must have one of them");
+  keys.optional(
+      "period", case_file::number(wall.period, kModeratelyPositiveOr0),
+      {"if it is > 0, the velocity is multiplied by 1 + `amplitude` sin(2 pi t/`period`); "
+       "needs `density`"});
+  keys.optional("amplitude", case_file::number(wall.amplitude, kModerate), {"see `period`"});
+  keys.require(wall.period > 0 || !keys.has("amplitude"), "amplitude",
+               "has no effect without a period > 0");
+  if (!keys.reads()) return;
+  wall.kind = is_parabola ? WallVelocity::Kind::kParabolic : WallVelocity::Kind::kConstant;
+  auto& pieces = wall.pieces.pieces;
+  if (pieces.empty()) return;
+  pieces.back().until = std::numeric_limits<double>::max();
+  if (pieces.size() > 1) return;
+  wall.value = {pieces.front().value[0], pieces.front().value[1]};
+  pieces.clear();
+}
+
 void read_side(const case_file::TomlSection& section, std::string_view side, WallVelocity& wall) {
   if (section.is_text(side) && section.text(side) == "open") {
     wall.kind = WallVelocity::Kind::kOpen;
   } else if (section.is_table(side)) {
-    const auto table = section.section(side);
-    wall.kind = WallVelocity::Kind::kParabolic;
-    wall.value[0] = table.number("parabolic", kModerate);
-    table.finish();
+    case_file::read_keys(section.section(side), side_keys, wall);
   } else if (section.is_array(side)) {
     Vector velocity;
     read_vector(section, side, velocity, 2);
     wall.value = {velocity[0], velocity[1]};
   } else {
     section.fail(side, fmt::format("is {}; it must be a velocity [u, v], \"open\", or a table {{ "
-                                   "parabolic = SPEED }}",
+                                   "parabolic = SPEED }} or {{ constant = VELOCITY }}",
                                    section.shown(side)));
   }
 }
 
-/// Flux into the box through a side [L^2/T]; 0 for an open side.
-double influx(const BoxDomain& box, std::size_t side, const WallVelocity& wall) {
+/// Flux into the box through a side at time 0 [L^2/T]; 0 for an open side.
+double influx(const BoxDomain& box, std::size_t side, const WallVelocity& of_side) {
+  WallVelocity wall = of_side;
+  wall.value = of_side.at(0);
   const auto axis = axis_of(side);
   const double length = box.to[1 - axis] - box.from[1 - axis];
   // The mean of a parabola that is 0 at both ends is two thirds of its largest value.
@@ -130,6 +161,14 @@ double influx(const BoxDomain& box, std::size_t side, const WallVelocity& wall) 
   if (wall.kind == WallVelocity::Kind::kOpen) return 0;
   const bool is_first = side % 2 == 0;
   return (is_first ? wall.value[axis] : -wall.value[axis]) * length;
+}
+
+/// True if fluid may flow through the side, whose normal is along `axis`.
+bool brings_fluid(const WallVelocity& wall, std::size_t axis) {
+  if (wall.kind != WallVelocity::Kind::kConstant) return true;
+  return wall.value[axis] != 0 || std::ranges::any_of(wall.pieces.pieces, [&](const auto& piece) {
+           return piece.value[axis] != 0;
+         });
 }
 
 /// What `velocity` gives: a shear rate, a strain rate, or the velocities of single sides.
@@ -147,8 +186,8 @@ void velocity_keys(case_file::Keys& keys, VelocityKeys& velocity) {
   for (std::size_t side = 0; side < kSides.size(); ++side)
     velocity.has_side[side] = keys.optional(
         kSides[side],
-        case_file::custom("`[u, v]`, `{ parabolic = SPEED }` or `\"open\"`", read_side,
-                          velocity.sides[side]),
+        case_file::custom("`[u, v]`, `{ parabolic = SPEED }`, another table (below) or `\"open\"`",
+                          read_side, velocity.sides[side]),
         {"velocity of this side of a box: constant, a parabola into the box with its largest speed "
          "in the middle, or open (no stress acts there)",
          "at rest"});
@@ -158,7 +197,7 @@ void velocity_keys(case_file::Keys& keys, VelocityKeys& velocity) {
 void check_sides(const case_file::TomlSection& fluid, const case_file::TomlSection& section,
                  const VelocityKeys& velocity, const Domain& domain) {
   const auto* box = std::get_if<BoxDomain>(&domain);
-  bool any_open = false;
+  bool any_open = false, any_changes = false;
   double net = 0, sum = 0;
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     if (!velocity.has_side[side]) continue;
@@ -172,9 +211,13 @@ void check_sides(const case_file::TomlSection& fluid, const case_file::TomlSecti
                     axis_of(side) == 0 ? "x" : "y");
     const auto& wall = velocity.sides[side];
     any_open = any_open || wall.kind == WallVelocity::Kind::kOpen;
+    any_changes = any_changes || (wall.depends_on_time() && brings_fluid(wall, axis_of(side)));
     net += influx(*box, side, wall);
     sum += std::abs(influx(*box, side, wall));
   }
+  fluid.require(any_open || !any_changes, "velocity",
+                "has a flux into the domain that depends on time; a side must be \"open\", because "
+                "the fluid is incompressible");
   // Fluxes that users compute from rounded numbers balance to about as many digits as these have.
   constexpr double kRounding = 1e-9;
   fluid.require(any_open || std::abs(net) <= kRounding * sum, "velocity",
@@ -225,15 +268,66 @@ void read_velocity(const case_file::TomlSection& fluid, std::string_view key, co
   result.boundary = flow;
 }
 
+void read_pressure_gradient(const case_file::TomlSection& section, std::string_view key,
+                            std::array<double, 2>& gradient) {
+  Vector vector;
+  read_vector(section, key, vector, 2);
+  gradient = {vector[0], vector[1]};
+}
+
+/// The keys of a fluid with inertia.
+void inertia_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
+  keys.optional("density", case_file::number(fluid.density, kModeratelyPositiveOr0),
+                {"rho_f of a fluid [with inertia](fluid.md#inertia-of-the-fluid); 0: Stokes flow"});
+  keys.optional(
+      "advection",
+      case_file::one_of(fluid.advection, {{"semi_implicit", Advection::kSemiImplicit},
+                                          {"characteristics", Advection::kCharacteristics}}),
+      {"how the fluid carries its velocity along: in the linear problem, with the "
+       "velocity extrapolated from the steps before, or by the lecture's characteristics"});
+  keys.optional(
+      "start",
+      case_file::one_of(fluid.start, {{"rest", FlowStart::kRest}, {"stokes", FlowStart::kStokes}}),
+      {"the flow at time 0: at rest, or the Stokes flow around particles that move "
+       "without inertia"});
+  const bool has_gradient = keys.optional(
+      "pressure_gradient",
+      case_file::custom("`[NUMBER, NUMBER]`", read_pressure_gradient, fluid.pressure_gradient),
+      {"uniform pressure gradient that is added, in a box. It drives the fluid in a "
+       "periodic box, and acts on the particles, too",
+       "0"});
+  for (const auto* key : {"advection", "start", "pressure_gradient"})
+    keys.require(fluid.density > 0 || !keys.has(key), key,
+                 "has no effect on Stokes flow; fluid.density must be > 0");
+  keys.require(!has_gradient || !std::holds_alternative<CylinderDomain>(domain),
+               "pressure_gradient", "belongs to a box; it must be left out in a cylinder");
+}
+
+/// What a fluid with inertia cannot have.
+void check_inertia(case_file::Keys& keys, const Fluid& fluid, const Domain& domain) {
+  const auto* sides = std::get_if<SideVelocities>(&fluid.boundary);
+  const bool depends_on_time =
+      sides != nullptr &&
+      std::ranges::any_of(*sides, [](const auto& side) { return side.depends_on_time(); });
+  keys.require(fluid.density > 0 || !depends_on_time, "velocity",
+               "depends on time, which Stokes flow does not know; fluid.density must be > 0");
+  if (!(fluid.density > 0)) return;
+  keys.require(fluid.solver.empty(), "solver",
+               "is a program of your own, which computes Stokes flow; it must be left out if "
+               "fluid.density is > 0");
+  const auto* box = std::get_if<BoxDomain>(&domain);
+  const auto* flow = std::get_if<LinearFlow>(&fluid.boundary);
+  keys.require(box == nullptr || !box->periodic[0] || !box->periodic[1] || flow == nullptr ||
+                   flow->gradient == decltype(flow->gradient){},
+               "velocity",
+               "shears or strains a box that is periodic both ways, whose cell keeps its shape; "
+               "with fluid.density > 0 the box must have walls, or be at rest");
+}
+
 void fluid_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
   keys.required("viscosity", case_file::number(fluid.viscosity, kModeratelyPositive),
                 {"dynamic viscosity mu"});
-  keys.optional("density", case_file::number(fluid.density, kNotNegative),
-                {"0 (Stokes flow) is the only possibility in this version"});
-  keys.require(fluid.density == 0, "density",
-               "is {}; it must be 0, because this version computes Stokes flow, in which the fluid "
-               "has no inertia. Flow with a density is for a later version",
-               fluid.density);
+  inertia_keys(keys, fluid, domain);
   keys.optional(
       "constraint",
       case_file::one_of(fluid.constraint, {{"penalty", RigidConstraint::kPenalty},
@@ -273,6 +367,7 @@ void fluid_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
                "arguments");
   keys.optional("velocity", case_file::custom("a table, see below", read_velocity, domain, fluid),
                 {"velocity of the walls", "at rest"});
+  check_inertia(keys, fluid, domain);
 }
 
 }  // namespace
@@ -296,7 +391,8 @@ std::vector<case_file::KeyTable> domain_and_fluid_tables() {
           case_file::describe_keys("domain.box", box_keys),
           case_file::describe_keys("domain.cylinder", cylinder_keys),
           case_file::describe_keys("[fluid] of particles", fluid_keys, {}),
-          case_file::describe_keys("fluid.velocity", velocity_keys)};
+          case_file::describe_keys("fluid.velocity", velocity_keys),
+          case_file::describe_keys("fluid.velocity, a table of a side", side_keys)};
 }
 
 std::vector<std::string> with_absolute_files(std::vector<std::string> command,

@@ -73,6 +73,28 @@ void read_given_motion(const case_file::TomlSection& section, std::string_view k
                        c.particles.dimension, c.end_time);
 }
 
+/// Reads the mass, or the density in its place.
+void read_mass(case_file::Keys& keys, ParticleTable& p, int dimension, bool in_fluid) {
+  double density = 0;
+  const bool has_density =
+      keys.optional("density", case_file::number(density, kModeratelyPositiveOr0),
+                    {"in place of `mass`, in a fluid: mass of the disc over its area, or of the "
+                     "sphere over its volume",
+                     "from `mass`"});
+  keys.require(
+      !has_density || in_fluid, "density",
+      "belongs to a particle in a fluid; the case has no section [fluid], and the particle "
+      "must have a mass");
+  keys.require(!has_density || !keys.has("mass"), "mass",
+               "must be left out, because density gives the mass of this particle");
+  if (has_density) p.mass = density * size_of_particle(dimension, p.radius);
+  if (has_density && keys.reads()) return;
+  keys.required_if(!in_fluid, "mass",
+                   case_file::number(p.mass, in_fluid ? kModeratelyPositiveOr0 : kMassWithoutFluid),
+                   {"mass of the disc or sphere", "required; in a fluid 0",
+                    "from 1e-100 to 1e100, in a fluid also 0"});
+}
+
 void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase& c) {
   const int dimension = c.particles.dimension;
   const bool in_fluid = c.setting.fluid.has_value();
@@ -102,10 +124,7 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
   keys.required("centre", vector(p.centre, dimension), {"at time 0"});
   keys.required("radius", case_file::number(p.radius, kModeratelyPositive),
                 {"radius of the disc or sphere"});
-  keys.required_if(!in_fluid, "mass",
-                   case_file::number(p.mass, in_fluid ? kModeratelyPositiveOr0 : kMassWithoutFluid),
-                   {"mass of the disc or sphere", "required; in a fluid 0",
-                    "from 1e-100 to 1e100, in a fluid also 0"});
+  read_mass(keys, p, dimension, in_fluid);
   keys.optional("angle", case_file::number(p.angle, kModerate), {"at time 0, in 2D only"});
   keys.optional("moment_of_inertia",
                 case_file::number(p.moment_of_inertia,
@@ -193,7 +212,7 @@ void read_file_of_particles(const case_file::TomlSection& section, ParticlesCase
 /// the mass of each [M].
 struct ArrangementKeys {
   Arrangement asked;
-  double area_fraction = 0, mass = 0;
+  double area_fraction = 0, mass = 0, density = 0;
 };
 
 constexpr int kMostDiscs = 1000000;  // with which times and memory were measured (bench/README.md)
@@ -217,6 +236,16 @@ void arrangement_keys(case_file::Keys& keys, ArrangementKeys& given, bool has_fl
                  "0.05 `radius`"});
   keys.optional("seed", case_file::count(asked.seed, 0, std::numeric_limits<int>::max()),
                 {"the same seed gives the same arrangement, bit for bit on every machine"});
+  const bool has_density = keys.optional(
+      "density", case_file::number(given.density, kModeratelyPositiveOr0),
+      {"in place of `mass`, in a fluid: mass of each disc over its area", "from `mass`"});
+  keys.require(!has_density || has_fluid, "density",
+               "belongs to discs in a fluid; the case has no section [fluid], and the discs must "
+               "have a mass");
+  keys.require(!has_density || !keys.has("mass"), "mass",
+               "must be left out, because density gives the mass of the discs");
+  if (has_density) given.mass = given.density * size_of_particle(2, asked.radius);
+  if (has_density && keys.reads()) return;
   keys.required_if(
       !has_fluid, "mass",
       case_file::number(given.mass, has_fluid ? kModeratelyPositiveOr0 : kModeratelyPositive),

@@ -79,7 +79,7 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.required("time_step", case_file::number(step, kModeratelyPositive), {"at most `end_time`"});
   keys.require(step <= c.end_time, "time_step", "is {}; it must be at most end_time, {}", step,
                c.end_time);
-  constexpr double kMostSteps = 1e9;  // more steps are taken for a slip in the unit of time
+  constexpr double kMostSteps = 1e9;  // more probably come from a wrong unit of time
   keys.require(c.end_time / step <= kMostSteps, "time_step",
                "is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed", step,
                c.end_time / step, kMostSteps);
@@ -222,12 +222,14 @@ void read_domain_and_fluid(const case_file::TomlSection& root, ParticlesCase& c)
                     "section [fluid] belongs to a case without a section [domain]; the case must "
                     "have one, because walls or periods must hold the fluid");
   c.setting.fluid = read_fluid(section, c.setting.domain);
-  // Files of the command are relative to the case file, as all files of a case are.
+  // Files that the command `solver` names are relative to the folder of the case file, as all files
+  // of a case are.
   auto& command = c.setting.fluid->solver;
   command = with_absolute_files(std::move(command), fs::absolute(c.path).parent_path());
 }
 
-/// The case with the root table `root`; see case_of_root().
+/// Reads the whole case from its parsed TOML `root` and checks it. `text` and `path` are those of
+/// the file.
 ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string text,
                                 const fs::path& path) {
   auto c = case_file::titled_case<ParticlesCase>(root, std::move(text), path, true);

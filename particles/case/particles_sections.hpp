@@ -24,9 +24,9 @@ Domain read_domain(const case_file::TomlSection& section, int dimension);
 /// Reads [fluid]. `domain` holds the fluid and must not be empty. If the section does not give
 /// threshold_gap, it is 0 in the result, and set_default_threshold_gap() sets its default.
 ///
-/// Also throws for a density, because only Stokes flow is possible; for `constraint = "rigid"`
-/// together with `mesh = "fixed"`; and for a velocity of the boundary that does not fit the domain:
-/// a shear or strain that is not the same on both sides of a period, an entry for a side that is
+/// Also throws for keys of a fluid with inertia if the density is 0; for a solver of the user's own,
+/// or a sheared cell, if it is > 0; for `constraint = "rigid"` together with `mesh = "fixed"`; and for
+/// a velocity of the boundary that does not fit the domain: a shear or strain that is not the same on both sides of a period, an entry for a side that is
 /// periodic, a net flux through walls without an open side, and any velocity of the walls of a
 /// cylinder.
 Fluid read_fluid(const case_file::TomlSection& section, const Domain& domain);

@@ -13,7 +13,6 @@
 namespace viscontact::particles {
 namespace {
 
-
 /// Smallest gap that the fitted mesh resolves, divided by the radius of the smaller particle.
 constexpr double kLeastGapOfMesh = 1e-3;
 
@@ -259,6 +258,36 @@ void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
                       names(k)));
 }
 
+/// Checks what a fluid with inertia needs of its particles.
+void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c, const ParticleNames& names) {
+  const auto& fluid = *c.setting.fluid;
+  if (!fluid.has_inertia()) return;
+  const auto& p = c.particles;
+  const auto section = root.section("fluid");
+  section.require(p.bodies.empty() && c.setting.links.empty(), "density",
+                  "is > 0, and the case has rigid bodies or links, which this version computes in "
+                  "Stokes flow only; it must be 0, or bodies and links left out");
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    if (is_driven(c, static_cast<std::int32_t>(k))) continue;
+    if (!(p.masses[k] > 0))
+      throw_bad_input(
+          names.at(k),
+          fmt::format("{} has no mass; in a fluid with a density it must have a density "
+                      "(or mass) > 0",
+                      names(k)));
+    // Inertia of a viscous body is that of its density, which is uniform.
+    constexpr double kRounding = 1e-9;
+    if (fluid.constraint == RigidConstraint::kRigid || p.inertias.empty()) continue;
+    const double uniform = homogeneous_inertia(p.dimension, p.masses[k], p.radii[k]);
+    if (std::abs(p.inertias[k] - uniform) > kRounding * uniform)
+      throw_bad_input(names.at(k),
+                      fmt::format("{} has the moment of inertia {}; in a fluid with a density and "
+                                  "constraint = \"penalty\" it must be that of a uniform disc, {}, "
+                                  "or the constraint \"rigid\"",
+                                  names(k), p.inertias[k], uniform));
+  }
+}
+
 /// Throws an error if the fitted mesh cannot resolve the gap between a sphere on the axis and the
 /// side of its cylinder.
 void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) {
@@ -429,6 +458,7 @@ void check_fluid_start(const case_file::TomlSection& root, const ParticlesCase& 
   check_penalty(root, c);
   check_bodies(root, c, names);
   check_masses(root, c, names);
+  check_inertia(root, c, names);
   check_side_of_cylinder(c, names);
   const double limit = std::max(c.setting.fluid->threshold_gap,
                                 kLeastGapOfMesh * std::ranges::max(c.particles.radii));

@@ -65,8 +65,15 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   place_members(p);
   state_.link_forces = std::move(motion.link_forces);
   state_.arm_powers = std::move(motion.arm_powers);
-  state_.earlier_velocities = std::move(motion.flow);
+  if (!setting_.fluid->has_inertia()) {
+    state_.earlier_velocities = std::move(motion.flow);
+  } else if (state_.earlier_step > 0) {
+    // The first step computes the velocity at its end, which the next step computes again.
+    solver_->keep_flow(false, motion.kept);
+    state_.earlier_velocities = std::move(motion.kept);
+  }
   state_.earlier_forces = std::move(motion.drag);
+  state_.step_before = state_.earlier_step;
   state_.earlier_step = h;
   state_.time = next;
   wrap_into_cell(state_);

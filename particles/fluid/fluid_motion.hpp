@@ -22,6 +22,7 @@ struct FluidSimulation::Motion {
       arm_powers;                   ///< State::arm_powers after the step [M L^2/T^3]
   std::vector<double> at_end;       ///< u^{n+1}
   std::vector<double> reported;  ///< u^{n+1} extrapolated from two meshes; empty without estimate
+  std::vector<double> kept;      ///< in a fluid with inertia: velocities in the next step's problem
   StepContacts contact;          ///< the contacts of the step, solved
   std::vector<double> impulse_errors;  ///< of contact.contacts, StepResiduals::impulse_errors
   FluidStepReport fluid;               ///< what the step reports

@@ -61,10 +61,53 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
     p.angular_velocities.resize(p.count());
   }
   wrap_into_cell(state_);
+  if (setting_.fluid->has_inertia() && state_.steps > 0) {
+    if (state_.flow.empty())
+      throw Error(
+          ErrorKind::kBadInput,
+          "the restart file has no flow, because its run had a fluid without inertia; a case "
+          "with fluid.density > 0 can continue runs of such cases only");
+    solver_->load_flow(std::string(state_.flow.begin(), state_.flow.end()));
+    has_flow_ = true;
+  }
+  state_.flow.clear();
   if (setting_.links.empty() && p.bodies.empty()) return;
   auto held = std::make_unique<HeldSolver>(std::move(solver_), error_of_answers(*setting_.fluid));
   held_ = held.get();
   solver_ = std::move(held);
+}
+
+State FluidSimulation::state_to_save() {
+  auto state = state_;
+  if (has_flow_) {
+    const auto flow = solver_->saved_flow();
+    state.flow.assign(flow.begin(), flow.end());
+  }
+  return state;
+}
+
+/// Lets the solver keep the flow at the start, in which free particles have their velocities at time
+/// 0 and, in a Stokes flow, those that it gives them.
+void FluidSimulation::begin_flow(double h) {
+  if (!setting_.fluid->has_inertia() || has_flow_) return;
+  const StepEquation equation(setting_, state_, h, state_.time + h);
+  auto bodies = equation.bodies();
+  bodies.flow_step.order = 0;
+  bodies.flow_step.time = state_.time;
+  if (held_ != nullptr) {
+    const HeldMotion held(setting_.links, state_.particles, LinkTimes{h, h, state_.time + h},
+                          equation.link_times());
+    held_->hold(held.rows(), h);
+  }
+  solver_->place(bodies);
+  const bool at_rest = setting_.fluid->start == FlowStart::kRest;
+  if (at_rest) {
+    state_.earlier_velocities = equation.velocities();
+  } else {
+    state_.earlier_velocities = solver_->velocities(equation.right_side(), true);
+  }
+  solver_->keep_flow(at_rest, state_.earlier_velocities);
+  has_flow_ = true;
 }
 
 /// U^+ of all particles for the velocities `flow` = U without contact.
@@ -72,6 +115,16 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
                                                      std::span<const double> flow, double h,
                                                      const HeldMotion* held) {
   std::vector<double> free(flow.begin(), flow.end());
+  if (setting_.fluid->has_inertia()) {
+    const bool is_first = !(state_.earlier_step > 0);
+    const double share = is_first ? -0.5 : h / (2 * state_.earlier_step);
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      const auto k = static_cast<std::int32_t>(i / layout_.components);
+      if (!equation.is_in_contact(k) && !equation.is_driven(k))
+        free[i] += share * (flow[i] - state_.earlier_velocities[i]);
+    }
+    return free;
+  }
   auto earlier = state_.earlier_velocities;
   if (earlier.size() != free.size() || state_.earlier_forces.size() != free.size() ||
       !(state_.earlier_step > 0) || !equation.drives_as_before())
@@ -111,17 +164,16 @@ StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
                                                 std::span<const double> free, double h,
                                                 double next) {
   const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
+  const auto inertia = equation.inertia_of_projection();
   const auto is_movable = [&](std::int32_t k) {
-    return k >= 0 && !equation.is_driven(k) &&
-           !(is_split && equation.inertia()[layout_.at(k, 0)] == 0);
+    return k >= 0 && !equation.is_driven(k) && !(is_split && inertia[layout_.at(k, 0)] == 0);
   };
   const Mobility mobility = [&](std::span<const double> loads) {
     if (!is_split) return solver_->velocities(loads, false);
     std::vector<double> velocities(loads.size());
     for (std::size_t i = 0; i < loads.size(); ++i)
-      if (is_movable(static_cast<std::int32_t>(i / layout_.components)) &&
-          equation.inertia()[i] > 0)
-        velocities[i] = loads[i] / equation.inertia()[i];
+      if (is_movable(static_cast<std::int32_t>(i / layout_.components)) && inertia[i] > 0)
+        velocities[i] = loads[i] / inertia[i];
     return velocities;
   };
   // An arm gives the distance of its particles.
@@ -239,6 +291,21 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     motion.drag[i] -= equation.inertia()[i] * motion.flow[i];
   if (held) add(held_->forces_of_step(), motion.drag);
   motion.at_end = equation.velocities_at_end(motion.linear, motion.flow);
+  if (setting_.fluid->has_inertia()) {
+    // The splitting changes the velocities of the particles, and not those of the fluid.
+    motion.kept = motion.flow;
+    if (is_split)
+      for (std::size_t i = 0; i < motion.kept.size(); ++i)
+        motion.kept[i] += motion.moved[i] - motion.free[i];
+    const bool is_first = !(state_.earlier_step > 0);
+    const double share = is_first ? 0 : h / state_.earlier_step;
+    motion.at_end = motion.kept;
+    for (std::size_t i = 0; i < motion.at_end.size(); ++i) {
+      const auto k = static_cast<std::int32_t>(i / layout_.components);
+      if (!equation.is_in_contact(k) && !equation.is_driven(k))
+        motion.at_end[i] += share * (motion.kept[i] - state_.earlier_velocities[i]);
+    }
+  }
   std::vector<double> of_step, at_end;  // the forces of the links within the step and at its end
   if (held) {
     auto row_forces = held_->row_forces();
@@ -263,11 +330,33 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
       motion.arm_powers.push_back(power);
     }
   }
-  if (is_estimated) estimate(equation, forces, held ? &*held : nullptr, motion);
+  if (is_estimated && !setting_.fluid->has_inertia())
+    estimate(equation, forces, held ? &*held : nullptr, motion);
   motion.fluid.dissipation = motion.quantities.dissipation;
   motion.fluid.apparent_viscosity = motion.quantities.apparent_viscosity;
+  if (setting_.fluid->has_inertia()) report_inertia(motion);
   motion.fluid.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return motion;
+}
+
+/// Adds what is reported of a step of a fluid with inertia.
+void FluidSimulation::report_inertia(Motion& motion) const {
+  const auto& fluid = *setting_.fluid;
+  const auto& p = state_.particles;
+  auto& report = motion.fluid;
+  report.kinetic_energy = motion.quantities.kinetic_energy;
+  report.courant_number = motion.quantities.courant_number;
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    double square = 0;
+    for (std::size_t d = 0; d < layout_.directions(); ++d) {
+      const auto i = k * layout_.components + d;
+      square += motion.kept[i] * motion.kept[i];
+      if (setting_.given_motions.contains(static_cast<std::int32_t>(k)))
+        report.given_force[d] += motion.quantities.fluid_forces[i];
+    }
+    report.reynolds_number = std::max(report.reynolds_number, fluid.density * std::sqrt(square) *
+                                                                  2 * p.radii[k] / fluid.viscosity);
+  }
 }
 
 /// Asks for the flow on two meshes under the same forces, with those of contacts.
@@ -293,6 +382,7 @@ StepReport FluidSimulation::step(double end) {
   const auto interval = StepGrid(setting_.time_step).next(state_, end);
   if (!interval) return {.time = state_.time, .parts = 1};
   StepReport report{.time = interval->end};
+  begin_flow(interval->h);
   auto motion = solve(interval->h, interval->end, state_.steps == 0 || interval->reaches_end);
   report.iterations = motion.contact.iterations;
   report.fluid = motion.fluid;
@@ -305,6 +395,7 @@ StepReport FluidSimulation::step(double end) {
 
 FlowField FluidSimulation::flow_at_present() {
   const double h = setting_.time_step;
+  begin_flow(h);
   solve(h, state_.time + h, false);
   return solver_->flow();
 }

@@ -45,6 +45,13 @@ struct ForceErrors {
 /// those in the middle of the step, and U^{n-1} is brought to their directions (6.7). A particle
 /// that was in contact in the step before moves with U, of first order, and so do all where a given
 /// motion jumps.
+///
+/// In a fluid with inertia (docs/physics.md (6.9)) the solver has the masses, and U^n is the velocity
+/// at the time t^n of x^n. Away from contact the particles move with
+///
+///     U^+ = U^n + (h^n/(2 h^{n-1})) (U^n - U^{n-1}).
+///
+/// The first step computes U^1 at x^0, and moves the particles by (U^0 + U^1)/2.
 class FluidSimulation {
  public:
   /// `setting.fluid` must be there. `state` is what read_restart returned, or a state of which only
@@ -58,7 +65,9 @@ class FluidSimulation {
   /// a double; and the errors of FluidSolver. The state is then that before the step.
   StepReport step(double end);
 
-  const State& state() const { return state_; }        ///< after the last step
+  const State& state() const { return state_; }  ///< after the last step
+  /// The state with the flow of a fluid with inertia, to be written.
+  State state_to_save();
   const Setting& setting() const { return setting_; }  ///< as the constructor was given it
 
   /// The flow of the last step: where the particles were at the beginning of the step.
@@ -87,6 +96,7 @@ class FluidSimulation {
 
  private:
   struct Motion;
+  void begin_flow(double h);
   Motion solve(double h, double next, bool is_estimated);
   std::vector<double> free_velocities(const StepEquation& equation, std::span<const double> flow,
                                       double h, const HeldMotion* held);
@@ -94,6 +104,7 @@ class FluidSimulation {
                                  double h, double next);
   void estimate(const StepEquation& equation, std::span<const double> forces,
                 const HeldMotion* held, Motion& motion);
+  void report_inertia(Motion& motion) const;
   ContactConditions contact_conditions(std::span<const double> free, double h) const;
   void examine(Motion& motion, double h, StepReport& report) const;
   void accept(Motion motion, double h, double next, StepReport& report);
@@ -114,6 +125,7 @@ class FluidSimulation {
   std::vector<Plane> obstacles_;
   FlowQuantities quantities_;
   ForceErrors force_errors_;
+  bool has_flow_ = false;         // the solver has kept a flow, in a fluid with inertia
   std::vector<double> reported_;  // extrapolated velocities of the last step; empty: there are none
 };
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
@@ -32,6 +33,17 @@ struct MotionLayout {
   std::size_t at(std::int32_t k, std::size_t d) const { return index_of(k) * components + d; }
 };
 
+/// A step of a fluid with inertia. Rates are backward differences from the flows that were kept.
+struct FlowStep {
+  int order = 0;      ///< 1 or 2; 0: Stokes flow, without inertia
+  double length = 0;  ///< of the step from the flow that was kept last to the placement [T], > 0
+  double before = 0;  ///< of the step before it [T]; needed by order 2
+  double time = 0;    ///< of the placement [T], at which walls have their velocities
+  /// Mass and moment of inertia of each component of each particle [M, M L^2]; empty: the fluid has
+  /// no inertia.
+  std::span<const double> masses{};
+};
+
 /// The particles at one time, as the fluid sees them.
 struct FluidParticles {
   const Particles* particles = nullptr;  ///< not null when place() is called
@@ -41,6 +53,7 @@ struct FluidParticles {
   /// Mass and moment of inertia over the time step of each component of each particle [M/T], added
   /// to the resistance; empty: no inertia.
   std::span<const double> inertia;
+  FlowStep flow_step{};  ///< in a fluid with inertia
 };
 
 /// Quantities of the flow that the last call of velocities() with `driving` computed.
@@ -51,6 +64,10 @@ struct FlowQuantities {
   double apparent_viscosity = 0;
   /// Force and torque of the fluid on each particle, motion_components() numbers each.
   std::vector<double> fluid_forces;
+  // In a fluid with inertia:
+  double kinetic_energy = 0;  ///< of the fluid [M L^2/T^2]
+  /// Largest way of the fluid in a step relative to the mesh, over the length of an edge.
+  double courant_number = 0;
 };
 
 /// How results on a second mesh improve those on the mesh of a placement. With the change d of a
@@ -99,12 +116,27 @@ class FluidSolver {
   /// both meshes.
   virtual FlowField flow() = 0;
 
+  // A fluid with inertia remembers the flow. Solvers without inertia need none of these functions.
+
+  /// Takes the flow of the last velocities(forces, true), or a fluid `at_rest`, for the flow at the
+  /// time of the placement, from which the next placement continues. `motions` are those of the
+  /// particles, which may differ from the velocities that the fluid gave them (splitting).
+  virtual void keep_flow(bool at_rest, std::span<const double> motions);
+  /// The flow that was kept, in a form that load_flow() understands.
+  virtual std::string saved_flow();
+  /// Continues from a flow that another object saved.
+  virtual void load_flow(const std::string& flow);
+
   /// Number of unknowns on the mesh of the last placement; 0 if the solver does not say.
   virtual std::size_t unknowns() const = 0;
 
   /// The largest resident memory of the solver so far [MiB], if it is a process of its own; else 0.
   virtual double peak_memory_mebibytes() const { return 0; }
 };
+
+inline void FluidSolver::keep_flow(bool /*at_rest*/, std::span<const double> /*motions*/) {}
+inline std::string FluidSolver::saved_flow() { return {}; }
+inline void FluidSolver::load_flow(const std::string& /*flow*/) {}
 
 /// Starts a solver of the fluid in `domain` around particles with `radii` [L] in `dimension` (2 or
 /// 3) dimensions, and waits until it is ready. freefem_flow::start_fluid_solver is such a function.

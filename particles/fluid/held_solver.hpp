@@ -59,6 +59,11 @@ class HeldSolver : public FluidSolver {
   double vary_penalty() override;
   SecondMesh vary_mesh() override;
   FlowField flow() override { return solver_->flow(); }
+  void keep_flow(bool at_rest, std::span<const double> motions) override {
+    solver_->keep_flow(at_rest, motions);
+  }
+  std::string saved_flow() override { return solver_->saved_flow(); }
+  void load_flow(const std::string& flow) override { solver_->load_flow(flow); }
   std::size_t unknowns() const override { return solver_->unknowns(); }
   double peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }
 

@@ -44,9 +44,13 @@ std::vector<double> mean_forces(const Setting& setting, const Particles& p,
                                 std::span<const double> masses, const MotionLayout& layout,
                                 double from, double to) {
   std::vector<double> forces(p.count() * layout.components);
-  for (std::size_t k = 0; k < p.count(); ++k)
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    // Buoyancy: gravity acts on the fluid as well, and its pressure carries the fluid's weight.
+    const double displaced = setting.fluid->density * size_of_particle(p.dimension, p.radii[k]);
     for (std::size_t d = 0; d < layout.directions(); ++d)
-      forces[k * layout.components + d] = masses[k * layout.components] * setting.gravity[d];
+      forces[k * layout.components + d] =
+          (masses[k * layout.components] - displaced) * setting.gravity[d];
+  }
   for (const auto& [particle, force] : setting.forces) {
     const Vector mean = force.mean(from, to);
     for (std::size_t d = 0; d < layout.directions(); ++d) forces[layout.at(particle, d)] += mean[d];
@@ -91,7 +95,11 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
       h_(h),
       layout_{motion_components(state.particles.dimension)},
       masses_(masses_of(state.particles, layout_)),
-      forces_(mean_forces(setting, state.particles, masses_, layout_, state.time, next)),
+      forces_(mean_forces(setting, state.particles, masses_, layout_,
+                          setting.fluid->has_inertia() && state.steps > 1
+                              ? state.time - state.earlier_step / 2
+                              : state.time,
+                          setting.fluid->has_inertia() ? state.time + h / 2 : next)),
       in_contact_(state.particles.count(), 0) {
   for (const auto& [particle, motion] : setting.given_motions)
     driven_.emplace(particle, given_motion(motion, state.time, next));
@@ -110,6 +118,8 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
 void StepEquation::add_inertia() {
   thetas_.assign(masses_.size(), 1);
   inertia_.assign(masses_.size(), 0);
+  link_times_.clear();
+  if (setting_.fluid->has_inertia()) return;
   for (std::size_t i = 0; i < masses_.size(); ++i) {
     if (!(masses_[i] > 0)) continue;
     thetas_[i] = theta(i / layout_.components, i % layout_.components, masses_[i]);
@@ -121,7 +131,6 @@ void StepEquation::add_inertia() {
   }
   for (std::size_t i = 0; i < masses_.size(); ++i)
     if (masses_[i] > 0) inertia_[i] = masses_[i] / (thetas_[i] * h_);
-  link_times_.clear();
   for (std::size_t k = 0; k < state_.particles.count(); ++k) {
     const auto i = k * layout_.components;
     if (!(masses_[i] > 0) || is_driven(static_cast<std::int32_t>(k))) continue;
@@ -231,15 +240,46 @@ double StepEquation::theta(std::size_t k, std::size_t component, double mass) co
 }
 
 FluidParticles StepEquation::bodies() const {
-  FluidParticles bodies{&state_.particles, state_.particles.angles, driven_, {}};
+  FluidParticles bodies{&state_.particles, state_.particles.angles, driven_, {}, flow_step()};
   if (std::ranges::any_of(inertia_, [](double x) { return x > 0; })) bodies.inertia = inertia_;
   return bodies;
+}
+
+FlowStep StepEquation::flow_step() const {
+  if (!setting_.fluid->has_inertia()) return {};
+  // The first step computes the velocity at its end, where the second step computes it again.
+  constexpr std::int64_t kFirstOfOrder2 = 2;
+  const int order = state_.steps >= kFirstOfOrder2 && !is_any_in_contact() ? 2 : 1;
+  const bool is_first = !(state_.earlier_step > 0);
+  const double length = is_first ? h_ : state_.earlier_step;
+  return {order, length, state_.step_before > 0 ? state_.step_before : length,
+          is_first ? state_.time + h_ : state_.time, masses_};
+}
+
+std::vector<double> StepEquation::inertia_of_projection() const {
+  if (!setting_.fluid->has_inertia()) return inertia_;
+  auto inertia = masses_;
+  for (auto& mass : inertia) mass /= h_;
+  return inertia;
+}
+
+bool StepEquation::is_any_in_contact() const {
+  return std::ranges::any_of(in_contact_, [](char c) { return c != 0; });
 }
 
 double StepEquation::velocity(std::size_t k, std::size_t component) const {
   const auto& p = state_.particles;
   return component < layout_.directions() ? p.velocities[k * layout_.directions() + component]
                                           : p.angular_velocities[k];
+}
+
+std::vector<double> StepEquation::velocities() const {
+  std::vector<double> velocities(masses_.size());
+  for (std::size_t i = 0; i < velocities.size(); ++i)
+    velocities[i] = velocity(i / layout_.components, i % layout_.components);
+  for (const auto& [k, motion] : driven_)
+    for (std::size_t c = 0; c < layout_.components; ++c) velocities[layout_.at(k, c)] = motion[c];
+  return velocities;
 }
 
 std::vector<double> StepEquation::right_side() const {
@@ -306,6 +346,7 @@ std::vector<double> StepEquation::mobility_of_step() const {
 
 bool StepEquation::put_in_contact(std::span<const Contact<2>> contacts) {
   const auto before = thetas_;
+  const bool was_any = is_any_in_contact();
   for (const auto& contact : contacts) {
     if (contact.impulse == 0) continue;
     for (const auto k : {contact.first, contact.second})
@@ -313,7 +354,7 @@ bool StepEquation::put_in_contact(std::span<const Contact<2>> contacts) {
   }
   spread_contact();
   add_inertia();
-  return thetas_ != before;
+  return thetas_ != before || (setting_.fluid->has_inertia() && !was_any && is_any_in_contact());
 }
 
 std::array<double, 3> StepEquation::given_motion(const GivenMotion& motion, double from,

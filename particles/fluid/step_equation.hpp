@@ -26,6 +26,10 @@ namespace viscontact::particles {
 /// before, because near a wall it is many times the Stokes drag. In the first step, theta = 1,
 /// which does not change the order. A particle in contact has theta = 1, because its velocity
 /// jumps: it is U at the end of the step (implicit Euler).
+///
+/// In a fluid with inertia the fluid solver has the masses in its problem (FlowStep): here all
+/// inertia is 0 and theta is 1. U = u^n is then the velocity at the time t^n of the places x^n, and
+/// forces contain the buoyancy in place of the hydrostatic pressure.
 class StepEquation {
  public:
   /// The step of length h > 0 ends at time `next`; `state` is that before the step. Both references
@@ -63,10 +67,21 @@ class StepEquation {
   /// the other particles -1. Empty if no particle accelerates.
   const std::vector<double>& link_times() const { return link_times_; }
 
+  /// In a fluid with inertia: how rates are approximated, with the masses of all components. The
+  /// order is 2 where two flows were kept and no velocity may jump. The masses must outlive it.
+  FlowStep flow_step() const;
+
+  /// The mass [M, M L^2] over the length of the step of each component, in whose norm the splitting
+  /// projects velocities; in a fluid without inertia inertia().
+  std::vector<double> inertia_of_projection() const;
+
   /// By how much a mean force in the step changes the velocity at its end, for each component [T/M,
   /// T/(M L^2)]: h/m. Of particles without mass, the inverse of their drag in (6.5); 0 of driven
   /// particles.
   std::vector<double> mobility_of_step() const;
+
+  /// u^n of all components [L/T, 1/T]; of driven particles their given motions.
+  std::vector<double> velocities() const;
 
   /// True if the velocity of particle `k` is prescribed.
   bool is_driven(std::int32_t k) const { return driven_.contains(k); }
@@ -77,8 +92,11 @@ class StepEquation {
   bool is_in_contact(std::int32_t k) const { return in_contact_[index_of(k)] != 0; }
 
   /// Sets theta = 1 for the particles of contacts with an impulse. Returns true if that changed the
-  /// inertia of any.
+  /// inertia of any, or the order of the step of a fluid with inertia.
   bool put_in_contact(std::span<const Contact<2>> contacts);
+
+  /// True if a particle is in contact.
+  bool is_any_in_contact() const;
 
   /// True if all given motions are the same as in the step before.
   bool drives_as_before() const;

@@ -1,4 +1,4 @@
-// Writes and reads the binary restart file (restart.hpp). Files of versions 1 to 7 must stay
+// Writes and reads the binary restart file (restart.hpp). Files of versions 1 to 8 must stay
 // readable; a change of the fields of State or Pair needs a new version.
 #include "viscontact/particles/io/restart.hpp"
 
@@ -19,8 +19,9 @@ namespace viscontact::particles {
 namespace {
 
 // Version 7 differs from version 6 by memories that version 6 has no array for. It is written only
-// where a pair has such a memory.
-constexpr int kVersion = 7;
+// where a pair has such a memory. Version 8 has the flow of a fluid with inertia, and is written only
+// where there is one.
+constexpr int kVersion = 8;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -92,6 +93,9 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   if (version < 7) return;
   field(arrays.names);
   field(arrays.memories);
+  if (version < 8) return;
+  field(state.step_before);
+  field(state.flow);
 }
 
 /// The first of kMemoryFields that has no array of its own in version 6.
@@ -269,7 +273,8 @@ bool is_consistent(const State& state) {
          is_empty_or(state.earlier_velocities, p.count() * motion_components(p.dimension)) &&
          is_empty_or(state.earlier_forces, p.count() * motion_components(p.dimension)) &&
          std::isfinite(state.velocity_lag) && state.velocity_lag >= 0 &&
-         std::isfinite(state.earlier_step) && state.earlier_step >= 0;
+         std::isfinite(state.earlier_step) && state.earlier_step >= 0 &&
+         std::isfinite(state.step_before) && state.step_before >= 0;
 }
 
 bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {
@@ -298,7 +303,7 @@ std::string write_restart(const State& state) {
     arrays.bodies.push_back({body.centre, body.velocity, body.angle, body.orientation,
                              body.angular_momentum, body.angular_velocity});
   std::string bytes;
-  const int version = arrays.names.empty() ? kVersion - 1 : kVersion;
+  const int version = !state.flow.empty() ? kVersion : arrays.names.empty() ? 6 : 7;
   for_fields(state, arrays, version, Writer{bytes});
   std::string text;
   text.append(kWhat).append(std::to_string(version)).append(", ").append(kOrder).append("\n");

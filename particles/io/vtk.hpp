@@ -46,6 +46,7 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension);
 inline constexpr const char* kPvdHead =
     "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
     "byte_order=\"LittleEndian\">\n<Collection>\n";
+/// The end of a PVD file.
 inline constexpr const char* kPvdFoot = "</Collection>\n</VTKFile>\n";
 std::string pvd_line(double time, const std::string& file);  ///< the line of a frame
 

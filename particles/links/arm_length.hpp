@@ -1,5 +1,7 @@
-// The length of an arm as a function of time. Lengths [L] and times [T] are in the units of the
-// case. case_file/ checks the values, also that the length is > 0 at all times.
+// An arm is a link that holds the distance between the centres of two particles at a given length.
+// This is its length as a function of time. Lengths [L] and times [T] are in the units of the case.
+// particles/case checks the values, also that the length is > 0 at all times; links.hpp and
+// link_rows.cpp use the functions, and a change must keep rate_at() the derivative of length_at().
 #pragma once
 
 #include <array>
@@ -11,7 +13,8 @@ namespace viscontact::particles {
 /// Linear between points. Before the first point and after the last one the length is that of the
 /// point, unless there is a period.
 struct PiecewiseLinearLength {
-  std::vector<std::array<double, 2>> points;  ///< (time [T], length [L]), times increasing, >= 1
+  std::vector<std::array<double, 2>>
+      points;  ///< (time [T], length [L]), one at least; times increase
   /// Period [T], > the last time - the first time; between the last point and the first point of
   /// the next period the length is linear, too. 0: not periodic.
   double period = 0;

@@ -14,8 +14,8 @@ namespace viscontact::particles {
 /// A particles::FluidSimulation if the setting has a fluid, else a particles::Simulation.
 class ParticleSimulation {
  public:
-  /// `threads` >= 1 is the number of threads without a fluid. With a fluid, `start_solver` is called
-  /// and its errors are thrown.
+  /// `threads` >= 1 is the number of threads without a fluid. With a fluid, `start_solver` is
+  /// called and its errors are thrown.
   ParticleSimulation(const Setting& setting, State state, int threads,
                      const StartFluidSolver& start_solver, const StopToken& stop);
 

@@ -52,22 +52,32 @@ void StepTotals::add(const StepReport& report) {
   last_force_errors = fluid.force_errors;
 }
 
-std::string steps_header(bool has_fluid) {
-  return std::string(
-             "step,time,contacts,glued,iterations,residual,largest_overlap,converged,"
-             "impulse_residual,parts,unresolved") +
-         (has_fluid ? ",dissipation,apparent_viscosity,fluid_seconds\n" : "\n");
+std::string steps_header(const std::optional<Fluid>& fluid) {
+  std::string header =
+      "step,time,contacts,glued,iterations,residual,largest_overlap,converged,impulse_residual,"
+      "parts,unresolved";
+  if (fluid) header += ",dissipation,apparent_viscosity,fluid_seconds";
+  if (fluid && fluid->has_inertia())
+    header += ",kinetic_energy_fluid,reynolds_number,courant_number,given_force_x,given_force_y";
+  return header + "\n";
 }
 
-std::string step_row(std::int64_t step, const StepReport& report, bool has_fluid) {
+std::string step_row(std::int64_t step, const StepReport& report,
+                     const std::optional<Fluid>& fluid) {
   auto row =
       fmt::format("{},{},{},{},{},{},{},{},{},{},{}", step, format_number(report.time),
                   report.contacts, report.glued, report.iterations, format_number(report.residual),
                   format_number(report.largest_overlap), report.converged ? 1 : 0,
                   format_number(report.impulse_residual), report.parts, report.unresolved);
-  if (has_fluid)
-    row += fmt::format(",{},{},{:.3g}", format_number(report.fluid.dissipation),
-                       format_number(report.fluid.apparent_viscosity), report.fluid.seconds);
+  const auto& of_fluid = report.fluid;
+  if (fluid)
+    row += fmt::format(",{},{},{:.3g}", format_number(of_fluid.dissipation),
+                       format_number(of_fluid.apparent_viscosity), of_fluid.seconds);
+  if (fluid && fluid->has_inertia())
+    row +=
+        fmt::format(",{},{},{},{},{}", format_number(of_fluid.kinetic_energy),
+                    format_number(of_fluid.reynolds_number), format_number(of_fluid.courant_number),
+                    format_number(of_fluid.given_force[0]), format_number(of_fluid.given_force[1]));
   return row + "\n";
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "viscontact/common/files/growing_file.hpp"
@@ -49,10 +50,11 @@ struct RunRecord {
   std::map<std::string, FileEnd> files;  ///< ends of the files that grow, by name
 };
 
-/// The line with the names of the columns of steps.csv.
-std::string steps_header(bool has_fluid);
+/// The line with the names of the columns of steps.csv of a run with or without a fluid.
+std::string steps_header(const std::optional<Fluid>& fluid);
 /// The row of steps.csv of the step with the number `step`.
-std::string step_row(std::int64_t step, const StepReport& report, bool has_fluid);
+std::string step_row(std::int64_t step, const StepReport& report,
+                     const std::optional<Fluid>& fluid);
 
 /// The comment line of restart.bin that contains the record after the step with the number `step`.
 std::string record_comment(const RunRecord& record, std::int64_t step);

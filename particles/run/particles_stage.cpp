@@ -77,8 +77,10 @@ class Run {
         next_frame = frame_after(report.time);
       }
       tell(report);
-      constexpr double kSaveEvery = 60;  // [s]
-      if (!is_at_end() && seconds_since(last_saved_) > kSaveEvery) save(with_costs(log_.record()));
+      // If a signal ends the solver of a fluid with inertia, the flow since the last call is lost.
+      const auto& fluid = case_.setting.fluid;
+      const double save_every = fluid && fluid->has_inertia() ? 10 : 60;  // [s]
+      if (!is_at_end() && seconds_since(last_saved_) > save_every) save(with_costs(log_.record()));
     }
     return {};
   }
@@ -167,7 +169,9 @@ class Run {
   /// says, and the run continues from there.
   void save(const RunRecord& record) {
     log_.sync();
-    const auto& state = simulation_.state();
+    // In a fluid with inertia the solver has a part of the state.
+    const auto& state =
+        simulation_.has_fluid() ? simulation_.fluid().state_to_save() : simulation_.state();
     write("restart.bin", TextKind::kHashComment,
           record_comment(record, state.steps) + write_restart(state));
     last_saved_ = Clock::now();

@@ -41,7 +41,7 @@ RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenanc
     add_file(list_of(kind), TextKind::kXml, std::string(kPvdHead), kPvdFoot);
   };
   add_list(kFrameFile);
-  add_file("steps.csv", TextKind::kHashComment, steps_header(c.setting.fluid.has_value()));
+  add_file("steps.csv", TextKind::kHashComment, steps_header(c.setting.fluid));
   if (c.setting.laws.restitution.is_on())
     add_file("rebounds.csv", TextKind::kHashComment, kReboundsHeader);
   if (!c.setting.links.empty()) add_list(kLinksFile);
@@ -95,7 +95,7 @@ void RunLog::add_step(const StepReport& report, const State& state,
   record_.totals.add(report);
   const auto steps = record_.totals.steps;
   if (steps <= kMostRows || steps % kThen == 0 || !report.converged)
-    files_.at("steps.csv").append(step_row(state.steps, report, case_.setting.fluid.has_value()));
+    files_.at("steps.csv").append(step_row(state.steps, report, case_.setting.fluid));
   const auto more = rebounds.first(std::min(rebounds.size(), kMostRebounds - record_.rebounds));
   if (more.empty()) return;
   files_.at("rebounds.csv").append(rebound_rows(state.particles, more));

@@ -1,5 +1,5 @@
-// Runs of particles are kept in their folders until the user deletes them, so that adding draws runs
-// the new ones only.
+// Runs of particles are kept in their folders until the user deletes them, so that adding draws
+// runs the new ones only.
 #include "viscontact/particles/sweep/particles_sweep_stage.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-// The stages of sweeps of particles. Their rows are runs with folders of their own, which this process
-// computes, or each task of a job on a cluster computes a share of them; then gather_sweep puts the
-// tables together.
+// The stages of sweeps of particles. Their rows are runs with folders of their own, which this
+// process computes, or each task of a job on a cluster computes a share of them; then gather_sweep
+// puts the tables together.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,6 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
-#include "viscontact/freefem_axi/force_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
@@ -178,9 +177,25 @@ CaseTable case_table(const case_file::Case& c, const fs::path& table) {
                             "because the sphere moves along the axis; `viscontact tabulate` makes "
                             "tables of the other motions",
                             c.path.string()));
-  return {c.path,     c.text,
-          table,      freefem_axi::force_table_plan(tabulation),
-          tabulation, {{lubrication::MotionKind::kApproach, table}}};
+  return case_tables(c.path, c.text, tabulation, [&](auto) { return table; }).front();
+}
+
+std::vector<CaseTable> case_tables(const fs::path& case_path, const std::string& case_text,
+                                   const freefem_axi::Tabulation& tabulation,
+                                   const freefem_axi::TablePath& path_of) {
+  std::vector<CaseTable> tables;
+  for (const auto group : freefem_axi::motion_groups(tabulation)) {
+    auto& one =
+        tables.emplace_back(CaseTable{case_path,
+                                      case_text,
+                                      {},
+                                      freefem_axi::motion_table_plan(tabulation, group, path_of),
+                                      tabulation});
+    for (const auto motion : freefem_axi::asked_motions(tabulation, group))
+      one.motions.emplace_back(motion, path_of(motion));
+    one.table = one.motions.front().second;
+  }
+  return tables;
 }
 
 std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<CaseTable>& tables,

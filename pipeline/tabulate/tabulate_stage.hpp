@@ -12,7 +12,7 @@
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/freefem_axi/journal/table_plan.hpp"
+#include "viscontact/freefem_axi/motion_table_plan.hpp"
 #include "viscontact/pipeline/array_job.hpp"
 
 namespace viscontact::pipeline {
@@ -32,6 +32,14 @@ struct CaseTable {
 /// The table of the approach of a case. Throws Error(kBadInput) if it has no section [tabulation],
 /// or one with other motions.
 CaseTable case_table(const case_file::Case& c, const std::filesystem::path& table);
+
+/// The tables of all motions of a tabulation, whose case is the file `case_path` with the content
+/// `case_text`. `path_of` gives the file of the table of a motion. A table of sliding has that of
+/// rolling as its companion.
+std::vector<CaseTable> case_tables(const std::filesystem::path& case_path,
+                                   const std::string& case_text,
+                                   const freefem_axi::Tabulation& tabulation,
+                                   const freefem_axi::TablePath& path_of);
 
 /// The points of each table's grid that belong to the share. The rows of all tables are numbered in
 /// one sequence from 0.

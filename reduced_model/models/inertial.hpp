@@ -21,21 +21,23 @@ inline constexpr ModelParameter kRelativeTolerance = {
     [](const Motion&, double) { return 1e-9; },
     false,
     "1e-9"};
-/// The parameters of inertial().
+/// The parameters of simulate_inertial().
 inline constexpr std::array kInertialParameters = {kReferenceTimeStep, kRelativeTolerance};
 
-/// Integrates problem (M) (physics.md (4.1)) with CVODE, in the form (S) of inertial_equation.hpp.
+/// Integrates m du/dt = f_ext - R(q) u, dq/dt = u (physics.md (4.1)) with CVODE, in the form of
+/// inertial_equation.hpp.
 ///
 /// The unknown is s = ln(q/r), with the radius r. The equation is stiff, because the film damps at
-/// the rate R/m. Errors of s decay in the film and do not add up. The first integral is satisfied
-/// by construction, so that it cannot check this model. The model is checked by exact states
-/// (data/reference/limit_case_states.csv) and by an integration of (M) in extended precision.
+/// the rate R/m. Errors of s decay in the film and do not add up. The first integral (4.2) of the
+/// equation holds by construction, so that it cannot check this model. The model is checked by
+/// exact states (data/reference/limit_case_states.csv) and by an integration of (4.1) in extended
+/// precision.
 ///
 /// CVODE stops and restarts where f_ext or its slope jumps. The rows are at the multiples of
 /// reference.time_step, at the jumps, and where u = 0 (the extrema of q). The error of s in a step
-/// is at most a tenth of inertial.relative_tolerance, and in free flight 3e-4 times that. If the
-/// film would stop a fall within 1e-12 t of the time t, which no step can resolve, the sphere is
-/// put into the thinnest film of that fall at once.
+/// is at most 0.1 inertial.relative_tolerance, and in free flight at most 3e-5 times it. If the
+/// film would stop a fall within 1e-12 t of the time t, which no step can resolve, the gap is
+/// set to the smallest gap of that fall at once.
 ///
 /// Throws Error(kNotConverged) if CVODE gives up, and Error(kBadInput) if the motion leaves the
 /// interval of the fit.
@@ -45,10 +47,11 @@ Trajectory simulate_inertial(const Motion& motion, const lubrication::Lubricatio
 inline constexpr std::array kInertialRoughParameters = {kReferenceTimeStep, kRelativeTolerance,
                                                         kRestitution};
 
-/// The same with solids that touch at the gap r1 + r2 of the roughness: there the velocity u
-/// becomes -e_d u (4.14), where e_d is the restitution. The sphere rests on the solids if a flight
-/// without drag would last less than 1e-6 end_time, or if e_d = 0, until the force pulls it.
-/// Without roughness this is simulate_inertial().
+/// As simulate_inertial(), but with solids that touch at the gap r1 + r2, where r1 and r2 [L] are
+/// the heights of the roughness of the sphere and of its neighbour: there the velocity u becomes
+/// -e_d u (4.14), where e_d is the restitution. The sphere rests on the solids if a flight without
+/// drag would last less than 1e-6 end_time, or if e_d = 0, until the force pulls it. Without
+/// roughness this is simulate_inertial().
 ///
 /// The velocities of Trajectory::rebounds are those that the sphere would have at the initial gap
 /// without external force, before and after the impact; the latter is 0 if the film stops the

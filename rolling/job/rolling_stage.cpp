@@ -15,7 +15,6 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/json.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/motions/job/motion_tables.hpp"
 #include "viscontact/motions/job/pair_fit_stage.hpp"
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 #include "viscontact/results/failed_models.hpp"
@@ -57,7 +56,7 @@ void make_fit(const RollingCase& c, const RollingFolder& folder, const RollingRe
   if (c.fit) return;
   const auto path_of = [folder](lubrication::MotionKind motion) { return folder.table(motion); };
   failure =
-      pipeline::tabulate_stage(motions::case_tables(c.path, c.text, c.tabulation.value(), path_of),
+      pipeline::tabulate_stage(pipeline::case_tables(c.path, c.text, c.tabulation.value(), path_of),
                                request.jobs, request.stop);
   pipeline::with_failure(failure, [&] {
     motions::fit_pair_stage(motions::pair_table_files({(folder.path / "tables").string()}),

@@ -197,9 +197,7 @@ void read_samples(const case_file::TomlSection& section, std::string_view key, d
   for (std::size_t k = 0; k < c.gaps.size(); ++k) columns.push_back(fmt::format("x{}", k + 1));
   std::vector<double> times;
   std::vector<Eigen::VectorXd> samples;
-  CsvComments comments;
-  std::set<std::string> contradictions;
-  read_csv_rows(path, columns, columns.size(), comments, contradictions,
+  read_csv_rows(read_file(path), file, columns, columns.size(),
                 [&](std::span<const std::optional<double>> fields, int line) {
                   const FilePosition here{file, line};
                   for (std::size_t i = 0; i < columns.size(); ++i)

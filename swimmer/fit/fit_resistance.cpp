@@ -15,7 +15,7 @@
 #include "viscontact/common/splitmix.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/swimmer/resistance/pair_lubrication.hpp"
-#include "viscontact/swimmer/resistance/resistance_matrix.hpp"
+#include "viscontact/swimmer/resistance/resistance_table.hpp"
 #include "viscontact/swimmer/resistance/tensor_polynomial.hpp"
 
 namespace viscontact::swimmer {

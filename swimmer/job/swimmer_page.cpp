@@ -250,7 +250,7 @@ std::string fit_table_of(const SwimmerResults& results) {
   const auto& fit = results.fit;
   double estimate = 0;
   for (const auto& row : results.table.rows)
-    estimate = std::max(estimate, row.largest_error_estimate());
+    estimate = std::max(estimate, row.relative_error_estimate);
   return report::table_of(
       report::table_row("rows of the table", std::to_string(results.table.rows.size())) +
       report::table_row("largest error estimate of an entry, relative",

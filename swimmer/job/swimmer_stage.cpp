@@ -157,30 +157,20 @@ StrokeResult read_stroke(const Json& json, const fs::path& path, std::size_t sph
                        json.at("energy_at_constant_power"), json.at("efficiency")},
                       {json.at("displacement_error_estimate"), json.at("energy_error_estimate")},
                       {}};
-  std::vector<std::string> motion = {"time", "position", "power"}, forces;
-  for (std::size_t k = 1; k < spheres; ++k) motion.push_back(fmt::format("x{}", k));
-  for (std::size_t i = 1; i <= spheres; ++i) forces.push_back(fmt::format("force{}", i));
-  const auto numbers_of = [&](std::span<const std::optional<double>> fields, int line) {
-    Eigen::VectorXd numbers(std::ssize(fields));
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-      if (!fields[i]) throw_bad_input({path.string(), line}, "lacks a number");
-      numbers[static_cast<Eigen::Index>(i)] = *fields[i];
-    }
-    return numbers;
-  };
-  // The reader takes as many columns at once as a row has without the forces.
-  CsvComments comments;
-  std::set<std::string> contradictions;
-  read_csv_rows(path, motion, motion.size(), comments, contradictions,
-                [&](std::span<const std::optional<double>> fields, int line) {
-                  const auto row = numbers_of(fields, line);
-                  stroke.rows.push_back({row[0], row.tail(row.size() - 3), row[1], {}, row[2]});
-                });
-  std::size_t next = 0;
-  read_csv_rows(path, forces, forces.size(), comments, contradictions,
-                [&](std::span<const std::optional<double>> fields, int line) {
-                  stroke.rows.at(next++).forces = numbers_of(fields, line);
-                });
+  std::vector<std::string> columns = {"time", "position", "power"};
+  for (std::size_t k = 1; k < spheres; ++k) columns.push_back(fmt::format("x{}", k));
+  for (std::size_t i = 1; i <= spheres; ++i) columns.push_back(fmt::format("force{}", i));
+  const auto count = static_cast<Eigen::Index>(spheres);
+  read_csv_rows(
+      read_file(path), path.string(), columns, columns.size(),
+      [&](std::span<const std::optional<double>> fields, int line) {
+        Eigen::VectorXd row(std::ssize(fields));
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+          if (!fields[i]) throw_bad_input({path.string(), line}, "lacks a number");
+          row[static_cast<Eigen::Index>(i)] = *fields[i];
+        }
+        stroke.rows.push_back({row[0], row.segment(3, count - 1), row[1], row.tail(count), row[2]});
+      });
   if (stroke.rows.empty()) throw_bad_input({path.string()}, "has no rows");
   return stroke;
 }

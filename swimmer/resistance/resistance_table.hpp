@@ -1,23 +1,23 @@
 // The table of resistance matrices of rigid spheres on a line, over the gaps between them
-// (physics.md, section 7). freefem_axi/collinear_spheres.hpp writes it and
-// fitting/fit_resistance.hpp fits it. Lengths, masses and times are in any one consistent system of
-// units. A change must keep the names of the columns and header keys, because published tables use
-// them.
+// (physics.md, section 7). A change must keep the names of the columns, because published tables
+// use them.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <filesystem>
-#include <map>
-#include <string>
 #include <vector>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/lubrication/table.hpp"
 
 namespace viscontact::swimmer {
 
 /// The matrix at one set of gaps: F_i = sum_j R_ij U_j, with F_i the force of sphere i on the fluid
 /// [M L/T^2] and U_j the velocity of sphere j [L/T], both along the line.
 struct ResistanceRow {
-  /// gaps[i] [L] > 0: distance between the surfaces of spheres i and i + 1.
-  std::vector<double> gaps;
+  static constexpr bool kIsOfLine = true;  ///< table_codec.hpp
+  std::vector<double> gaps;  ///< gaps[i] [L], > 0: between the surfaces of spheres i and i + 1
   /// The entries R_ij [M/T] with i <= j: R11, R12, ..., R1N, R22, ..., RNN. R is symmetric and
   /// positive definite.
   std::vector<double> entries;
@@ -26,29 +26,15 @@ struct ResistanceRow {
   std::vector<double> relative_error_estimates;
   double degrees_of_freedom = 0;  ///< unknowns on the finest mesh
   double seconds = 0;             ///< wall time of the row [s]
-  /// Observed order of convergence in the mesh size [1] of the entry with the largest estimate: 4
-  /// in theory, 0 if it was not observed.
+  /// Observed order of convergence [1] of the entry with the largest estimate, as in MotionRow.
   double observed_order = 0;
-
-  /// The largest of relative_error_estimates, 0 if there are none.
-  double largest_error_estimate() const;
+  double relative_error_estimate = 0;  ///< the largest of them; it follows from the others
 };
 
-/// A table of resistance matrices of spheres in a line, with the problem that it was computed for.
-struct ResistanceTable {
-  double viscosity = 0;       ///< mu [M/(L T)], > 0
-  std::vector<double> radii;  ///< of the spheres along the line [L], at least 2, > 0
-  std::string container;      ///< walls around the fluid, in words; may be empty
-  std::string case_hash;      ///< SHA-256 of the inputs; empty if the table has none
-  std::map<std::string, std::string> versions;  ///< program name to version
-  /// One row for each combination of gaps that was computed.
-  std::vector<ResistanceRow> rows;
-};
-
-/// The fewest and the most spheres of a table. Ten spheres take 44 s and 3.6 GB a row
-/// (bench/README.md).
-inline constexpr std::size_t kFewestSpheres = 2,  ///< the fewest
-    kMostSpheres = 10;                            ///< the most
+using lubrication::kFewestSpheres;
+using lubrication::kMostSpheres;
+/// A table of resistance matrices.
+using ResistanceTable = lubrication::Table<ResistanceRow>;
 
 /// Position of R_ij in ResistanceRow::entries of `spheres` spheres; i and j count from 0, in any
 /// order.
@@ -57,17 +43,31 @@ std::size_t entry_position(std::size_t i, std::size_t j, std::size_t spheres);
 /// The number of entries on and above the diagonal.
 inline std::size_t entry_count(std::size_t spheres) { return spheres * (spheres + 1) / 2; }
 
-/// The names of the columns: gap12, gap23, ..., R11, R12, ..., R11_relative_error_estimate, ...,
-/// and the last members of ResistanceRow. Two numbers are separated by "_" if one of them is 10.
-std::vector<std::string> resistance_columns(std::size_t spheres);
+/// The symmetric matrix R [M/T] of a row for so many spheres.
+Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres);
 
-/// Reads a table. Throws Error(kBadInput) with file and line if a value is missing, not finite or
-/// out of range, if a matrix is not positive definite, or if the number of rows is not that of the
-/// header. The columns of gaps and entries are required.
+/// The columns of a row: gap12, gap23, ..., R11, R12, ..., R11_relative_error_estimate, ..., and
+/// what a row says of its computation. Two numbers of spheres are separated by "_" if one of them
+/// is 10.
+std::vector<lubrication::Column> columns_of(const lubrication::TableHead& head, ResistanceRow& row);
+
+/// Gives the vectors the sizes for the radii of the head.
+void prepare(const lubrication::TableHead& head, ResistanceRow& row);
+
+/// Computes the largest estimate.
+void complete(const lubrication::TableHead& head, ResistanceRow& row);
+
+/// Throws Error(kBadInput) if the matrix is not positive definite.
+void check(const lubrication::TableHead& head, const ResistanceRow& row, const FilePosition& here);
+
+/// The largest of the error estimates of the entries [1], 0 if there are none.
+double largest_estimate(const ResistanceRow& row);
+
+/// Reads a table, of which gaps and entries are required. Throws as read_table() (table_codec.hpp)
+/// and check() do.
 ResistanceTable read_resistance_table(const std::filesystem::path& path);
 
-/// The text of the file: lines "# key: value", the line of column names, and the rows. Every number
-/// has as many digits as are needed to read the same double back.
+/// The text of the file.
 std::string write_resistance_table(const ResistanceTable& table);
 
 }  // namespace viscontact::swimmer

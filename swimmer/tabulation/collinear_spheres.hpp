@@ -1,7 +1,6 @@
 // Rigid spheres on a line in a viscous fluid: the inputs of a table of their resistance matrices,
 // and the solution of one row by FreeFEM (physics.md, section 7). The commands `tabulate` and
-// `swimmer` use it. Lengths, masses and times are in any one consistent system of units. If a
-// change alters collinear_spheres_hash(), finished tables are computed again.
+// `swimmer` use it. Lengths, masses and times are in any one consistent system of units.
 #pragma once
 
 #include <optional>
@@ -42,10 +41,5 @@ ResistanceRow solve_resistance(const freefem_axi::FreeFem& freefem, const Collin
 /// grids, only one of each two mirrored rows is computed, and the other one is its reflection.
 freefem_axi::TablePlan resistance_table_plan(const CollinearSpheres& spheres,
                                              const std::vector<std::vector<double>>& grid);
-
-/// The table of all rows of such a plan. No row may be missing in the record.
-ResistanceTable assemble_table(const CollinearSpheres& spheres,
-                               const std::vector<std::vector<double>>& grid,
-                               const freefem_axi::RowRecord& record);
 
 }  // namespace viscontact::swimmer

@@ -1,13 +1,12 @@
-// The table of resistance matrices as a TablePlan: its rows, their reflections, and their numbers
-// in the journal (collinear_spheres.hpp).
+// The table of resistance matrices as a TablePlan: its rows and their reflections
+// (collinear_spheres.hpp).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "viscontact/common/error.hpp"
-#include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/freefem_axi/journal/make_plan.hpp"
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 namespace viscontact::swimmer {
@@ -60,7 +59,7 @@ std::vector<freefem_axi::RowPoint> all_points(const Grid& grid) {
   return points;
 }
 
-std::string hash_of(const CollinearSpheres& spheres, const Grid& grid) {
+std::string inputs_of(const CollinearSpheres& spheres, const Grid& grid) {
   std::string text = fmt::format("collinear spheres; {}; {} {} {};", surroundings_in_words(spheres),
                                  format_number(spheres.viscosity),
                                  format_number(spheres.relative_accuracy), kMatrixMethod);
@@ -69,52 +68,12 @@ std::string hash_of(const CollinearSpheres& spheres, const Grid& grid) {
     text += ";";
     for (const double gap : gaps) text += " " + format_number(gap);
   }
-  return sha256(text);
-}
-
-/// The numbers of a row in a journal: entries, their estimates, then three numbers of the
-/// computation.
-std::vector<double> numbers_of(const ResistanceRow& row) {
-  std::vector<double> numbers = row.entries;
-  numbers.insert(numbers.end(), row.relative_error_estimates.begin(),
-                 row.relative_error_estimates.end());
-  numbers.insert(numbers.end(), {row.degrees_of_freedom, row.seconds, row.observed_order});
-  return numbers;
-}
-
-ResistanceRow row_of(const freefem_axi::FinishedRow& finished) {
-  const auto entries = static_cast<std::ptrdiff_t>(entry_count(finished.point.size() + 1));
-  const auto start = finished.numbers.begin();
-  ResistanceRow row;
-  row.gaps = finished.point;
-  row.entries.assign(start, start + entries);
-  row.relative_error_estimates.assign(start + entries, start + 2 * entries);
-  row.degrees_of_freedom = start[2 * entries];
-  row.seconds = start[2 * entries + 1];
-  row.observed_order = start[2 * entries + 2];
-  return row;
-}
-
-freefem_axi::RowRecord rows_in_resistance_table(const std::filesystem::path& path,
-                                                const std::string& hash) {
-  if (!std::filesystem::is_regular_file(path)) return {};
-  try {
-    const auto table = read_resistance_table(path);
-    if (table.case_hash != hash) return {};
-    const auto version = table.versions.find("FreeFEM");
-    freefem_axi::RowRecord record;
-    for (const auto& row : table.rows)
-      record.finished[row.gaps] = {row.gaps, numbers_of(row),
-                                   version == table.versions.end() ? "" : version->second};
-    return record;
-  } catch (const Error&) {  // the file is not a table
-    return {};
-  }
+  return text;
 }
 
 /// The time of a row on one core [s], from measurements at an accuracy of 1e-5: 2 to 6 s for three
-/// spheres, 12 to 37 s for ten. It grows as for one sphere (force_table_plan.cpp) if more accuracy
-/// is asked.
+/// spheres, 12 to 37 s for ten. It grows as for one sphere (freefem_axi/motion_table_plan.cpp) if
+/// more accuracy is asked.
 double typical_seconds_of(const CollinearSpheres& spheres) {
   constexpr double kSecondsPerSphere = 1.5, kKnee = 1e-5, kPower = 0.45;
   return kSecondsPerSphere * static_cast<double>(spheres.radii.size()) *
@@ -123,55 +82,37 @@ double typical_seconds_of(const CollinearSpheres& spheres) {
 
 }  // namespace
 
-ResistanceTable assemble_table(const CollinearSpheres& spheres, const Grid& grid,
-                               const freefem_axi::RowRecord& record) {
-  ResistanceTable table;
-  table.viscosity = spheres.viscosity;
-  table.radii = spheres.radii;
-  table.container = surroundings_in_words(spheres);
-  table.case_hash = hash_of(spheres, grid);
-  for (const auto& point : all_points(grid)) {
-    const auto found = record.finished.find(point);
-    table.rows.push_back(found != record.finished.end()
-                             ? row_of(found->second)
-                             : reflected(row_of(record.finished.at(reflected(point)))));
-  }
-  table.versions["FreeFEM"] = freefem_axi::freefem_versions(record);
-  return table;
-}
-
 freefem_axi::TablePlan resistance_table_plan(const CollinearSpheres& spheres, const Grid& grid) {
-  freefem_axi::TablePlan plan;
-  plan.hash = hash_of(spheres, grid);
+  freefem_axi::PlanParts<ResistanceRow> parts;
+  auto& planned = parts.rows.emplace_back();
+  planned.head.viscosity = spheres.viscosity;
+  planned.head.radii = spheres.radii;
+  planned.head.container = surroundings_in_words(spheres);
+  prepare(planned.head, planned.blank);
+  parts.inputs = inputs_of(spheres, grid);
   const bool has_mirror = is_mirror_image(spheres, grid);
   for (const auto& point : all_points(grid))
-    if (!has_mirror || point <= reflected(point)) plan.points.push_back(point);
-  plan.shape = {grid.size(), 2 * entry_count(spheres.radii.size()) + 3};
-  plan.relative_accuracy = spheres.relative_accuracy;
-  plan.typical_seconds = typical_seconds_of(spheres);
-  plan.needs_all_rows = true;  // its fit is a polynomial through all of them
-  plan.solve = [spheres](const freefem_axi::FreeFem& freefem, const freefem_axi::RowPoint& gaps) {
-    return numbers_of(solve_resistance(freefem, spheres, gaps));
+    if (!has_mirror || point <= reflected(point)) parts.points.push_back(point);
+  parts.relative_accuracy = spheres.relative_accuracy;
+  parts.typical_seconds = typical_seconds_of(spheres);
+  parts.needs_all_rows = true;  // its fit is a polynomial through all of them
+  parts.solve = [spheres](const freefem_axi::FreeFem& freefem, const freefem_axi::RowPoint& gaps) {
+    return std::vector{solve_resistance(freefem, spheres, gaps)};
   };
-  plan.read = [hash = plan.hash](const std::filesystem::path& path) {
-    return rows_in_resistance_table(path, hash);
-  };
-  plan.write = [spheres, grid](const freefem_axi::RowRecord& record,
-                               const freefem_axi::Versions& versions) {
-    auto table = assemble_table(spheres, grid, record);
-    table.versions.insert(versions.begin(), versions.end());
-    return write_resistance_table(table);
-  };
-  plan.name_of = [](const freefem_axi::RowPoint& gaps) {
+  parts.name_of = [](const freefem_axi::RowPoint& gaps) {
     std::string words = "gaps";
     for (const double gap : gaps) words += " " + format_number(gap);
     return words;
   };
-  plan.estimate_of = [](const freefem_axi::FinishedRow& row) {
-    return row_of(row).largest_error_estimate();
+  parts.arrange = [grid](const freefem_axi::PlanParts<ResistanceRow>::Computed& computed) {
+    std::vector<ResistanceRow> rows;
+    for (const auto& point : all_points(grid)) {
+      const auto row = computed(point);
+      rows.push_back(row ? *row : reflected(computed(reflected(point)).value()));
+    }
+    return rows;
   };
-  plan.seconds_of = [](const freefem_axi::FinishedRow& row) { return row_of(row).seconds; };
-  return plan;
+  return make_plan(std::move(parts));
 }
 
 }  // namespace viscontact::swimmer

@@ -6,8 +6,9 @@
 #include <numbers>
 
 #include "viscontact/case_file/case_file.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/freefem_axi/motion_table_plan.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 
@@ -53,7 +54,7 @@ TEST(ShippedTables, AreThoseOfTheirCases) {
     const Case c = shipped((name + ".toml").c_str());
     const auto table = lubrication::read_force_table(std::string(VISCONTACT_SOURCE_FOLDER) +
                                                      "/data/tables/" + name + ".csv");
-    EXPECT_EQ(table.case_hash, freefem_axi::tabulation_hash(required_tabulation(c))) << name;
+    EXPECT_EQ(table.case_hash, freefem_axi::force_table_plan(required_tabulation(c)).hash) << name;
     for (const auto& row : table.rows)
       EXPECT_LE(row.relative_error_estimate, required_tabulation(c).relative_accuracy)
           << name << ", gap " << row.gap;

@@ -153,8 +153,14 @@ TEST_F(AgeingFilm, ContinuesFromARestartFileBitForBit) {
   expect_done(run(pressed_and_pulled("1.5", kAgeing), "half"));
   expect_done(run(pressed_and_pulled("4.0", kAgeing), "rest",
                   {"--restart", (out("half") / "restart.bin").string()}));
-  for (const auto* file : {"final_particles.csv", "final_contacts.csv", "restart.bin"})
+  for (const auto* file : {"final_particles.csv", "final_contacts.csv"})
     EXPECT_EQ(content("whole", file), content("rest", file)) << file;
+  // The first line of restart.bin says how much each run has written; the rest has fewer frames.
+  const auto state = [&](const char* run) {
+    const auto text = content(run, "restart.bin");
+    return text.substr(text.find('\n'));
+  };
+  EXPECT_EQ(state("whole"), state("rest"));
   // Frame n of the rest is frame 150 + n of the whole run.
   for (const int n : {0, 1, 50, 100}) {
     EXPECT_EQ(in_frame("rest", n, "age"), in_frame("whole", 150 + n, "age")) << n;

@@ -15,7 +15,7 @@
 #include "tests/oracles/brenner.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/process.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact {
@@ -47,8 +47,8 @@ void run_extended(std::vector<std::string> arguments) {
 }
 
 /// The table of a floor with that slip length in unbounded fluid, r = 1, at accuracy 1e-5.
-lubrication::ForceTable slip_table(const fs::path& folder, const std::string& slip_length,
-                                   const std::string& gaps) {
+lubrication::MotionTable slip_table(const fs::path& folder, const std::string& slip_length,
+                                    const std::string& gaps) {
   write_case(folder / "slip.toml",
              {{"gaps", gaps},
               {"container", "\"unbounded\""},
@@ -62,7 +62,7 @@ TEST(ExtendedGeometry, LittleSlipIsNone) {
   const auto table = slip_table(folder.path(), "1e-8", "[0.01, 1.0]");
   ASSERT_EQ(table.rows.size(), 2U);
   for (const auto& row : table.rows)
-    EXPECT_NEAR(row.drag_factor / brenner_drag_factor(row.gap), 1, 1e-5) << row.gap;
+    EXPECT_NEAR(row.force_factor / brenner_drag_factor(row.gap), 1, 1e-5) << row.gap;
 }
 
 TEST(ExtendedGeometry, MuchSlipIsAFreeSurface) {
@@ -70,7 +70,7 @@ TEST(ExtendedGeometry, MuchSlipIsAFreeSurface) {
   const auto table = slip_table(folder.path(), "1e8", "[0.01, 1.0]");
   ASSERT_EQ(table.rows.size(), 2U);
   for (const auto& row : table.rows)
-    EXPECT_NEAR(row.drag_factor / free_surface_drag_factor(row.gap), 1, 1e-5) << row.gap;
+    EXPECT_NEAR(row.force_factor / free_surface_drag_factor(row.gap), 1, 1e-5) << row.gap;
 }
 
 // Vinogradova 1995, one surface with slip; f(1) = 0.62942. Both drags have further terms of order
@@ -80,7 +80,7 @@ TEST(ExtendedGeometry, DragInAFilmAsThickAsTheSlipLengthIsThatOfLubricationTheor
   const auto table = slip_table(folder.path(), "1e-4", "[1e-4]");
   const double f = 0.25 + 3.0 / 8 * (1.25 * std::log(5.0) - 1);
   EXPECT_NEAR(f, 0.62942, 1e-5);
-  EXPECT_NEAR(table.rows.at(0).drag_factor / brenner_drag_factor(1e-4), f, 5e-4);
+  EXPECT_NEAR(table.rows.at(0).force_factor / brenner_drag_factor(1e-4), f, 5e-4);
 }
 
 // The script of the page changes the boundary condition of the approach alone. All motions that the
@@ -128,11 +128,11 @@ TEST(ExtendedBasis, FindsTheSlipLengthFromATableByThePagesCommands) {
 // is its own files and few lines elsewhere.
 TEST(Extending, ChangesNoOtherFiles) {
   EXPECT_EQ(read_file(fs::path(VISCONTACT_EXTENDED).parent_path() / "source/changed_files"),
-            "particles/case/particles_case.cpp\n"
             "freefem_axi/geometry.cpp\n"
             "freefem_axi/scripts/axisymmetric_stokes.idp\n"
             "freefem_axi/scripts/slip_plane.edp\n"
             "lubrication/terms.cpp\n"
+            "particles/case/particles_case.cpp\n"
             "particles/contact/ageing_law.hpp\n"
             "particles/contact/contact_laws.hpp\n"
             "particles/pair_memory.hpp\n"

@@ -44,7 +44,7 @@ TEST(CompareBases, KeepsTheReasonWhereABasisCannotBeFitted) {
 
 TEST(CompareBases, PrefersTheSmallerBasisWhereTheLargerOneFitsNoise) {
   // k/q + 1 with noise: what the lecture's five terms leave is not the smaller for three more.
-  lubrication::ForceTable table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
+  lubrication::MotionTable table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
   double sign = 1;
   for (auto& row : table.rows) row.force = (50 / row.gap + 1) * (1 + 1e-3 * (sign = -sign));
   FitSettings settings;

@@ -25,7 +25,7 @@ struct Bar {
 
 class OnExactDrag : public ::testing::TestWithParam<Bar> {
  protected:
-  lubrication::ForceTable table() const {
+  lubrication::MotionTable table() const {
     return exact_drag_table(log_spaced(GetParam().smallest_gap, 1, 60), {-1}, 3, 1);
   }
   lubrication::Fit fit() const {

@@ -11,7 +11,7 @@
 #include "tests/fitting/samples.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact::fitting {
@@ -27,11 +27,11 @@ FitSettings settings_of(std::string_view basis) {
   return settings;
 }
 
-lubrication::ForceTable exact_table() { return exact_drag_table(fifty_gaps(), {-1}, 3, 1); }
+lubrication::MotionTable exact_table() { return exact_drag_table(fifty_gaps(), {-1}, 3, 1); }
 
 /// R = k/q + 1 with the errors +-e in turn, which no smooth basis can follow.
-lubrication::ForceTable table_with_noise(double noise, double estimate) {
-  lubrication::ForceTable table = exact_table();
+lubrication::MotionTable table_with_noise(double noise, double estimate) {
+  lubrication::MotionTable table = exact_table();
   double sign = 1;
   for (auto& row : table.rows) {
     row.force = (50 / row.gap + 1) * (1 + sign * noise);
@@ -41,7 +41,7 @@ lubrication::ForceTable table_with_noise(double noise, double estimate) {
   return table;
 }
 
-lubrication::FitDiagnostics diagnostics_of(const lubrication::ForceTable& table,
+lubrication::FitDiagnostics diagnostics_of(const lubrication::MotionTable& table,
                                            const FitSettings& settings) {
   return fit_force_table(table, settings).diagnostics.value();
 }
@@ -55,7 +55,7 @@ TEST(LeaveOneOut, IsWhatFitsWithoutTheRowPredict) {
     double squares = 0;
     lubrication::LeftOutRow inner, end;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
-      lubrication::ForceTable others = table;
+      lubrication::MotionTable others = table;
       others.rows.erase(others.rows.begin() + static_cast<std::ptrdiff_t>(i));
       const auto& row = table.rows[i];
       const double residual =

@@ -11,7 +11,7 @@
 #include "tests/common/failure.hpp"
 #include "tests/fitting/samples.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact::fitting {
@@ -97,7 +97,7 @@ TEST(Fit, LeavesResidualsThatEveryTermIsOrthogonalTo) {
 TEST(Fit, RecoversPlantedCoefficients) {
   const std::vector<double> planted = {56.5, -12.25, 40, 3, -0.5, 2.5, -1, 0.25};
   for (const auto& basis : lubrication::all_bases()) {
-    lubrication::ForceTable table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
+    lubrication::MotionTable table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
     for (auto& row : table.rows) {
       row.force = 0;
       for (std::size_t i = 0; i < basis.terms.size(); ++i)
@@ -226,7 +226,7 @@ TEST(Fit, NeedsAsManyDifferentGapsAsTerms) {
       bad_input([&] { fit_force_table(table, "lecture", lubrication::Weights::kRelative); }),
       AllOf(HasSubstr("4 different gap"), HasSubstr("at least 5")));
   EXPECT_THAT(bad_input([] {
-                fit_force_table(lubrication::ForceTable{}, "lecture",
+                fit_force_table(lubrication::MotionTable{}, "lecture",
                                 lubrication::Weights::kRelative);
               }),
               HasSubstr("0 different gap"));

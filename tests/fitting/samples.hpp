@@ -10,7 +10,7 @@
 
 #include "tests/oracles/brenner.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact::fitting {
@@ -26,20 +26,20 @@ inline std::vector<double> log_spaced(double from, double to, int count) {
 
 /// A table with the exact drag of a plane in a half-space, as a solver without errors would make
 /// it.
-inline lubrication::ForceTable exact_drag_table(const std::vector<double>& gaps,
-                                                const std::vector<double>& velocities,
-                                                double viscosity, double radius) {
-  lubrication::ForceTable table;
+inline lubrication::MotionTable exact_drag_table(const std::vector<double>& gaps,
+                                                 const std::vector<double>& velocities,
+                                                 double viscosity, double radius) {
+  lubrication::MotionTable table;
   table.viscosity = viscosity;
   table.radius = radius;
   table.container = "unbounded";
   for (const double velocity : velocities)
     for (const double gap : gaps) {
-      lubrication::ForceTableRow row;
+      lubrication::MotionRow row;
       row.gap = gap;
       row.reference_velocity = velocity;
-      row.drag_factor = brenner_drag_factor(gap / radius);
-      row.force = -6 * std::numbers::pi * viscosity * radius * row.drag_factor * velocity;
+      row.force_factor = brenner_drag_factor(gap / radius);
+      row.force = -6 * std::numbers::pi * viscosity * radius * row.force_factor * velocity;
       table.rows.push_back(row);
     }
   return table;

@@ -8,7 +8,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact::fitting {
 namespace {
@@ -22,13 +22,13 @@ lubrication::LubricationForce smooth() {
       lubrication::read_fit(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/fits/lecture.json"));
 }
 
-lubrication::ForceTable shifted_table() {
+lubrication::MotionTable shifted_table() {
   const auto force = smooth();
-  lubrication::ForceTable table;
+  lubrication::MotionTable table;
   table.viscosity = force.viscosity();
   table.radius = force.radius();
   for (const double gap : {0.001, 0.01, 0.1, 1.0}) {
-    lubrication::ForceTableRow row;
+    lubrication::MotionRow row;
     row.gap = gap;
     row.reference_velocity = -2;
     row.force = 2 * force.resistance(gap + kShift);
@@ -62,7 +62,7 @@ TEST(WallShift, TakesAFitWhoseUnitsWereConverted) {
 }
 
 TEST(WallShift, RefusesAnotherFluidAndADragBeyondTheFit) {
-  const auto fails_with = [](const lubrication::ForceTable& table, const char* words) {
+  const auto fails_with = [](const lubrication::MotionTable& table, const char* words) {
     try {
       (void)fit_wall_shift(table, smooth());
       ADD_FAILURE() << "accepted";

@@ -105,8 +105,8 @@ TEST(FakeFreeFem, AnswersAsARowOfTheTable) {
   const FakeFreeFem fake(scratch.path());
   const auto row = solve_row(fake.freefem(), kTabulation, 0.25, -2);
   EXPECT_NEAR(row.force / FakeFreeFem::force(1, 1, 0.25, -2), 1,
-              1e-15);                      // 17 digits printed by awk
-  EXPECT_NEAR(row.drag_factor, 5, 1e-14);  // r/q + 1, round-off
+              1e-15);                       // 17 digits printed by awk
+  EXPECT_NEAR(row.force_factor, 5, 1e-14);  // r/q + 1, round-off
   EXPECT_EQ(row.relative_error_estimate, 1e-6);
   EXPECT_EQ(row.degrees_of_freedom, 1000);
   EXPECT_GE(row.seconds, 0);

@@ -27,8 +27,8 @@ Drag drag(const std::string& geometry, double gap, std::vector<double> parameter
   const auto solved =
       solve(default_freefem(), exact_row(geometry, gap, std::move(parameters), accuracy, 1));
   EXPECT_TRUE(solved.says_reached()) << solved.in_words();
-  return {solved.answer.drag_factor,
-          solved.answer.drag_factor * solved.answer.relative_error_estimate};
+  return {solved.answer.force_factor,
+          solved.answer.force_factor * solved.answer.relative_error_estimate};
 }
 
 /// That the asked accuracy is reached, and that it is said.
@@ -128,7 +128,7 @@ TEST(TightCylinder, HasTheDragOfASphereInALongTube) {
                       (6 * std::numbers::pi);
   // Their formula joins the film's expansion to the wide tube's; ends 3 radii away do not matter
   // (the flow in a tube decays like exp(-4 z/R)).
-  EXPECT_NEAR(solved.answer.drag_factor / tube, 1, 0.01);
+  EXPECT_NEAR(solved.answer.force_factor / tube, 1, 0.01);
 }
 
 TEST(MirrorImage, OfTheSphereIsAFreeSurfaceHalfWay) {

@@ -3,9 +3,10 @@
 
 #include <vector>
 
-#include "viscontact/freefem_axi/force_table_plan.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
+#include "viscontact/freefem_axi/motion_table_plan.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact::freefem_axi {
@@ -24,13 +25,20 @@ inline Tabulation unit_tabulation(std::vector<double> gaps, double container_rad
   return tabulation;
 }
 
-/// Computes all rows and puts the table together.
-inline lubrication::ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation,
-                                        int jobs, const std::filesystem::path& table_path,
-                                        const TabulateReport& report) {
+/// SHA-256 of everything that the forces depend on.
+inline std::string tabulation_hash(const Tabulation& tabulation) {
+  return force_table_plan(tabulation).hash;
+}
+
+/// Computes all rows, and writes the table to a file beside `table_path` and reads it.
+inline lubrication::MotionTable tabulate(const FreeFem& freefem, const Tabulation& tabulation,
+                                         int jobs, const std::filesystem::path& table_path,
+                                         const TabulateReport& report) {
   const auto plan = force_table_plan(tabulation);
   compute_rows({freefem, jobs, ""}, plan, plan.points, table_path, report);
-  return assemble_table(tabulation, read_row_record(table_path, plan));
+  const auto copy = table_path.parent_path() / "copy.csv";
+  write_file(copy, plan.write(read_row_record(table_path, plan), {}));
+  return lubrication::read_motion_table(copy);
 }
 
 }  // namespace viscontact::freefem_axi

@@ -6,7 +6,7 @@
 
 #include "tests/oracles/brenner.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact {
 
@@ -18,21 +18,21 @@ std::string exact_table_text() {
   constexpr int kRows = 30;
   constexpr double kSmallest = 1e-3;
   constexpr double kLargest = 2;
-  lubrication::ForceTable table;
+  lubrication::MotionTable table;
   table.viscosity = 3;
   table.radius = 1;
   table.container = "none: exact drag in a half-space";
   for (int i = 0; i < kRows; ++i) {
-    lubrication::ForceTableRow row;
+    lubrication::MotionRow row;
     row.gap = i + 1 == kRows ? kLargest
                              : kSmallest * std::pow(kLargest / kSmallest,
                                                     static_cast<double>(i) / (kRows - 1));
     row.reference_velocity = -1;
-    row.drag_factor = brenner_drag_factor(row.gap);
-    row.force = 6 * std::numbers::pi * table.viscosity * table.radius * row.drag_factor;
+    row.force_factor = brenner_drag_factor(row.gap);
+    row.force = 6 * std::numbers::pi * table.viscosity * table.radius * row.force_factor;
     table.rows.push_back(row);
   }
-  return lubrication::write_force_table(table);
+  return lubrication::write_motion_table(table);
 }
 
 std::string replaced(std::string text, const std::string& old_part, const std::string& new_part) {

@@ -50,11 +50,11 @@ Motion limit_motion() { return motion_with_settings(1, 6, {{2, -2}, {6, 2}}); }
 
 lubrication::Fit brenner_fit(std::string_view basis, std::array<double, 2> gaps) {
   constexpr int kRows = 40;
-  lubrication::ForceTable table;
+  lubrication::MotionTable table;
   table.viscosity = kViscosity;
   table.radius = kRadius;
   for (int i = 0; i < kRows; ++i) {
-    lubrication::ForceTableRow row;
+    lubrication::MotionRow row;
     row.gap = gaps[0] * std::pow(gaps[1] / gaps[0], static_cast<double>(i) / (kRows - 1));
     if (i == kRows - 1) row.gap = gaps[1];
     row.reference_velocity = -1;

@@ -43,14 +43,14 @@ lubrication::LubricationForce force_in(const Units& units, const std::string& ki
   if (kind == "exact") return lubrication::LubricationForce::exact_plane(viscosity, radius);
   constexpr int kRows = 40;
   constexpr double kSmallest = 1e-3, kLargest = 2;
-  lubrication::ForceTable table;
+  lubrication::MotionTable table;
   table.viscosity = viscosity;
   table.radius = radius;
   for (int i = 0; i < kRows; ++i) {
     const double gap = i + 1 == kRows ? kLargest
                                       : kSmallest * std::pow(kLargest / kSmallest,
                                                              static_cast<double>(i) / (kRows - 1));
-    lubrication::ForceTableRow row;
+    lubrication::MotionRow row;
     row.gap = gap * units.length;
     row.reference_velocity = -units.velocity();
     row.force = 6 * std::numbers::pi * 3 * brenner_drag_factor(gap) * units.force();

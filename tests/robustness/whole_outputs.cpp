@@ -15,7 +15,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
@@ -92,7 +92,7 @@ std::string numbers_of(const fs::path& file) {
   if (name == "table.csv") {
     auto table = lubrication::read_force_table(file);
     for (auto& row : table.rows) row.seconds = 0;
-    return lubrication::write_force_table(table);
+    return lubrication::write_motion_table(table);
   }
   if (is_trajectory(file)) {
     auto trajectory = reduced_model::read_trajectory(file);

@@ -1,5 +1,7 @@
-// The options of `sweep`, and the functions that make a study of them, one for each kind of case.
-// docs/command-line.md describes the options.
+// The options of `sweep`, and the functions that turn options into a study (the points of the sweep
+// and the function that computes the row of a point), one for each kind of case. The commands of
+// this folder use them. docs/command-line.md describes the options, and a change must keep their
+// names.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +16,8 @@
 
 namespace viscontact::app {
 
-/// The values of the options, which are named after them. An empty text or list, or 0, means that
-/// the option was not given, and that the section [sweep] of the case decides.
+/// The values of the options, which are named after them. An empty text or list, or the
+/// number 0, means that the option was not given, and that the section [sweep] of the case decides.
 struct SweepOptions {
   std::string case_file,          ///< path of the case
       fit,                        ///< path of a fit file
@@ -30,12 +32,12 @@ struct SweepOptions {
       seed = 1,                   ///< of the random points
       draws = 0;                  ///< number of random arrangements at each point
   int jobs = default_jobs();      ///< number of rows at once, >= 1
-  ArrayOptions array;             ///< of a job on a cluster
+  ArrayOptions array;             ///< how the rows are divided among the jobs of a cluster
   bool dry_run = false, json = false, keep_runs = false;
   const CLI::Option* jobs_option = nullptr;  ///< CLI11's object of --jobs
 };
 
-/// The study of a case with these options, and what the command says about it.
+/// The study of a case with these options, and what is needed to write its files and messages.
 struct CaseStudy {
   sweep::Study study{};                        ///< points, and how rows are computed
   std::vector<std::filesystem::path> files{};  ///< the inputs, for the provenance
@@ -50,7 +52,8 @@ CaseStudy study_of_sphere(const SweepOptions& o);
 CaseStudy study_of_swimmer(const SweepOptions& o);
 CaseStudy study_of_rolling_sphere(const SweepOptions& o);
 
-/// Runs, gathers or submits a sweep of a case of many particles.
+/// Computes the sweep of a case of many particles here, submits it to a cluster, or collects the
+/// rows that the cluster has finished.
 void sweep_many_particles(const SweepOptions& o);
 
 }  // namespace viscontact::app

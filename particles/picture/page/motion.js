@@ -41,8 +41,8 @@ const firstTime = frames ? times[0] : 0, lastTime = frames ? times[frames - 1] :
 const positions = new Float32Array(count * dim);  // at the present time
 const angles = new Float32Array(writtenAngles ? count : 0);
 const orientations = new Float32Array(writtenOrientations ? 4 * count : 0);
-// At the present time: {point, normal, radius}. With a radius > 0 it is a circle about `point`,
-// whose normal is 0.
+// The obstacles at the present time: {point, normal, radius}. An obstacle with a radius > 0 is a
+// circle about `point`, and its normal is 0; an obstacle with the radius 0 is a plane.
 let planes = [];
 const lines = {
   frame: -1,
@@ -111,8 +111,9 @@ function setOrientations(frame, next, share) {
 }
 
 /**
- * Decodes a frame's contacts: distance in the list of pairs (seven bits a byte), level of gamma,
- * and what friction does if there is friction.
+ * Decodes the contacts of a frame. The bytes of a contact are the index of its pair minus that of
+ * the contact before (seven bits in each byte, low ones first), the level 0 to 255 of the impulse
+ * that its film has taken, and, if there is friction, whether it sticks or slides.
  */
 function readContacts(frame) {
   if (lines.frame === frame) return;

@@ -21,7 +21,7 @@ TEST_P(ClosedCylinder, DragIsExactToTheAskedAccuracyAndToItsOwnEstimate) {
   const double gap = GetParam();
   const auto tabulation = unit_tabulation({gap}, 5, kAccuracy);
   const auto row = solve_row(default_freefem(), tabulation, gap, -1);
-  const double error = std::abs(row.drag_factor / sphere_in_cylinder_drag_factor(gap, 5, 10) - 1);
+  const double error = std::abs(row.force_factor / sphere_in_cylinder_drag_factor(gap, 5, 10) - 1);
   EXPECT_LT(error, kAccuracy);
   EXPECT_LE(row.relative_error_estimate, kAccuracy);
   EXPECT_LT(error, row.relative_error_estimate);
@@ -38,12 +38,12 @@ TEST(HalfSpace, DragNearContactIsBrennersInAWideContainerAndWithoutOne) {
   constexpr double kGap = 1e-4;
   auto tabulation = unit_tabulation({kGap}, 80, kAccuracy);
   // At 80 x 160 radii the walls add less than 3e-7 (docs/theory.md), far below what was asked.
-  EXPECT_LT(std::abs(solve_row(default_freefem(), tabulation, kGap, -1).drag_factor /
+  EXPECT_LT(std::abs(solve_row(default_freefem(), tabulation, kGap, -1).force_factor /
                          bispherical_plane_factor(kGap) -
                      1),
             kAccuracy);
   tabulation.container.reset();
-  EXPECT_LT(std::abs(solve_row(default_freefem(), tabulation, kGap, -1).drag_factor /
+  EXPECT_LT(std::abs(solve_row(default_freefem(), tabulation, kGap, -1).force_factor /
                          bispherical_plane_factor(kGap) -
                      1),
             kAccuracy);
@@ -70,7 +70,7 @@ TEST(Scaling, DragFactorDependsOnRatiosOfLengthsOnly) {
   const double binary = std::ldexp(1.0, -20);
   const auto same_mesh =
       solve_row(default_freefem(), scaled_tabulation(kGap, binary), kGap * binary, kVelocity);
-  EXPECT_NEAR(same_mesh.drag_factor / unit.drag_factor, 1, 1e-9);
+  EXPECT_NEAR(same_mesh.force_factor / unit.force_factor, 1, 1e-9);
   EXPECT_LT(same_mesh.force, 0);  // opposed to the velocity
 
   // A decimal micrometre: the container is 5.000000000000001 radii wide, and the mesh generator
@@ -78,7 +78,7 @@ TEST(Scaling, DragFactorDependsOnRatiosOfLengthsOnly) {
   // size: 2e-7 observed, where the estimates are some 1e-6.
   const auto other_mesh =
       solve_row(default_freefem(), scaled_tabulation(kGap, 1e-6), kGap * 1e-6, kVelocity);
-  EXPECT_NEAR(other_mesh.drag_factor / unit.drag_factor, 1,
+  EXPECT_NEAR(other_mesh.force_factor / unit.force_factor, 1,
               unit.relative_error_estimate + other_mesh.relative_error_estimate);
 }
 
@@ -93,9 +93,9 @@ TEST(Scaling, ForceIsOfTheRadiusTheViscosityAndTheVelocityAsItsDimensionSays) {
   tabulation.viscosity = kViscosity;
   const auto row = solve_row(default_freefem(), tabulation, kGap * kRadius, kVelocity);
   const double expected =
-      -6 * std::numbers::pi * kViscosity * kRadius * kVelocity * unit.drag_factor;
+      -6 * std::numbers::pi * kViscosity * kRadius * kVelocity * unit.force_factor;
   EXPECT_NEAR(row.force / expected, 1, 1e-10);
-  EXPECT_NEAR(row.drag_factor / unit.drag_factor, 1, 1e-10);
+  EXPECT_NEAR(row.force_factor / unit.force_factor, 1, 1e-10);
 }
 
 /// That F/u0 is one number over velocities of both signs and five orders of magnitude, in one
@@ -137,7 +137,7 @@ TEST(MovingNeighbour, PullsTheSphereAlongWhenItIsTheFaster) {
   tabulation.geometry_parameters = {1, 2, 0};
   const auto row = solve_row(default_freefem(), tabulation, kGap, -1);
   EXPECT_LT(row.force, 0);  // along the velocity
-  EXPECT_NEAR(row.drag_factor / exact, 1, 1e-4);
+  EXPECT_NEAR(row.force_factor / exact, 1, 1e-4);
 }
 
 }  // namespace

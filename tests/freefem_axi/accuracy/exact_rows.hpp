@@ -63,9 +63,9 @@ std::span<const ExactRows> exact_rows();
 /// A solved row.
 struct SolvedRow {
   ExactRow row;
-  lubrication::ForceTableRow answer;
+  lubrication::MotionRow answer;
 
-  double error() const { return std::abs(answer.drag_factor / row.drag_factor - 1); }
+  double error() const { return std::abs(answer.force_factor / row.drag_factor - 1); }
   /// The error divided by its estimate.
   double ratio() const { return error() / answer.relative_error_estimate; }
   bool says_reached() const {

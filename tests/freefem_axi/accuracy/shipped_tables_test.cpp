@@ -8,7 +8,7 @@
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/bispherical/bispherical.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {
@@ -22,7 +22,7 @@ struct Shipped {
 
 class ShippedTable : public testing::TestWithParam<Shipped> {
  protected:
-  lubrication::ForceTable table_ = lubrication::read_force_table(
+  lubrication::MotionTable table_ = lubrication::read_force_table(
       std::string(VISCONTACT_SOURCE_FOLDER) + "/data/tables/" + GetParam().name + ".csv");
 };
 
@@ -32,7 +32,7 @@ TEST_P(ShippedTable, IsExactWithinItsEstimates) {
   EXPECT_EQ(table_.rows.back().gap, 10);
   std::size_t above = 0;
   for (const auto& row : table_.rows) {
-    const double error = std::abs(row.drag_factor / GetParam().exact(row.gap) - 1);
+    const double error = std::abs(row.force_factor / GetParam().exact(row.gap) - 1);
     above += error > row.relative_error_estimate ? 1 : 0;
     EXPECT_LE(error, 3 * row.relative_error_estimate) << "gap " << row.gap;
   }

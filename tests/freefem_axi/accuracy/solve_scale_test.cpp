@@ -44,7 +44,7 @@ TEST(SolveScale, ForceIsLinearInViscosityAndVelocityAtAnySize) {
         solve_row(default_freefem(), tabulation_of_viscosity(viscosity), kGap, velocity);
     SCOPED_TRACE(viscosity);
     EXPECT_NEAR(row.force / viscosity / (-velocity) / unit.force, 1, kRoundOff);
-    EXPECT_NEAR(row.drag_factor / unit.drag_factor, 1, kRoundOff);
+    EXPECT_NEAR(row.force_factor / unit.force_factor, 1, kRoundOff);
     EXPECT_EQ(row.reference_velocity, velocity);
     EXPECT_EQ(row.degrees_of_freedom, unit.degrees_of_freedom);
   }

@@ -10,8 +10,8 @@
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/freefem_axi/force_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
+#include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {
@@ -200,12 +200,20 @@ TEST_F(RowJournalFile, JournalThatIsHeldIsLeftAsItIs) {
 
 TEST_F(RowJournalFile, RowsOfAFinishedTableCountAsFinished) {
   const auto tabulation = unit_tabulation({0.5}, 5, 1e-3);
-  lubrication::ForceTable table_of_first;
+  lubrication::MotionTable table_of_first;
   table_of_first.viscosity = table_of_first.radius = 1;
   table_of_first.case_hash = tabulation_hash(tabulation);
   table_of_first.versions["FreeFEM"] = "4.9";
-  table_of_first.rows = {force_row(kFirst)};
-  write_file(table(), lubrication::write_force_table(table_of_first));
+  auto& row = table_of_first.rows.emplace_back();
+  row.gap = kFirst.point[0];
+  row.reference_velocity = kFirst.point[1];
+  row.force = kFirst.numbers[0];
+  row.force_factor = kFirst.numbers[1];
+  row.relative_error_estimate = kFirst.numbers[2];
+  row.degrees_of_freedom = kFirst.numbers[3];
+  row.seconds = kFirst.numbers[4];
+  row.observed_order = kFirst.numbers[5];
+  write_file(table(), lubrication::write_motion_table(table_of_first));
   const auto of_table = read_row_record(table(), force_table_plan(tabulation));
   ASSERT_TRUE(of_table.finished.contains(point_of(kFirst)));
   expect_equal(of_table.finished.at(point_of(kFirst)), kFirst);

@@ -12,9 +12,9 @@
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/brenner.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/freefem_axi/force_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
+#include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {
@@ -29,10 +29,10 @@ using ::testing::UnorderedElementsAre;
 void no_report(const TabulateProgress&) {}
 
 /// What identifies and answers a row; its seconds differ from run to run.
-std::vector<std::array<double, 7>> values_of(const lubrication::ForceTable& table) {
+std::vector<std::array<double, 7>> values_of(const lubrication::MotionTable& table) {
   std::vector<std::array<double, 7>> values;
   for (const auto& row : table.rows)
-    values.push_back({row.gap, row.reference_velocity, row.force, row.drag_factor,
+    values.push_back({row.gap, row.reference_velocity, row.force, row.force_factor,
                       row.relative_error_estimate, row.degrees_of_freedom, row.observed_order});
   return values;
 }
@@ -114,7 +114,7 @@ TEST_F(Tabulate, FailingRowIsNamedInTheTableTheOthersAreKeptAndNotComputedAgain)
                                AllOf(HasSubstr("gap 0.25, velocity -1"), HasSubstr("no luck")))));
   EXPECT_THAT(fake.answered(), UnorderedElementsAre("0.125 -1", "0.5 -1", "1 -1"));
   // The file names the row, too, and whoever reads the record of the table learns of it.
-  put_text(table_path(), lubrication::write_force_table(without));
+  put_text(table_path(), lubrication::write_motion_table(without));
   std::filesystem::remove(journal_path(table_path()));
   EXPECT_EQ(lubrication::read_force_table(table_path()).failed_rows, without.failed_rows);
   const auto plan = force_table_plan(tabulation_);
@@ -223,7 +223,7 @@ TEST(TabulateWithFreeFem, TwoGapsInAWideContainerAreBrenners) {
   for (const auto& row : table.rows) {
     EXPECT_LE(row.relative_error_estimate, kAccuracy);
     // The walls add 4e-6 at 40 x 80 radii (docs/theory.md, section 1), well below what was asked.
-    EXPECT_NEAR(row.drag_factor / brenner_drag_factor(row.gap), 1, kAccuracy);
+    EXPECT_NEAR(row.force_factor / brenner_drag_factor(row.gap), 1, kAccuracy);
   }
   EXPECT_FALSE(table.versions.at("FreeFEM").empty());
 }

@@ -153,9 +153,9 @@ TEST_F(Refusal, OfAFileCutAnywhere) {
 }
 
 TEST_F(Refusal, OfAnUnknownKeyNamesIt) {
-  EXPECT_EQ(with("\"basis\"", "\"colour\": 1, \"basis\""), ":2: colour is not a key of a fit file");
+  EXPECT_EQ(with("\"basis\"", "\"colour\": 1, \"basis\""), ":2: colour is not a key of this file");
   EXPECT_THAT(with("\"name\": \"q\"", "\"unit\": 1,\n \"name\": \"q\""),
-              MatchesRegex(":[0-9]+: terms\\[1\\]\\.unit is not a key of a fit file"));
+              MatchesRegex(":[0-9]+: terms\\[1\\]\\.unit is not a key of this file"));
 }
 
 TEST_F(Refusal, OfAValueOutOfRangeNamesTheKey) {
@@ -169,7 +169,7 @@ TEST_F(Refusal, OfAValueOutOfRangeNamesTheKey) {
               HasSubstr("gap_interval is [2,2.0]; it must be two gaps with 0 < first < second"));
   EXPECT_THAT(with("0.125", "0"),
               HasSubstr("gap_interval is [0,2.0]; it must be two gaps with 0 < first < second"));
-  EXPECT_EQ(with("0.125", "0.125, 1"), ":6: gap_interval has 3 elements; it must be two gaps");
+  EXPECT_EQ(with("0.125", "0.125, 1"), ":6: gap_interval has 3 elements; it must be two numbers");
   EXPECT_THAT(with("\"weights\": \"relative\"", "\"weights\": \"cubic\""),
               HasSubstr(": weights is 'cubic'; they must be relative or absolute"));
 }

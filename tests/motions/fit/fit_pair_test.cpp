@@ -15,15 +15,17 @@
 namespace viscontact::motions {
 namespace {
 
+using lubrication::MotionKind;
 using ::testing::HasSubstr;
 
 const std::string kData = std::string(VISCONTACT_SOURCE_FOLDER) + "/data/";
 
 PairTables shipped_tables(const std::string& pair) {
   const std::string folder = kData + "tables/pairs/" + pair + "/";
-  return {lubrication::read_force_table(folder + "approach.csv"),
-          read_motion_table(folder + "slide.csv"), read_motion_table(folder + "roll.csv"),
-          read_motion_table(folder + "spin.csv")};
+  PairTables tables;
+  for (const auto& [name, motion] : lubrication::all_motions())
+    tables[motion] = lubrication::read_motion_table(folder + std::string(name) + ".csv");
+  return tables;
 }
 
 /// The expansions beside a free surface are those of two spheres at twice the gap, so that they
@@ -38,13 +40,13 @@ class ShippedPair : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ShippedPair, IsTabulatedAsExactlyAsItSays) {
   const auto tables = shipped_tables(GetParam());
-  for (const auto* table : {&tables.slide, &tables.roll, &tables.spin})
-    for (const auto& row : (*table)->rows) {
-      EXPECT_LE(row.sphere.force_error_estimate, 1e-6) << row.gap;
-      EXPECT_LE(row.sphere.torque_error_estimate, 1e-6) << row.gap;
+  for (const auto motion : {MotionKind::kSlide, MotionKind::kRoll, MotionKind::kSpin})
+    for (const auto& row : tables.at(motion).rows) {
+      EXPECT_LE(row.relative_error_estimate, 1e-6) << row.gap;
+      EXPECT_LE(row.torque_error_estimate, 1e-6) << row.gap;
     }
-  EXPECT_NEAR(tables.slide->rows.front().gap, 1e-3, 1e-18);
-  EXPECT_EQ(tables.slide->rows.back().gap, 1);
+  EXPECT_NEAR(tables.at(MotionKind::kSlide).rows.front().gap, 1e-3, 1e-18);
+  EXPECT_EQ(tables.at(MotionKind::kSlide).rows.back().gap, 1);
 }
 
 TEST_P(ShippedPair, IsFittedWithin1e5WithTheLeadingTermsOfTheory) {
@@ -108,9 +110,7 @@ TEST(PairFits, OfAPlaneAreTheExactResistances) {
 
 TEST(PairFits, NeedNotHaveAllTables) {
   auto tables = shipped_tables("plane");
-  tables.approach.reset();
-  tables.spin.reset();
-  tables.roll.reset();
+  std::erase_if(tables, [](const auto& table) { return table.first != MotionKind::kSlide; });
   const auto fit = fit_pair(tables, {});
   EXPECT_EQ(fit.entries.size(), 2U);
   const auto both = fit_pair(shipped_tables("plane"), {});
@@ -120,8 +120,8 @@ TEST(PairFits, NeedNotHaveAllTables) {
 
 TEST(PairFits, TakeTablesWhoseUnitsWereConverted) {
   auto tables = shipped_tables("plane");
-  tables.spin->viscosity *= 1 + 1e-15;
-  tables.slide->radius *= 1 - 1e-15;
+  tables[MotionKind::kSpin].viscosity *= 1 + 1e-15;
+  tables[MotionKind::kSlide].radius *= 1 - 1e-15;
   EXPECT_NO_THROW((void)fit_pair(tables, {}));
 }
 
@@ -131,15 +131,17 @@ TEST(PairFits, RefuseTablesThatDoNotBelongTogether) {
     change(tables);
     return bad_input([&] { (void)fit_pair(tables, {}); });
   };
-  EXPECT_THAT(refused([](PairTables& t) { t.roll->rows[3].sphere.force *= 1.01; }),
+  EXPECT_THAT(refused([](PairTables& t) { t[MotionKind::kRoll].rows[3].force_factor *= 1.01; }),
               HasSubstr("the matrix is not symmetric: slide_roll is"));
-  EXPECT_THAT(refused([](PairTables& t) { t.spin->viscosity = 2; }),
+  EXPECT_THAT(refused([](PairTables& t) { t[MotionKind::kSpin].viscosity = 2; }),
               HasSubstr("different pairs: the viscosity is 1 in one and 2"));
-  EXPECT_THAT(refused([](PairTables& t) { t.slide->geometry = "free_surface"; }),
+  EXPECT_THAT(refused([](PairTables& t) { t[MotionKind::kSlide].geometry = "free_surface"; }),
               HasSubstr("different pairs: the geometry"));
-  EXPECT_THAT(refused([](PairTables& t) { t.slide->neighbour_moves = true; }),
+  EXPECT_THAT(refused([](PairTables& t) { t[MotionKind::kSlide].neighbour_moves = true; }),
               HasSubstr("a velocity of its own"));
-  EXPECT_THAT(refused([](PairTables& t) { t.roll->rows.erase(t.roll->rows.begin()); }),
+  EXPECT_THAT(refused([](PairTables& t) {
+                t[MotionKind::kRoll].rows.erase(t[MotionKind::kRoll].rows.begin());
+              }),
               HasSubstr("the table of rolling has no row at gap 0.001"));
   EXPECT_THAT(refused([](PairTables& t) { t = {}; }), HasSubstr("no table"));
 }

@@ -79,6 +79,33 @@ TEST(FluidCase, ReadsTheVelocityOfEachSide) {
   EXPECT_THAT(sides[3].value, ElementsAre(1, 0));
 }
 
+TEST(FluidCase, ReadsAFluidWithInertia) {
+  const auto text =
+      changed(changed(kDiscsInBox, "viscosity = 2.0", R"(viscosity = 2.0
+density = 1.5
+advection = "characteristics"
+start = "stokes"
+pressure_gradient = [-3.0, 0.5]
+velocity = { left = { parabolic = 1.5, period = 2.0, amplitude = 0.5 }, right = "open", top = { constant = [ { until = 0.5, value = [1.0, 0.0] }, { until = 0.75, value = [2.0, 0.0] } ] } })"),
+              "radius = 0.25\n[[particle]]", "radius = 0.25\ndensity = 4.0\n[[particle]]") +
+      "density = 2.0\n";
+  const auto c = read_particles_text(text);
+  const auto& fluid = *c.setting.fluid;
+  EXPECT_TRUE(fluid.has_inertia());
+  EXPECT_EQ(fluid.density, 1.5);
+  EXPECT_EQ(fluid.advection, particles::Advection::kCharacteristics);
+  EXPECT_EQ(fluid.start, particles::FlowStart::kStokes);
+  EXPECT_THAT(fluid.pressure_gradient, ElementsAre(-3, 0.5));
+  const auto& sides = std::get<particles::SideVelocities>(fluid.boundary);
+  EXPECT_EQ(sides[0].kind, WallVelocity::Kind::kParabolic);
+  EXPECT_EQ(sides[0].at(0)[0], 1.5);
+  EXPECT_DOUBLE_EQ(sides[0].at(0.5)[0], 1.5 * 1.5);  // a quarter of the period
+  EXPECT_THAT(sides[3].at(0.25), ElementsAre(1, 0));
+  EXPECT_THAT(sides[3].at(2), ElementsAre(2, 0));  // after the last piece
+  const double area = 3.141592653589793 * 0.25 * 0.25;
+  EXPECT_THAT(c.particles.masses, ElementsAre(4 * area, 2 * area));
+}
+
 TEST(FluidCase, FluxesThatBalanceNeedNoOpenSide) {
   // In through the left by a parabola: 2/3 1.5 6 = 6; out through the bottom: 3 times 2.
   const auto c = read_particles_text(

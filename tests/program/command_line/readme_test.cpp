@@ -12,9 +12,9 @@
 #include "tests/docs/document.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/system/process.hpp"
-#include "viscontact/freefem_axi/force_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
+#include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 namespace viscontact {
 namespace {

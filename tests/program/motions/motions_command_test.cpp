@@ -13,8 +13,7 @@
 #include "tests/program/undisturbed.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
-#include "viscontact/lubrication/force_table.hpp"
-#include "viscontact/motions/motion_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact {
 namespace {
@@ -63,12 +62,12 @@ TEST_F(MotionsCommand, TabulateWritesATableForEachMotionAndKeepsThem) {
   expect_done(run_viscontact({"tabulate", file, "-o", path("out")}));
   for (const char* motion : {"slide", "roll", "spin"}) {
     SCOPED_TRACE(motion);
-    const auto table = motions::read_motion_table(path("out/") + motion + ".csv");
+    const auto table = lubrication::read_motion_table(path("out/") + motion + ".csv");
     EXPECT_EQ(to_string(table.motion), motion);
     ASSERT_EQ(table.rows.size(), 6U);
     EXPECT_EQ(table.rows[3].gap, 0.05);
     EXPECT_EQ(table.rows[3].reference_velocity, -3);
-    EXPECT_EQ(table.rows[3].sphere.torque, table.rows[0].sphere.torque);
+    EXPECT_EQ(table.rows[3].torque_factor, table.rows[0].torque_factor);
     EXPECT_FALSE(fs::exists(path("out/") + motion + ".csv.rows"));
   }
   EXPECT_TRUE(fs::exists(path("out/approach.csv")));
@@ -89,7 +88,7 @@ TEST_F(MotionsCommand, TabulateWritesATableForEachMotionAndKeepsThem) {
 TEST_F(MotionsCommand, OneMotionIsAFileAndTheOptionReplacesThatOfTheCase) {
   const auto file = small_case("motion = \"all\"");
   expect_done(run_viscontact({"tabulate", file, "--motion", "spin", "-o", path("spin.csv")}));
-  const auto table = motions::read_motion_table(path("spin.csv"));
+  const auto table = lubrication::read_motion_table(path("spin.csv"));
   EXPECT_EQ(to_string(table.motion), "spin");
   EXPECT_NEAR(table.leading_torque_factor.value(), 0.5 / 0.5, 1e-15);
   expect_refusal(run_viscontact({"tabulate", file, "--motion", "glide", "-o", path("x.csv")}),
@@ -105,7 +104,7 @@ TEST_F(MotionsCommand, SharesOfTasksAreGatheredIntoTheTablesOfAllMotions) {
                                      {"VISCONTACT_FREEFEM=no-freefem-is-needed"});
   expect_done(gather);
   for (const char* motion : {"slide", "roll", "spin"})
-    EXPECT_EQ(motions::read_motion_table(path("out/") + motion + ".csv").rows.size(), 6U);
+    EXPECT_EQ(lubrication::read_motion_table(path("out/") + motion + ".csv").rows.size(), 6U);
   // A table that is lost is made again from the companion's rows and those of FreeFEM.
   fs::remove(path("out/roll.csv"));
   expect_done(run_viscontact({"tabulate", file, "-o", path("out")}));
@@ -244,7 +243,7 @@ TEST_F(MotionsCommand, ARowThatFailedIsMissingInTheTablesOfItsMotionsAndTheFitGo
   const auto failed = run_viscontact({"tabulate", file, "-o", path("out")}, {freefem});
   expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("1 of 7 rows failed"));
   for (const char* motion : {"slide", "roll"}) {
-    const auto table = motions::read_motion_table(path("out/") + motion + ".csv");
+    const auto table = lubrication::read_motion_table(path("out/") + motion + ".csv");
     EXPECT_EQ(table.rows.size(), 12U);
     EXPECT_EQ(table.failed_rows.count("gap 0.1"), 1U);
   }
@@ -257,7 +256,7 @@ TEST_F(MotionsCommand, ARowThatFailedIsMissingInTheTablesOfItsMotionsAndTheFitGo
     EXPECT_EQ(entries.at(entry).at("diagnostics").at("failed_rows"), 1) << entry;
   put_text(path("mended"), "");
   expect_done(run_viscontact({"tabulate", file, "-o", path("out")}, {freefem}));
-  EXPECT_EQ(motions::read_motion_table(path("out/roll.csv")).rows.size(), 14U);
+  EXPECT_EQ(lubrication::read_motion_table(path("out/roll.csv")).rows.size(), 14U);
 }
 
 TEST_F(MotionsCommand, RollingWritesTrajectoriesResultsAndAReport) {

@@ -10,8 +10,8 @@
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
-#include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact {
 namespace {
@@ -78,11 +78,11 @@ TEST_F(Stages, CompareBasesPrintsThemSideBySideAndDrawsThem) {
 TEST_F(Stages, ShiftOfAShiftedSmoothWallIsPrintedWrittenAndDrawn) {
   fit("lecture");
   const lubrication::LubricationForce smooth(lubrication::read_fit(path("fit.json")));
-  lubrication::ForceTable rough = lubrication::read_force_table(path("table.csv"));
+  lubrication::MotionTable rough = lubrication::read_force_table(path("table.csv"));
   constexpr double kShift = 0.005;
   rough.rows.resize(20);  // gaps that are within the fit when they are shifted
   for (auto& row : rough.rows) row.force = smooth.resistance(row.gap + kShift);
-  put("rough.csv", lubrication::write_force_table(rough));
+  put("rough.csv", lubrication::write_motion_table(rough));
   const auto result = run_viscontact({"shift", path("rough.csv"), "--fit", path("fit.json"), "-o",
                                       path("shift.csv"), "--plot", path("shift.svg")});
   expect_done(result);

@@ -13,8 +13,8 @@
 #include "tests/program/sample_files.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/freefem_axi/force_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
+#include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 namespace viscontact {
 

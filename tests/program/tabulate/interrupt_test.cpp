@@ -11,7 +11,7 @@
 #include "tests/program/program.hpp"
 #include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact {
 namespace {

@@ -1,10 +1,12 @@
 // Any bytes as a case file: read, and what it asks for prepared, or done if it is short.
 #include <array>
+#include <filesystem>
 #include <string>
 #include <utility>
 
 #include "tests/robustness/fuzz/fuzz_target.hpp"
 #include "viscontact/case_file/case_file.hpp"
+#include "viscontact/freefem_axi/motion_table_plan.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 #include "viscontact/sweep/variation.hpp"
@@ -13,7 +15,9 @@ namespace viscontact {
 namespace {
 
 void prepare(const freefem_axi::Tabulation& tabulation) {
-  (void)freefem_axi::tabulation_hash(tabulation);
+  for (const auto group : freefem_axi::motion_groups(tabulation))
+    (void)freefem_axi::motion_table_plan(tabulation, group,
+                                         [](auto) { return std::filesystem::path(); });
   (void)freefem_axi::geometry_in_words(tabulation);
   (void)freefem_axi::container_in_words(tabulation);
   for (const auto& [name, motion] : lubrication::all_motions())

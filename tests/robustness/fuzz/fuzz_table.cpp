@@ -5,23 +5,23 @@
 #include "tests/robustness/fuzz/fuzz_target.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact {
 namespace {
 
-void check_round_trip(const lubrication::ForceTable& table) {
-  const std::string text = lubrication::write_force_table(table);
+void check_round_trip(const lubrication::MotionTable& table) {
+  const std::string text = lubrication::write_motion_table(table);
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  const lubrication::ForceTable again =
+  const lubrication::MotionTable again =
       lubrication::read_force_table(file_of_bytes(bytes, text.size(), "table.csv"));
-  require(lubrication::write_force_table(again) == text,
+  require(lubrication::write_motion_table(again) == text,
           "a table that is written and read is another one");
 }
 
 /// A fit that comes out must be one that `simulate` can read.
-void fit(const lubrication::ForceTable& table, const fitting::FitSettings& settings) {
+void fit(const lubrication::MotionTable& table, const fitting::FitSettings& settings) {
   lubrication::Fit made;
   if (!can_be([&] { made = fitting::fit_force_table(table, settings); })) return;
   const std::string text = lubrication::write_fit(made);
@@ -34,7 +34,7 @@ void fit(const lubrication::ForceTable& table, const fitting::FitSettings& setti
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace viscontact;
-  lubrication::ForceTable table;
+  lubrication::MotionTable table;
   if (!is_let_in(
           [&] { table = lubrication::read_force_table(file_of_bytes(data, size, "table.csv")); }))
     return 0;

@@ -15,7 +15,7 @@
 #include "tests/oracles/exact_resistance_table.hpp"
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 #include "viscontact/swimmer/resistance/pair_lubrication.hpp"
-#include "viscontact/swimmer/resistance/resistance_matrix.hpp"
+#include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 namespace viscontact::swimmer {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact::swimmer {
 namespace {
@@ -31,6 +32,16 @@ ResistanceTable sample() {
   return table;
 }
 
+std::vector<std::string> names_of_columns(std::size_t spheres) {
+  ResistanceTable table;
+  table.radii.assign(spheres, 1.0);
+  ResistanceRow row;
+  prepare(table, row);
+  std::vector<std::string> names;
+  for (const auto& column : columns_of(table, row)) names.push_back(column.name);
+  return names;
+}
+
 class ResistanceTableFile : public ::testing::Test {
  protected:
   std::string refusal(const std::string& from, const std::string& to) const {
@@ -45,18 +56,19 @@ class ResistanceTableFile : public ::testing::Test {
 };
 
 TEST(ResistanceColumns, NameGapsAndEntriesByTheirSpheres) {
-  const auto columns = resistance_columns(3);
+  const auto columns = names_of_columns(3);
   EXPECT_THAT(std::vector(columns.begin(), columns.begin() + 8),
               ElementsAre("gap12", "gap23", "R11", "R12", "R13", "R22", "R23", "R33"));
   EXPECT_EQ(columns[8], "R11_relative_error_estimate");
   EXPECT_EQ(columns[14], "relative_error_estimate");
-  EXPECT_THAT(resistance_columns(10), ::testing::IsSupersetOf({"gap9_10", "R1_10", "R10_10"}));
+  EXPECT_THAT(names_of_columns(10), ::testing::IsSupersetOf({"gap9_10", "R1_10", "R10_10"}));
 }
 
 TEST_F(ResistanceTableFile, ReadsBackWhatWasWrittenBitForBit) {
   const auto table = sample();
   put_text(path(), write_resistance_table(table));
   const auto again = read_resistance_table(path());
+  EXPECT_EQ(write_resistance_table(again), read_file(path()));
   EXPECT_EQ(again.viscosity, table.viscosity);
   EXPECT_EQ(again.radii, table.radii);
   EXPECT_EQ(again.container, table.container);
@@ -71,6 +83,13 @@ TEST_F(ResistanceTableFile, ReadsBackWhatWasWrittenBitForBit) {
     EXPECT_EQ(again.rows[i].seconds, table.rows[i].seconds);
     EXPECT_EQ(again.rows[i].observed_order, table.rows[i].observed_order);
   }
+}
+
+TEST_F(ResistanceTableFile, ThatIsShippedIsWrittenAsItWasRead) {
+  const std::string file = std::string(VISCONTACT_SOURCE_FOLDER) + "/data/tables/three_spheres.csv";
+  const auto text = read_file(file);
+  // The first line is the provenance, which the command adds.
+  EXPECT_EQ(write_resistance_table(read_resistance_table(file)), text.substr(text.find('\n') + 1));
 }
 
 TEST_F(ResistanceTableFile, OfTenSpheresHasMoreColumnsThanTheReaderTakesAtOnce) {
@@ -92,14 +111,12 @@ TEST_F(ResistanceTableFile, OfTenSpheresHasMoreColumnsThanTheReaderTakesAtOnce) 
 TEST_F(ResistanceTableFile, ErrorsNameFileLineAndWhatIsAllowed) {
   EXPECT_THAT(refusal("# radii: 1 0.", "# radii: 1 -0."),
               AllOf(HasSubstr("table.csv"), HasSubstr("contains '-0.6666666666666666'")));
-  EXPECT_THAT(refusal("# viscosity: 0.", "# viscosity: -0."), HasSubstr("it must be > 0"));
   EXPECT_THAT(refusal("gap12", "gap"), HasSubstr("gap12"));
   EXPECT_THAT(refusal("\n0.14285714285714285,", "\n-1,"),
               AllOf(HasSubstr("gap12 is -1; it must be > 0"), HasSubstr("table.csv:")));
   EXPECT_THAT(refusal(",6.666666666666667,", ",-6.666666666666667,"),
               HasSubstr("the matrix R is not positive definite"));
   EXPECT_THAT(refusal(",6.666666666666667,", ",,"), HasSubstr("R11 is empty; it must be a number"));
-  EXPECT_THAT(refusal("# rows: 2", "# rows: 3"), HasSubstr("the file may be cut off"));
 }
 
 }  // namespace

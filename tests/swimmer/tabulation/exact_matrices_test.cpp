@@ -6,7 +6,7 @@
 
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/collinear_spheres.hpp"
-#include "viscontact/swimmer/resistance/resistance_matrix.hpp"
+#include "viscontact/swimmer/resistance/resistance_table.hpp"
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 namespace viscontact::swimmer {
@@ -43,8 +43,8 @@ TEST_P(ExactMatrix, IsMetWithinTheAccuracyThatWasAskedAndWithinTheEstimates) {
     }
 }
 
-// The exact matrices have eight digits or more at these gaps (exact_resistance). A gap below 0.15 of
-// the smaller radius has a structured film.
+// The exact matrices have eight digits or more at these gaps (exact_resistance). A gap below 0.15
+// of the smaller radius has a structured film.
 INSTANTIATE_TEST_SUITE_P(Rows, ExactMatrix,
                          ::testing::Values(Row{{1, 1, 1}, {0.1, 0.1}}, Row{{1, 1, 1}, {8, 0.3}},
                                            Row{{1, 2, 0.5}, {1, 1}},

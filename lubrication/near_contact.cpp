@@ -1,22 +1,22 @@
 // The solution of Reynolds' equation (physics.md (2.9), (2.10)) in the film between two curved
 // surfaces that move along it. Lengths are in sphere radii, kappa is 1 plus the neighbour's
 // curvature.
-#include "viscontact/motions/near_contact.hpp"
+#include "viscontact/lubrication/near_contact.hpp"
 
 #include <numbers>
 
-namespace viscontact::motions {
+namespace viscontact::lubrication {
 namespace {
 
 /// Force and torque on the sphere over ln(1/q), in units of mu r U and mu r^2 U, where U is the
 /// velocity of the motion.
-struct Action {
+struct FilmAction {
   double force = 0, torque = 0;
 };
 
 /// physics.md (2.10). `move` is the velocity of the sphere along x and `turn` its angular velocity
 /// about y, one of them 1 and the other one 0.
-Action across(double move, double turn, const NeighbourSurface& neighbour) {
+FilmAction across(double move, double turn, const NeighbourSurface& neighbour) {
   constexpr double kPi = std::numbers::pi;
   // A shear-free plane does not resist sliding in the film. Rolling presses fluid through it.
   if (neighbour.is_shear_free) return {0, -6 * kPi / 5 * turn};
@@ -35,17 +35,17 @@ Action across(double move, double turn, const NeighbourSurface& neighbour) {
 
 }  // namespace
 
-LeadingFactors leading_factors(lubrication::MotionKind motion, const NeighbourSurface& neighbour) {
+LeadingFactors leading_factors(MotionKind motion, const NeighbourSurface& neighbour) {
   constexpr double kForceUnit = 6 * std::numbers::pi, kTorqueUnit = 8 * std::numbers::pi;
-  if (motion == lubrication::MotionKind::kSpin) {
+  if (motion == MotionKind::kSpin) {
     const double kappa = 1 + neighbour.curvature;
     const double relative = neighbour.is_shear_free ? 0 : 1 - neighbour.velocity_ratio;
     return {"q ln q", 0, relative / (2 * kappa * kappa)};
   }
-  const bool moves = motion == lubrication::MotionKind::kSlide;
+  const bool moves = motion == MotionKind::kSlide;
   const auto action = across(moves ? 1 : 0, moves ? 0 : 1, neighbour);
   // ln q = -ln(1/q), and factors have the sign opposite to that of force and torque.
   return {"ln q", action.force / kForceUnit, action.torque / kTorqueUnit};
 }
 
-}  // namespace viscontact::motions
+}  // namespace viscontact::lubrication

@@ -1,11 +1,14 @@
-#include "viscontact/lubrication/force_table.hpp"
+// The files of tables of motions: what is written is read back, and what is wrong is refused.
+#include "viscontact/lubrication/motion_table.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <ostream>
 #include <random>
@@ -32,9 +35,9 @@ double random_positive(std::mt19937_64& random) {
   }
 }
 
-TEST(ForceTable, RoundTripsToTheBit) {
+TEST(TableOfTheApproach, RoundTripsToTheBit) {
   std::mt19937_64 random(1961);
-  ForceTable table;
+  MotionTable table;
   table.viscosity = random_positive(random);
   table.radius = random_positive(random);
   table.geometry = "sphere, radius 2, velocity_ratio: 0";
@@ -45,13 +48,13 @@ TEST(ForceTable, RoundTripsToTheBit) {
   table.failed_rows = {{"gap 0.1, velocity -1", "no solution: 100 unknowns"},
                        {"gap 0.1, velocity 2", "it had not ended after 1800 s"}};
   for (int i = 0; i < 300; ++i) {
-    ForceTableRow row;
+    MotionRow row;
     row.gap = random_positive(random);
     // Their product must not underflow to 0: a force opposed to its velocity is asked for.
     row.reference_velocity =
         (i % 2 == 0 ? -1 : 1) * std::ldexp(random_positive(random) > 1 ? 1.1 : 0.7, i - 150);
     row.force = -row.reference_velocity * std::ldexp(1.0 / (i + 3), 300 - i);
-    row.drag_factor = random_positive(random);
+    row.force_factor = random_positive(random);
     row.relative_error_estimate = random_positive(random);
     row.degrees_of_freedom = i * 12345;
     row.seconds = random_positive(random);
@@ -59,7 +62,7 @@ TEST(ForceTable, RoundTripsToTheBit) {
     table.rows.push_back(row);
   }
   const TemporaryFolder folder;
-  const auto path = folder.file("table.csv", write_force_table(table));
+  const auto path = folder.file("table.csv", write_motion_table(table));
   const auto back = read_force_table(path);
   EXPECT_EQ(back.viscosity, table.viscosity);
   EXPECT_EQ(back.radius, table.radius);
@@ -74,33 +77,33 @@ TEST(ForceTable, RoundTripsToTheBit) {
     EXPECT_EQ(back.rows[i].gap, table.rows[i].gap);
     EXPECT_EQ(back.rows[i].reference_velocity, table.rows[i].reference_velocity);
     EXPECT_EQ(back.rows[i].force, table.rows[i].force);
-    EXPECT_EQ(back.rows[i].drag_factor, table.rows[i].drag_factor);
+    EXPECT_EQ(back.rows[i].force_factor, table.rows[i].force_factor);
     EXPECT_EQ(back.rows[i].relative_error_estimate, table.rows[i].relative_error_estimate);
     EXPECT_EQ(back.rows[i].degrees_of_freedom, table.rows[i].degrees_of_freedom);
     EXPECT_EQ(back.rows[i].seconds, table.rows[i].seconds);
     EXPECT_EQ(back.rows[i].observed_order, table.rows[i].observed_order);
   }
-  EXPECT_EQ(write_force_table(back), read_file(path));
+  EXPECT_EQ(write_motion_table(back), read_file(path));
 }
 
-TEST(ForceTable, HasTheColumnsOfTheInterface) {
-  EXPECT_THAT(write_force_table(fitting::exact_drag_table({0.5}, {-1}, 3, 1)),
+TEST(TableOfTheApproach, HasTheColumnsOfTheInterface) {
+  EXPECT_THAT(write_motion_table(fitting::exact_drag_table({0.5}, {-1}, 3, 1)),
               HasSubstr("\ngap,reference_velocity,force,drag_factor,relative_error_estimate,"
                         "degrees_of_freedom,seconds,observed_order\n0.5,-1,"));
 }
 
-TEST(ForceTable, SaysInItsHeadWhatTheSphereApproachesAndInWhat) {
+TEST(TableOfTheApproach, SaysInItsHeadWhatTheSphereApproachesAndInWhat) {
   auto table = fitting::exact_drag_table({0.5}, {-1}, 3, 1);
   table.geometry = "cavity, radius 5";
   table.container = "none";
-  const auto text = write_force_table(table);
+  const auto text = write_motion_table(table);
   EXPECT_THAT(text, HasSubstr("# geometry: cavity, radius 5\n"));
   EXPECT_THAT(text, HasSubstr("# container: none\n"));
 }
 
 constexpr const char* kHead = "# viscosity: 3\n# radius: 2\n";
 
-TEST(ForceTable, OfAUserNeedsGapVelocityAndForceOnly) {
+TEST(TableOfTheApproach, OfAUserNeedsGapVelocityAndForceOnly) {
   const TemporaryFolder folder;
   const auto table = read_force_table(
       folder.file("own.csv", std::string(kHead) + "force,gap,reference_velocity\n1000,0.5,-1\n"));
@@ -108,18 +111,18 @@ TEST(ForceTable, OfAUserNeedsGapVelocityAndForceOnly) {
   EXPECT_EQ(table.rows[0].gap, 0.5);
   EXPECT_EQ(table.rows[0].reference_velocity, -1);
   EXPECT_EQ(table.rows[0].force, 1000);
-  EXPECT_DOUBLE_EQ(table.rows[0].drag_factor, 1000 / (6 * std::numbers::pi * 3 * 2));
+  EXPECT_DOUBLE_EQ(table.rows[0].force_factor, 1000 / (6 * std::numbers::pi * 3 * 2));
   EXPECT_EQ(table.rows[0].relative_error_estimate, 0);
 }
 
-TEST(ForceTable, MayHaveAForceAlongTheVelocityWhereTheNeighbourMovesOnly) {
+TEST(TableOfTheApproach, MayHaveAForceAlongTheVelocityWhereTheNeighbourMovesOnly) {
   const TemporaryFolder folder;
   const std::string rows = "gap,reference_velocity,force\n0.5,-1,-1000\n";
   const auto moving =
       read_force_table(folder.file("moving.csv", kHead + ("# neighbour_moves: yes\n" + rows)));
   EXPECT_EQ(moving.rows[0].force, -1000);
   EXPECT_TRUE(moving.neighbour_moves);
-  EXPECT_THAT(write_force_table(moving), HasSubstr("# neighbour_moves: yes\n"));
+  EXPECT_THAT(write_motion_table(moving), HasSubstr("# neighbour_moves: yes\n"));
   for (const auto* line :
        {"# geometry: sphere, radius 1, velocity_ratio 0\n", "# geometry: plane\n"}) {
     const auto path = folder.file("resting.csv", kHead + (line + rows));
@@ -152,9 +155,10 @@ const std::string kColumnsLine = "gap,reference_velocity,force\n";
 const std::string kGoodHead = kHead + kColumnsLine;  // three lines
 
 INSTANTIATE_TEST_SUITE_P(
-    ForceTable, Wrong,
+    TableOfTheApproach, Wrong,
     ::testing::Values(
-        WrongTable{"Empty", "", ": has no header line"},
+        WrongTable{"Empty", "", ": the line '# viscosity: NUMBER' is missing"},
+        WrongTable{"HeadAlone", kHead, ": has no header line"},
         WrongTable{"NoRows", kGoodHead, ": has no rows"},
         WrongTable{"NoViscosity", "# radius: 1\n" + kColumnsLine + "1,-1,1\n",
                    ": the line '# viscosity: NUMBER' is missing"},
@@ -197,22 +201,124 @@ INSTANTIATE_TEST_SUITE_P(
                    ": has 1 rows where its header says 2"}),
     [](const auto& tested) { return tested.param.what; });
 
-TEST(ForceTable, CutAnywhereIsRefused) {
+TEST(TableOfTheApproach, CutAnywhereIsRefused) {
   const TemporaryFolder folder;
-  const auto text = write_force_table(fitting::exact_drag_table({0.25, 0.75}, {-1}, 3, 1));
+  const auto text = write_motion_table(fitting::exact_drag_table({0.25, 0.75}, {-1}, 3, 1));
   for (std::size_t length = 0; length < text.size(); ++length)
     EXPECT_NE(bad_input([&] { read_force_table(folder.file("cut.csv", text.substr(0, length))); }),
               "")
         << "cut to " << length << " of " << text.size() << " bytes";
 }
 
-TEST(ForceTable, InPlaceOfWhichIsAFolderOrNothingIsNamed) {
+TEST(TableOfTheApproach, InPlaceOfWhichIsAFolderOrNothingIsNamed) {
   const TemporaryFolder folder;
   EXPECT_THAT(bad_input([&] { read_force_table(folder.path()); }),
               StartsWith(folder.path().string() + ": cannot be read"));
   const auto missing = folder.path() / "none.csv";
   EXPECT_THAT(bad_input([&] { read_force_table(missing); }),
               StartsWith(missing.string() + ": cannot be read"));
+}
+
+MotionTable table_of_a_pair() {
+  MotionTable table;
+  table.motion = MotionKind::kRoll;
+  table.viscosity = 0.3;
+  table.radius = 2;
+  table.geometry = "sphere, radius 1, velocity_ratio 0";
+  table.container = "unbounded";
+  table.leading_force_factor = 1. / 3;
+  table.leading_torque_factor = -0.2;
+  table.case_hash = "abc";
+  table.versions["FreeFEM"] = "4.9";
+  table.tabulated_motions = {MotionKind::kApproach, MotionKind::kRoll};
+  table.failed_rows = {{"gap 0.15", "no solution: 100 unknowns"}};
+  MotionRow row;
+  row.gap = 0.1;
+  row.reference_velocity = -3;
+  constexpr double kFromFactor = std::numeric_limits<double>::quiet_NaN();
+  static_cast<Action&>(row) = {kFromFactor, kFromFactor, -0.1, 2. / 3, 1e-7, 2e-7};
+  row.neighbour = Action{kFromFactor, kFromFactor, 0.01, -0.02, 3e-7, 4e-7};
+  row.degrees_of_freedom = 1234;
+  row.seconds = 1.5;
+  row.observed_order = 3.9;
+  table.rows = {row, row};
+  table.rows[1].gap = 0.2;
+  return table;
+}
+
+class MotionTableFile : public ::testing::Test {
+ protected:
+  MotionTable read(const std::string& text) const {
+    return read_motion_table(folder_.file("table.csv", text));
+  }
+  /// The text of a small table with one text replaced by another one.
+  static std::string changed(const std::string& from, const std::string& to) {
+    std::string text =
+        "# motion: slide\n# viscosity: 1\n# radius: 1\ngap,reference_velocity,force,torque\n"
+        "0.1,1,-40,2\n";
+    return text.replace(text.find(from), from.size(), to);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(MotionTableFile, IsReadAsItWasWritten) {
+  const auto table = table_of_a_pair();
+  const auto text = write_motion_table(table);
+  const auto again = read(text);
+  EXPECT_EQ(write_motion_table(again), text);
+  EXPECT_EQ(again.motion, MotionKind::kRoll);
+  ASSERT_EQ(again.rows.size(), 2U);
+  EXPECT_EQ(again.rows[1].gap, 0.2);
+  EXPECT_EQ(again.rows[0].torque_factor, 2. / 3);
+  EXPECT_EQ(again.rows[0].neighbour->torque_error_estimate, 4e-7);
+  EXPECT_EQ(again.leading_force_factor, 1. / 3);
+  EXPECT_EQ(again.tabulated_motions, table.tabulated_motions);
+  EXPECT_EQ(again.failed_rows, table.failed_rows);
+  // torque = -8 pi mu r^3 w0 * factor
+  EXPECT_THAT(text, HasSubstr(fmt::format(",{},", 8 * std::numbers::pi * 0.3 * 8 * 3 * (2. / 3))));
+}
+
+TEST_F(MotionTableFile, OfOthersNeedsFourColumns) {
+  const auto table = read(changed("", ""));
+  EXPECT_NEAR(table.rows[0].force_factor, 40 / (6 * std::numbers::pi), 1e-15);
+  EXPECT_NEAR(table.rows[0].torque_factor, -2 / (8 * std::numbers::pi), 1e-16);
+  EXPECT_FALSE(table.rows[0].neighbour);
+}
+
+TEST_F(MotionTableFile, IsRefusedWithLineAndValue) {
+  const auto failure = [&](const std::string& from, const std::string& to) {
+    return bad_input([&] { (void)read(changed(from, to)); });
+  };
+  EXPECT_THAT(failure("slide", "glide"), HasSubstr("# motion: no motion is named 'glide'"));
+  EXPECT_THAT(failure("# motion: slide\n", "# viscontact: motion table\n"),
+              HasSubstr("has no line '# motion: ...'"));
+  EXPECT_THAT(failure("-40", "40"), HasSubstr("force is 40 at velocity 1; a drag must be opposed"));
+  EXPECT_THAT(failure(",torque", ",moment"), HasSubstr("column 'torque' is missing"));
+}
+
+TEST_F(MotionTableFile, IsToldFromATableOfTheApproach) {
+  EXPECT_TRUE(is_motion_table(folder_.file("slide.csv", changed("", ""))));
+  const auto approach = folder_.file("approach.csv", changed("slide", "approach"));
+  EXPECT_FALSE(is_motion_table(approach));
+  EXPECT_EQ(read_force_table(approach).motion, MotionKind::kApproach);
+  const auto slide = folder_.file("table.csv", changed("", ""));
+  EXPECT_EQ(bad_input([&] { (void)read_force_table(slide); }),
+            slide.string() + ": # motion: is slide; it must be approach here");
+}
+
+TEST(ShippedTables, AreWrittenAsTheyWereRead) {
+  int tables = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(
+           std::string(VISCONTACT_SOURCE_FOLDER) + "/data/tables")) {
+    if (entry.path().extension() != ".csv" || entry.path().stem() == "three_spheres") continue;
+    SCOPED_TRACE(entry.path().string());
+    const auto text = read_file(entry.path());
+    // The first line is the provenance, which the command adds.
+    EXPECT_EQ(write_motion_table(read_motion_table(entry.path())),
+              text.substr(text.find('\n') + 1));
+    ++tables;
+  }
+  EXPECT_EQ(tables, 24);
 }
 
 }  // namespace

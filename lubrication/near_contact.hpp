@@ -7,7 +7,7 @@
 
 #include "viscontact/lubrication/motion_kind.hpp"
 
-namespace viscontact::motions {
+namespace viscontact::lubrication {
 
 /// The neighbour of a sphere of radius 1, as the film between them sees it.
 struct NeighbourSurface {
@@ -32,6 +32,6 @@ struct LeadingFactors {
 /// The leading coefficients of a motion across the axis or around it (kSlide, kRoll, kSpin), with q
 /// in sphere radii (Goldman, Cox & Brenner 1967 for a plane; Jeffrey & Onishi 1984 for two
 /// spheres).
-LeadingFactors leading_factors(lubrication::MotionKind motion, const NeighbourSurface& neighbour);
+LeadingFactors leading_factors(MotionKind motion, const NeighbourSurface& neighbour);
 
-}  // namespace viscontact::motions
+}  // namespace viscontact::lubrication

@@ -1,0 +1,280 @@
+// Reads and writes structs as JSON objects by one list of their fields. A struct S is a file or a
+// part of one if its namespace has
+//
+//   void fields_of(JsonFields& json, S& s) {
+//     json("radius", s.radius, kPositive);   // key, member, what is allowed
+//     json("geometry", s.geometry, kLeftOutIfEmpty);
+//   }
+//
+// in the order of the file. Every error message names the file, the line, the key and what is
+// allowed there.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "viscontact/common/allowed.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/text/json.hpp"
+
+namespace viscontact {
+
+/// Whether a file may lack a key: it may not, it may, or it may and is written without it if the
+/// value is empty, nothing or 0.
+enum class Absence { kRefused, kAllowed, kLeftOutIfEmpty };
+
+/// The fields of a JSON object: writes them, or reads them. An instance for reading must not
+/// outlive its document.
+class JsonFields {
+ public:
+  /// The struct in the text of a file, which messages call `file`. Throws Error(kBadInput) with the
+  /// line, the key, what is allowed, and then `remedy`.
+  template <class Struct>
+  static Struct read(const std::string& text, const std::string& file,
+                     const std::string& remedy = "") {
+    try {
+      const auto document = JsonDocument::parse(text, file);
+      Struct value;
+      JsonFields(document, document.root(), "").read_into(value);
+      return value;
+    } catch (const Error& error) {
+      throw Error(error.kind(), error.what() + remedy);
+    }
+  }
+
+  /// The JSON object of a struct.
+  template <class Struct>
+  static Json write(Struct value) {
+    JsonFields fields;
+    fields_of(fields, value);
+    return fields.written_;
+  }
+
+  /// The text of a file, in which each level is indented by `indent` more.
+  template <class Struct>
+  static std::string text_of(const Struct& value, int indent = 2) {
+    // The head of a table may contain bytes that are not UTF-8, which dump() would refuse.
+    return write(value).dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+  }
+
+  /// True if the fields are read now, so that fields_of() can check them.
+  bool reads() const { return json_ != nullptr; }
+
+  /// Throws Error(kBadInput) with "FILE:LINE: KEY WHAT". An empty `key` stands for the object.
+  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
+    const std::string where = path_of(key);
+    throw_bad_input({document_->file(), document_->line_of(where)},
+                    fmt::format("{} {}", where.empty() ? "the file" : where, what));
+  }
+
+  /// A field. Its type is double (finite), bool, std::size_t, long, std::string, std::optional
+  /// (null: nothing, unless it is left out then), a map of texts, an array of two numbers, a struct
+  /// with fields_of(), or a vector of any of these.
+  template <class Value>
+  void operator()(const std::string& key, Value& value, Absence absence = Absence::kRefused) {
+    if (!reads()) {
+      if (absence == Absence::kLeftOutIfEmpty && is_empty(value)) return;
+      written_[key] = json_of(value);
+    } else if (is_there(key, absence)) {
+      if constexpr (requires {
+                      value.emplace();
+                      value.has_value();
+                    })
+        if (absence == Absence::kLeftOutIfEmpty) return take(key, json_->at(key), value.emplace());
+      take(key, json_->at(key), value);
+    }
+  }
+
+  /// A number that is checked.
+  void operator()(const std::string& key, double& value, const Allowed& allowed) {
+    (*this)(key, value);
+    if (reads() && !allowed.test(value))
+      fail(key, fmt::format("is {}; it must be {}", value, allowed.words));
+  }
+
+  /// Two gaps [L], of which the first is > 0 and less than the second.
+  void gap_interval(const std::string& key, std::array<double, 2>& interval) {
+    (*this)(key, interval);
+    if (reads() && !(interval[0] > 0 && interval[1] > interval[0]))
+      fail(key, fmt::format("is {}; it must be two gaps with 0 < first < second",
+                            json_->at(key).dump()));
+  }
+
+  /// An object that has `part(value)` of each value at the key `value.*name`.
+  template <class Value, class Part>
+  void by_name(const std::string& key, std::vector<Value>& values, std::string Value::*name,
+               const Part& part, Absence absence = Absence::kRefused) {
+    if (!reads()) {
+      written_[key] = Json::object();
+      for (auto& value : values) written_[key][value.*name] = json_of(part(value));
+    } else if (is_there(key, absence)) {
+      const Json& object = json_->at(key);
+      require(object.is_object(), key, object, "an object");
+      for (const auto& [word, json] : object.items()) {
+        values.emplace_back().*name = word;
+        take(key + "." + word, json, part(values.back()));
+      }
+    }
+  }
+
+  /// A word for a value that to_string() and `parse` translate. `parse` throws Error("...; what is
+  /// allowed") for other words; the part of that text from the semicolon on is added to the
+  /// message.
+  template <class Value, class Parse>
+  void word(const std::string& key, Value& value, const Parse& parse,
+            Absence absence = Absence::kRefused) {
+    std::string word(to_string(value));
+    (*this)(key, word, absence);
+    if (!reads()) return;
+    try {
+      value = parse(word);
+    } catch (const Error& error) {
+      const std::string said = error.what();
+      const auto allowed = said.find("; ");
+      fail(key, fmt::format("is '{}'{}", word,
+                            allowed == std::string::npos ? "" : said.substr(allowed)));
+    }
+  }
+
+  /// A key that must have this text.
+  void constant(const std::string& key, const std::string& text) {
+    std::string found = text;
+    (*this)(key, found);
+    if (found != text) fail(key, fmt::format("is '{}'; it must be '{}'", found, text));
+  }
+
+  /// An object that is written and read elsewhere, and that a file may lack.
+  void foreign_object(const std::string& key) {
+    if (reads() && is_there(key, Absence::kAllowed))
+      JsonFields(*document_, json_->at(key), path_of(key));
+  }
+
+ private:
+  JsonFields() = default;
+  JsonFields(const JsonDocument& document, const Json& json, std::string path)
+      : document_(&document), json_(&json), path_(std::move(path)) {
+    if (!json.is_object()) fail("", fmt::format("is {}; it must be an object", shown(json)));
+  }
+
+  /// Reads the fields, and refuses keys that are none.
+  template <class Struct>
+  void read_into(Struct& value) {
+    fields_of(*this, value);
+    for (const auto& [key, member] : json_->items())
+      if (!keys_.contains(key)) fail(key, "is not a key of this file");
+  }
+
+  bool is_there(const std::string& key, Absence absence) {
+    keys_.insert(key);
+    const bool is = json_->contains(key);
+    if (!is && absence == Absence::kRefused) fail(key, "is missing; the file must have this key");
+    return is;
+  }
+
+  std::string path_of(const std::string& key) const {
+    return path_ + (path_.empty() || key.empty() ? "" : ".") + key;
+  }
+
+  /// A value as text for a message. For an array or object it says only which of the two it is,
+  /// because dump() is recursive and a file may nest values so deeply that the stack overflows.
+  static std::string shown(const Json& value) {
+    return value.is_structured() ? value.is_array() ? "an array" : "an object" : value.dump();
+  }
+
+  void require(bool holds, const std::string& key, const Json& json, const char* what) const {
+    if (!holds) fail(key, fmt::format("is {}; it must be {}", shown(json), what));
+  }
+
+  template <class Value>
+  static bool is_empty(const Value& value) {
+    if constexpr (requires { value.has_value(); })
+      return !value.has_value();
+    else if constexpr (requires { value.empty(); })
+      return value.empty();
+    else if constexpr (requires { value == Value(); })
+      return value == Value();
+    else
+      return false;
+  }
+
+  template <class Value>
+  static Json json_of(const Value& value) {
+    if constexpr (requires(JsonFields & fields, Value & copy) { fields_of(fields, copy); })
+      return write(value);
+    else
+      return value;
+  }
+  template <class Value>
+  static Json json_of(const std::optional<Value>& value) {
+    return value ? json_of(*value) : Json(nullptr);
+  }
+  template <class Value>
+  static Json json_of(const std::vector<Value>& values) {
+    auto array = Json::array();
+    for (const auto& value : values) array.push_back(json_of(value));
+    return array;
+  }
+
+  void take(const std::string& key, const Json& json, double& value) const {
+    require(json.is_number() && std::isfinite(json.get<double>()), key, json, "a finite number");
+    json.get_to(value);
+  }
+  void take(const std::string& key, const Json& json, bool& value) const {
+    require(json.is_boolean(), key, json, "true or false");
+    json.get_to(value);
+  }
+  void take(const std::string& key, const Json& json, std::size_t& value) const {
+    require(json.is_number_unsigned(), key, json, "a whole number >= 0");
+    json.get_to(value);
+  }
+  void take(const std::string& key, const Json& json, long& value) const {
+    require(json.is_number_integer(), key, json, "a whole number");
+    json.get_to(value);
+  }
+  void take(const std::string& key, const Json& json, std::string& value) const {
+    require(json.is_string(), key, json, "a text in quotes");
+    json.get_to(value);
+  }
+  void take(const std::string& key, const Json& json,
+            std::map<std::string, std::string>& texts) const {
+    require(json.is_object(), key, json, "an object");
+    for (const auto& [name, text] : json.items()) take(key + "." + name, text, texts[name]);
+  }
+  void take(const std::string& key, const Json& json, std::array<double, 2>& two) const {
+    std::vector<double> numbers;
+    take(key, json, numbers);
+    if (numbers.size() != 2)
+      fail(key, fmt::format("has {} elements; it must be two numbers", numbers.size()));
+    two = {numbers[0], numbers[1]};
+  }
+  template <class Value>
+  void take(const std::string& key, const Json& json, std::optional<Value>& value) const {
+    if (!json.is_null()) take(key, json, value.emplace());
+  }
+  template <class Value>
+  void take(const std::string& key, const Json& json, std::vector<Value>& values) const {
+    require(json.is_array(), key, json, "an array");
+    for (std::size_t i = 0; i < json.size(); ++i)
+      take(fmt::format("{}[{}]", key, i), json[i], values.emplace_back());
+  }
+  template <class Struct>
+  requires requires(JsonFields& fields, Struct& value) { fields_of(fields, value); }
+  void take(const std::string& key, const Json& json, Struct& value) const {
+    JsonFields(*document_, json, path_of(key)).read_into(value);
+  }
+
+  std::set<std::string> keys_;  ///< those that were read
+  Json written_ = Json::object();
+  const JsonDocument* document_ = nullptr;
+  const Json* json_ = nullptr;
+  std::string path_;
+};
+
+}  // namespace viscontact

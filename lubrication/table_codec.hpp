@@ -1,0 +1,75 @@
+// The one codec of all tables (table.hpp, docs/file-formats.md). For a struct Row it needs, in the
+// namespace of the Row:
+//   static constexpr bool Row::kIsOfLine: if the head has the radii of several spheres;
+//   void prepare(const TableHead&, Row&): gives vectors the sizes of the table;
+//   std::vector<Column> columns_of(const TableHead&, Row&): in the order of the file; the first ones
+//     say which row it is;
+//   void complete(const TableHead&, Row&): computes what follows from other numbers;
+//   void check(const TableHead&, const Row&, const FilePosition&): throws Error(kBadInput) if the
+//     numbers contradict each other.
+#pragma once
+
+#include <span>
+
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/lubrication/table.hpp"
+
+namespace viscontact::lubrication {
+
+/// Reads the head in the text of a file. Throws Error(kBadInput), which names file and key.
+TableHead read_head(const std::string& text, const std::string& file, bool is_of_line);
+
+/// The lines of the head of a table with so many rows.
+CsvComments lines_of(const TableHead& head, std::size_t rows);
+
+/// Sets the numbers of a row from its fields, of which some may be empty. Throws Error(kBadInput)
+/// for a number that is missing or out of range.
+void set_numbers(const std::vector<Column>& columns, std::span<const std::optional<double>> fields,
+                 const FilePosition& here);
+
+/// Reads a table. Throws Error(kBadInput) with file and line if a value is missing, not finite or
+/// out of range, or if the number of rows is not that of the head (the file is truncated).
+template <class Row>
+Table<Row> read_table(const std::filesystem::path& path) {
+  const std::string file = path.string(), text = read_file(path);
+  Table<Row> table{read_head(text, file, Row::kIsOfLine), {}};
+  Row blank;
+  prepare(table, blank);
+  std::vector<std::string> names;
+  std::size_t required = 0;
+  for (const auto& column : columns_of(table, blank)) {
+    names.push_back(column.name);
+    if (column.if_absent == IfAbsent::kRefused) ++required;
+  }
+  read_csv_rows(text, file, names, required,
+                [&](std::span<const std::optional<double>> fields, int line) {
+                  auto& row = table.rows.emplace_back(blank);
+                  set_numbers(columns_of(table, row), fields, {file, line});
+                  complete(table, row);
+                  check(table, row, {file, line});
+                });
+  if (table.rows.empty())
+    throw_bad_input({file}, "has no rows below its header line; it needs at least one");
+  return table;
+}
+
+/// The text of the file: lines "# key: value", the line of column names, and the rows. Every number
+/// has as many digits as are needed to read the same double back. `table` has at least one row.
+template <class Row>
+std::string write_table(const Table<Row>& table) {
+  std::string text = write_csv_comments(lines_of(table, table.rows.size())), numbers;
+  for (auto row : table.rows) {
+    complete(table, row);
+    const auto columns = columns_of(table, row);
+    if (numbers.empty())
+      for (const auto& column : columns)
+        text += column.name + (&column == &columns.back() ? "\n" : ",");
+    for (const auto& column : columns) numbers += format_number(*column.number) + ",";
+    numbers.back() = '\n';
+  }
+  return text + numbers;
+}
+
+}  // namespace viscontact::lubrication

@@ -1,0 +1,166 @@
+// The shipped cases of a fluid with inertia (data/cases/flow) run with FreeFEM, coarser and shorter,
+// and give the published numbers that docs/fluid.md compares with. The full cases are commands of
+// that page.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/program/particles/particles_command.hpp"
+#include "viscontact/common/files/file.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const fs::path kCases = VISCONTACT_SOURCE_FOLDER "/data/cases/flow";
+
+class FlowCase : public ParticlesCommand {
+ protected:
+  /// The text of a shipped case with other values of keys.
+  static std::string with(const std::string& name,
+                          const std::vector<std::pair<std::string, std::string>>& values) {
+    auto text = read_file(kCases / (name + ".toml"));
+    for (const auto& [key, value] : values) {
+      const auto changed =
+          replaced_matches(text, "\n" + key + " = [^\n]*\n", "\n" + key + " = " + value + "\n");
+      EXPECT_NE(changed, text) << key;
+      text = changed;
+    }
+    return text;
+  }
+  void compute(const std::string& text) { expect_done(run(put_case(text), out())); }
+  /// All values of a column of a table of results.
+  std::vector<double> column(const std::string& file, const std::string& name) const {
+    const auto lines = matches_in(content(out() / file), "([^\n]+)\n", 1);
+    const auto header =
+        std::ranges::find_if(lines, [](const std::string& line) { return !line.starts_with("#"); });
+    const auto names = matches_in(*header + ",", "([^,]*),", 1);
+    const auto place = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    std::vector<double> values;
+    for (auto line = header + 1; line != lines.end(); ++line)
+      values.push_back(std::stod(matches_in(*line + ",", "([^,]*),", 1).at(place)));
+    return values;
+  }
+};
+
+TEST_F(FlowCase, EachHasATest) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(kCases)) names.insert(entry.path().stem());
+  EXPECT_EQ(names, (std::set<std::string>{"couette_migration", "cylinder_steady",
+                                          "cylinder_vortices", "falling_disc", "landing_sphere",
+                                          "poiseuille_migration", "two_discs"}));
+}
+
+// DFG 2D-1 with 24 edges in place of 64, which makes an error of the mesh of less than 4e-3.
+TEST_F(FlowCase, ASteadyFlowDragsACylinder) {
+  compute(with("cylinder_steady", {{"edges_per_particle", "24"}, {"end_time", "2.0"}}));
+  EXPECT_NEAR(500 * column("steps.csv", "given_force_x").back(), 5.57953523384, 0.02);
+}
+
+// After a few steps from the Stokes flow no vortex has left yet: the wake is shorter than later, and
+// the drag is less than its published largest value.
+TEST_F(FlowCase, AWakeGrowsBehindACylinder) {
+  compute(with("cylinder_vortices",
+               {{"edges_per_particle", "16"}, {"end_time", "0.4"}, {"time_step", "0.02"}}));
+  const auto drag = column("steps.csv", "given_force_x");
+  EXPECT_GT(20 * drag.back(), 2.8);
+  EXPECT_LT(20 * drag.back(), 3.24);
+}
+
+// The speed of the disc at t = 0.3 is 5.4521 with a quarter of the step and four times the edges.
+TEST_F(FlowCase, ADiscFalls) {
+  const std::string coarse = "\"rigid\"\nedges_per_particle = 12";
+  compute(
+      with("falling_disc", {{"time_step", "0.02"}, {"end_time", "0.3"}, {"constraint", coarse}}));
+  EXPECT_NEAR(column("motion.csv", "vy").back(), -5.4521, 0.01 * 5.4521);
+  EXPECT_NEAR(column("steps.csv", "reynolds_number").back(), 5.45 * 0.25 / 0.1, 0.3);
+}
+
+// The same disc as a viscous fluid, and with the lecture's characteristics, whose error of first
+// order is 4 % with this step.
+TEST_F(FlowCase, ADiscFallsByPenaltyAndCharacteristics) {
+  const std::string coarse =
+      "\"penalty\"\nedges_per_particle = 12\nadvection = \"characteristics\"";
+  compute(
+      with("falling_disc", {{"time_step", "0.02"}, {"end_time", "0.3"}, {"constraint", coarse}}));
+  EXPECT_NEAR(column("motion.csv", "vy").back(), -5.4521, 0.06 * 5.4521);
+}
+
+// Computations of Koblitz et al. 2017 (depth 1.7177 and 2.239 at t = 0.1) and Uhlmann 2005.
+TEST_F(FlowCase, TwoDiscsDraft) {
+  const std::string coarse = "\"rigid\"\nedges_per_particle = 12";
+  compute(with("two_discs", {{"time_step", "0.004"}, {"end_time", "0.1"}, {"constraint", coarse}}));
+  const auto y = column("motion.csv", "y");
+  EXPECT_NEAR(6 - y[y.size() - 2], 1.7177, 0.02);
+  EXPECT_NEAR(6 - y[y.size() - 1], 2.239, 0.02);
+}
+
+// Pan & Glowinski 2002: y = 0.3568 after 5.44 lengths of the cell.
+TEST_F(FlowCase, ADiscMigratesInPoiseuilleFlow) {
+  compute(with("poiseuille_migration",
+               {{"time_step", "2.0"}, {"end_time", "240.0"}, {"edges_per_particle", "12"}}));
+  EXPECT_NEAR(column("motion.csv", "y").back(), 0.3568, 0.006);
+}
+
+TEST_F(FlowCase, ADiscMigratesToTheMiddleOfACouetteFlow) {
+  compute(with("couette_migration",
+               {{"time_step", "0.2"}, {"end_time", "6.0"}, {"edges_per_particle", "12"}}));
+  const auto y = column("motion.csv", "y");
+  EXPECT_GT(y.back(), 0.36);
+  EXPECT_LT(y.back(), 0.5);
+}
+
+// The film below the threshold gap holds the sphere at that gap.
+TEST_F(FlowCase, ASphereLands) {
+  compute(with("landing_sphere", {{"time_step", "0.2"}, {"end_time", "5.0"}}));
+  EXPECT_NEAR(column("motion.csv", "z").back(), 1.05, 1e-9);
+  EXPECT_NEAR(column("motion.csv", "vz").back(), 0, 1e-9);
+}
+
+// A run that continues another one gives the same bits as one without a break.
+TEST_F(FlowCase, ContinuesWithTheSameBits) {
+  const std::string coarse = "\"rigid\"\nedges_per_particle = 8";
+  const auto text = [&](const std::string& end) {
+    return with("falling_disc", {{"time_step", "0.02"}, {"end_time", end}, {"constraint", coarse}});
+  };
+  compute(text("0.2"));
+  const auto whole = column("motion.csv", "vy");
+  compute(text("0.1"));
+  const auto restart = out() / "restart.bin";
+  const auto copy = out().parent_path() / "half.bin";
+  fs::copy_file(restart, copy);
+  expect_done(run(put_case(text("0.2")), out(), {"--restart", copy.string()}));
+  EXPECT_EQ(column("motion.csv", "vy").back(), whole.back());
+}
+
+TEST_F(FlowCase, RefusesARestartWithoutAFlow) {
+  const std::string coarse = "\"rigid\"\nedges_per_particle = 8";
+  const auto stokes = replaced_matches(
+      with("falling_disc", {{"time_step", "0.02"}, {"end_time", "0.04"}, {"constraint", coarse}}),
+      "\ndensity = 1.0\n", "\n");
+  compute(stokes);
+  const auto result =
+      run(put_case(with("falling_disc",
+                        {{"time_step", "0.02"}, {"end_time", "0.1"}, {"constraint", coarse}})),
+          out("other"), {"--restart", (out() / "restart.bin").string()});
+  expect_refusal(result, ErrorKind::kBadInput, HasSubstr("the restart file has no flow"));
+}
+
+TEST_F(FlowCase, RefusesAStepThatLeadsThroughTheMesh) {
+  const std::string coarse = "\"rigid\"\nedges_per_particle = 8";
+  const auto result =
+      run(put_case(with("falling_disc",
+                        {{"time_step", "0.5"}, {"end_time", "1.0"}, {"constraint", coarse}})),
+          out());
+  EXPECT_THAT(result.errors, HasSubstr("the time step is too long for the velocities"));
+}
+
+}  // namespace
+}  // namespace viscontact
