@@ -18,8 +18,8 @@
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
 #include "viscontact/particles/rotation.hpp"
-#include "viscontact/particles/step_residuals.hpp"
-#include "viscontact/particles/step_times.hpp"
+#include "viscontact/particles/steps/step_residuals.hpp"
+#include "viscontact/particles/steps/step_times.hpp"
 
 namespace viscontact::particles {
 

@@ -17,8 +17,8 @@
 #include "viscontact/particles/impacts/rebound.hpp"
 #include "viscontact/particles/setting.hpp"
 #include "viscontact/particles/state.hpp"
-#include "viscontact/particles/step_report.hpp"
-#include "viscontact/particles/step_times.hpp"
+#include "viscontact/particles/steps/step_report.hpp"
+#include "viscontact/particles/steps/step_times.hpp"
 
 namespace viscontact::particles {
 

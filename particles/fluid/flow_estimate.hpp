@@ -9,7 +9,7 @@
 #include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/particles.hpp"
-#include "viscontact/particles/step_report.hpp"
+#include "viscontact/particles/steps/step_report.hpp"
 
 namespace viscontact::particles {
 

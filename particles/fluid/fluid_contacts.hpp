@@ -15,7 +15,7 @@
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/solver_settings.hpp"
 #include "viscontact/particles/state.hpp"
-#include "viscontact/particles/step_residuals.hpp"
+#include "viscontact/particles/steps/step_residuals.hpp"
 
 namespace viscontact::particles {
 

@@ -20,7 +20,7 @@
 #include "viscontact/particles/fluid/held_solver.hpp"
 #include "viscontact/particles/fluid/step_equation.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
-#include "viscontact/particles/step_times.hpp"
+#include "viscontact/particles/steps/step_times.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -19,7 +19,7 @@
 #include "viscontact/particles/projection/residual_scales.hpp"
 #include "viscontact/particles/solver_settings.hpp"
 #include "viscontact/particles/state.hpp"
-#include "viscontact/particles/step_residuals.hpp"
+#include "viscontact/particles/steps/step_residuals.hpp"
 
 namespace viscontact::particles {
 

@@ -12,7 +12,7 @@
 #include "viscontact/common/files/growing_file.hpp"
 #include "viscontact/particles/case/particles_case.hpp"
 #include "viscontact/particles/state.hpp"
-#include "viscontact/particles/step_report.hpp"
+#include "viscontact/particles/steps/step_report.hpp"
 
 namespace viscontact::particles {
 

@@ -8,7 +8,7 @@
 
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/rotation.hpp"
-#include "viscontact/particles/step_times.hpp"
+#include "viscontact/particles/steps/step_times.hpp"
 
 namespace viscontact::particles {
 namespace {

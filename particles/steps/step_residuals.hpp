@@ -10,7 +10,7 @@
 
 #include "viscontact/particles/setting.hpp"
 #include "viscontact/particles/state.hpp"
-#include "viscontact/particles/step_report.hpp"
+#include "viscontact/particles/steps/step_report.hpp"
 
 namespace viscontact::particles {
 

@@ -1,6 +1,6 @@
 // Residuals of a step and their limits (step_residuals.hpp). Lengths, masses and times are in the
 // units of the case.
-#include "viscontact/particles/step_residuals.hpp"
+#include "viscontact/particles/steps/step_residuals.hpp"
 
 #include <fmt/format.h>
 

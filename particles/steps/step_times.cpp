@@ -1,6 +1,6 @@
 // Places the steps around or at the times of jumps (step_times.hpp). Times [T] are in the unit of
 // the case. A run that continues must take the same steps, bit for bit.
-#include "viscontact/particles/step_times.hpp"
+#include "viscontact/particles/steps/step_times.hpp"
 
 #include <algorithm>
 #include <cmath>
