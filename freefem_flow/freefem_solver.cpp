@@ -99,6 +99,8 @@ SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain&
 particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units) {
   fluid.viscosity /= units.viscosity;
   fluid.threshold_gap /= units.length;
+  for (auto& axes : fluid.semi_axes)
+    for (auto& axis : axes) axis /= units.length;
   fluid.density /= units.viscosity / (units.length * units.length);
   for (auto& gradient : fluid.pressure_gradient) gradient /= units.viscosity / units.length;
   if (auto* sides = std::get_if<particles::SideVelocities>(&fluid.boundary))

@@ -25,15 +25,15 @@ class BoundaryMaker {
         lengths_(fluid, domain, bodies, coarsening) {}
 
   MeshBoundary of(const particles::DiscDomain& disc) {
-    add_circle({{disc.centre[0], disc.centre[1]}, disc.radius}, 1, false,
-               [&](const Point& x) { return on_wall(x); });
+    const particles::Outline wall{{disc.centre[0], disc.centre[1]}, disc.radius};
+    add_outline(wall, 1, false, [&](double t) { return on_wall(wall.at(t)); });
     add_particles();
     return std::move(boundary_);
   }
 
   MeshBoundary of(const particles::BoxDomain& box) {
     const bool is_periodic = box.periodic[0] || box.periodic[1];
-    if (fitted_ && is_periodic && !lengths_.circles().empty())
+    if (fitted_ && is_periodic && !lengths_.outlines().empty())
       add_cells(box);
     else
       add_sides(box);
@@ -88,17 +88,19 @@ class BoundaryMaker {
     add_curve(line(from, to, edge_length), label);
   }
 
+  /// `edge_length(t)`: at the point outline.at(t). The curve is cut along s = radius t, which is the
+  /// length of the curve on a circle.
   template <class EdgeLength>
-  void add_circle(const Circle& circle, int label, bool is_hole, const EdgeLength& edge_length) {
-    const auto at = [&](double s) {
-      const double angle = s / circle.radius;
-      return Point{circle.centre[0] + circle.radius * std::cos(angle),
-                   circle.centre[1] + circle.radius * std::sin(angle)};
+  void add_outline(const particles::Outline& outline, int label, bool is_hole,
+                   const EdgeLength& edge_length) {
+    const double r = outline.radius;
+    const auto along_s = [&](double s) {
+      const double t = s / r;
+      return outline.is_circle() ? edge_length(t) : edge_length(t) * r / outline.speed_at(t);
     };
     std::vector<Point> points;
-    for (const double s : cut_curve(2 * std::numbers::pi * circle.radius, kLeastOnCircle,
-                                    [&](double t) { return edge_length(at(t)); }))
-      points.push_back(at(s));
+    for (const double s : cut_curve(2 * std::numbers::pi * r, kLeastOnCircle, along_s))
+      points.push_back(outline.at(s / r));
     points.back() = points.front();
     if (is_hole) std::ranges::reverse(points);
     add_curve(points, label);
@@ -109,14 +111,19 @@ class BoundaryMaker {
   /// represent a rigid motion exactly.
   void add_particles() {
     if (!fitted_) return;
-    for (std::size_t k = 0; k < lengths_.circles().size(); ++k) {
+    for (std::size_t k = 0; k < lengths_.outlines().size(); ++k) {
       constexpr double kOfRadius = 0.5, kLongest = 10;
-      const auto& circle = lengths_.circles()[k];
-      if (!has_holes_)
-        add_circle({circle.centre, kOfRadius * circle.radius}, kInsideLabel, false,
-                   [&](const Point&) { return kLongest * circle.radius; });
-      add_circle(lengths_.circles()[k], kFirstParticleLabel + static_cast<int>(k), has_holes_,
-                 [&](const Point& x) { return lengths_.on_particle(k, x); });
+      const auto& outline = lengths_.outlines()[k];
+      if (!has_holes_) {
+        auto inner = outline;
+        inner.radius *= kOfRadius;
+        for (auto& axis : inner.semi_axes) axis *= kOfRadius;
+        add_outline(inner, kInsideLabel, false, [&](double) { return kLongest * outline.radius; });
+      }
+      add_outline(outline, kFirstParticleLabel + static_cast<int>(k), has_holes_, [&](double t) {
+        return outline.is_circle() ? lengths_.on_particle(k, outline.at(t))
+                                   : lengths_.on_ellipse(k, t);
+      });
     }
   }
 
@@ -139,7 +146,7 @@ class BoundaryMaker {
   }
 
   void add_cells(const particles::BoxDomain& box) {
-    const auto edges = periodic_cells(box, lengths_.circles());
+    const auto edges = periodic_cells(box, lengths_.outlines());
     std::vector<std::vector<Point>> points(edges.size());
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const auto& edge = edges[e];
@@ -164,16 +171,16 @@ class BoundaryMaker {
 
   /// The axis from the lid to the floor, and the half circles of the spheres on it.
   void add_axis(double height) {
-    const auto& circles = lengths_.circles();
-    std::vector<std::size_t> order(fitted_ ? circles.size() : 0);
+    const auto& outlines = lengths_.outlines();
+    std::vector<std::size_t> order(fitted_ ? outlines.size() : 0);
     std::iota(order.begin(), order.end(), 0U);
     std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
-      return circles[a].centre[1] > circles[b].centre[1];
+      return outlines[a].centre[1] > outlines[b].centre[1];
     });
     const auto fluid = [&](const Point& x) { return in_fluid(x); };
     double z = height;
     for (const auto k : order) {
-      const auto& circle = circles[k];
+      const auto& circle = outlines[k];
       const double top = circle.centre[1] + circle.radius, bottom = top - 2 * circle.radius;
       add_line({0, z}, {0, top}, kAxisLabel, fluid);
       const auto at = [&](double s) {

@@ -1,8 +1,10 @@
-// Velocities of walls that depend on time (fluid.hpp).
+// Velocities of walls that depend on time, and sizes of particles (fluid.hpp).
 #include "viscontact/particles/fluid.hpp"
 
 #include <cmath>
 #include <numbers>
+
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 
@@ -17,6 +19,11 @@ std::array<double, 2> WallVelocity::at(double time) const {
     for (auto& component : velocity) component *= factor;
   }
   return velocity;
+}
+
+double Fluid::size_of(int dimension, std::size_t k, double radius) const {
+  if (is_ellipse(k)) return std::numbers::pi * semi_axes[k][0] * semi_axes[k][1];
+  return size_of_particle(dimension, radius);
 }
 
 }  // namespace viscontact::particles

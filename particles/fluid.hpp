@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <variant>
@@ -104,9 +105,18 @@ struct Fluid {
   std::variant<LinearFlow, SideVelocities> boundary;
   /// Command of a solver of the user's own; empty: FreeFEM.
   std::vector<std::string> solver;
+  /// Semi-axes of each particle in the plane, of which the first one points along the angle of the
+  /// particle [L], > 0. Equal ones are those of a disc. Empty: all particles are discs or spheres.
+  std::vector<std::array<double, 2>> semi_axes{};
 
   /// True if the fluid has inertia.
   bool has_inertia() const { return density > 0; }
+  /// True if particle k is an ellipse and no disc.
+  bool is_ellipse(std::size_t k) const {
+    return !semi_axes.empty() && semi_axes[k][0] != semi_axes[k][1];
+  }
+  /// Area of particle k, or volume of a sphere on the axis [L^2, L^3], if its radius is `radius` [L].
+  double size_of(int dimension, std::size_t k, double radius) const;
 };
 
 }  // namespace viscontact::particles

@@ -49,12 +49,6 @@ void check_edge_length(double edge, double length) {
                   edge / length, kShortest));
 }
 
-double distance_to(const Circle& circle, const Point& x) {
-  // Not hypot, which takes ten times as long and matters for lengths beyond 1e150 only.
-  const double dx = x[0] - circle.centre[0], dy = x[1] - circle.centre[1];
-  return std::sqrt(dx * dx + dy * dy) - circle.radius;
-}
-
 EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain& domain,
                          const particles::FluidParticles& bodies, double coarsening)
     : domain_(domain) {
@@ -62,12 +56,13 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
   const double ratio = 24.0 / fluid.edges_per_particle;
   double smallest = kFar;
   for (std::size_t k = 0; k < p.count(); ++k) {
-    const auto x = p.position(k);
-    circles_.push_back({p.dimension == 1 ? Point{0, x[0]} : Point{x[0], x[1]}, p.radii[k]});
-    smallest = std::min(smallest, p.radii[k]);
+    outlines_.push_back(particles::outline_of(fluid, p, bodies.angles, k));
+    smallest =
+        std::min(smallest, fluid.is_ellipse(k) ? std::ranges::min(fluid.semi_axes[k]) : p.radii[k]);
   }
   constexpr double kEdgesOfAWall = 6;  // at least, so that the flow in an empty domain is resolved
   cap_ = coarsening * size_of(domain) / kEdgesOfAWall;
+  per_radius_ = coarsening * 2 * std::numbers::pi / fluid.edges_per_particle;
   longest_ =
       std::min(coarsening * 2 * std::numbers::pi * smallest / fluid.edges_per_particle, cap_);
   growth_ = coarsening * kGrowthAt24Edges * ratio;
@@ -79,16 +74,18 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
   const auto shifts = [](double period) { return period > 0 ? 1 : 0; };
   for (int i = -shifts(periods[0]); i <= shifts(periods[0]); ++i)
     for (int j = -shifts(periods[1]); j <= shifts(periods[1]); ++j)
-      for (const auto& circle : circles_)
-        images_.push_back({{circle.centre[0] + i * periods[0], circle.centre[1] + j * periods[1]},
-                           circle.radius});
+      for (auto image : outlines_) {
+        image.centre[0] += i * periods[0];
+        image.centre[1] += j * periods[1];
+        images_.push_back(image);
+      }
   // Further neighbours leave the edges as long as they are.
   const double reach = longest_ / of_gap_;
-  for (const auto& circle : circles_) {
+  for (const auto& outline : outlines_) {
     auto& neighbours = neighbours_.emplace_back();
     for (const auto& other : images_)
-      if (const double gap = distance_to(other, circle.centre) - circle.radius;
-          gap < reach && other.centre != circle.centre)
+      if (const double gap = distance_to(other, outline.centre) - outline.radius;
+          gap < reach && other.centre != outline.centre)
         neighbours.push_back(other);
   }
 }
@@ -108,8 +105,8 @@ double EdgeLengths::distance_to_wall(const Point& x) const {
 
 std::array<double, 2> EdgeLengths::distances_to_particles(const Point& x) const {
   double nearest = kFar, second = kFar;
-  for (const auto& circle : images_) {
-    const double distance = distance_to(circle, x);
+  for (const auto& image : images_) {
+    const double distance = distance_to(image, x);
     second = std::min(second, std::max(nearest, distance));
     nearest = std::min(nearest, distance);
   }
@@ -120,6 +117,11 @@ double EdgeLengths::on_particle(std::size_t k, const Point& x) const {
   double distance = distance_to_wall(x);
   for (const auto& other : neighbours_[k]) distance = std::min(distance, distance_to(other, x));
   return std::min(longest_, across(distance));
+}
+
+double EdgeLengths::on_ellipse(std::size_t k, double t) const {
+  const auto& ellipse = outlines_[k];
+  return std::min(on_particle(k, ellipse.at(t)), per_radius_ * ellipse.curvature_radius_at(t));
 }
 
 double EdgeLengths::on_wall(const Point& x) const {

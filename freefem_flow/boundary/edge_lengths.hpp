@@ -11,23 +11,15 @@
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
+#include "viscontact/particles/outline.hpp"
 
 namespace viscontact::freefem_flow {
 
 /// The coordinates of a point [L]: x and y in the plane, r and z in a cylinder.
 using Point = std::array<double, 2>;
 
-/// A particle or its image, with the point (0, z) for a sphere on the axis.
-struct Circle {
-  Point centre;   ///< [L]
-  double radius;  ///< [L], > 0
-};
-
 /// The smallest extent of the domain [L].
 double size_of(const particles::Domain& domain);
-
-/// Distance of a point from the surface of the circle; < 0 inside.
-double distance_to(const Circle& circle, const Point& x);
 
 /// Edge lengths on surfaces, walls, the axis and periodic sides.
 class EdgeLengths {
@@ -40,6 +32,10 @@ class EdgeLengths {
   /// most a fraction of the distance to the nearest other surface.
   double on_particle(std::size_t k, const Point& x) const;
 
+  /// At the point outlines()[k].at(t) of an ellipse: as on_particle(), and shorter where the ellipse is
+  /// more curved than the smallest particle.
+  double on_ellipse(std::size_t k, double t) const;
+
   /// At a point on a wall: longer the further the nearest particle is, and at most a fraction of the
   /// distance to it.
   double on_wall(const Point& x) const;
@@ -50,8 +46,8 @@ class EdgeLengths {
   /// On a mesh that does not know the particles: the same length everywhere.
   double uniform() const { return longest_; }
 
-  /// All particles and images, which bound the fluid.
-  const std::vector<Circle>& circles() const { return circles_; }
+  /// Outlines of all particles, which bound the fluid.
+  const std::vector<particles::Outline>& outlines() const { return outlines_; }
 
  private:
   double distance_to_wall(const Point& x) const;
@@ -64,10 +60,12 @@ class EdgeLengths {
     return of_gap_ * gap + further_ * std::max(0.0, gap - narrow_);
   }
   double longest_, growth_, of_gap_, further_, narrow_;
-  double cap_;                   // no edge is longer
-  std::vector<Circle> circles_;  // of the particles
-  std::vector<Circle> images_;   // of the particles and, in a period, of their images
-  std::vector<std::vector<Circle>> neighbours_;  // of each particle: those that shorten its edges
+  double cap_;         // no edge is longer
+  double per_radius_;  // edge on a particle over the radius of curvature there
+  std::vector<particles::Outline> outlines_;  // of the particles
+  std::vector<particles::Outline> images_;    // of the particles and, in a period, of their images
+  // Of each particle: those that shorten its edges.
+  std::vector<std::vector<particles::Outline>> neighbours_;
 };
 
 /// Throws the error of cut_curve() if a curve cannot have an edge of this length.

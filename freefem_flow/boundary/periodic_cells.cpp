@@ -62,7 +62,8 @@ double square_of_reach(const Polygon& polygon, const Point& from) {
 }
 
 /// The Laguerre cell of particle k. Walls bound it along directions that are not periodic.
-Polygon cell_of(std::size_t k, const particles::BoxDomain& box, std::span<const Circle> circles) {
+Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
+                std::span<const particles::Outline> circles) {
   const auto& own = circles[k];
   std::array<double, 2> period{}, low{}, high{};
   for (std::size_t d = 0; d < 2; ++d) {
@@ -102,7 +103,7 @@ Polygon cell_of(std::size_t k, const particles::BoxDomain& box, std::span<const 
 /// Joins corners of the period that are close together: gives one place to all of them.
 class Corners {
  public:
-  Corners(const particles::BoxDomain& box, std::span<const Circle> circles)
+  Corners(const particles::BoxDomain& box, std::span<const particles::Outline> circles)
       : box_(box), circles_(circles) {}
 
   Point joined(const Point& x) {
@@ -141,14 +142,14 @@ class Corners {
     return least;
   }
   const particles::BoxDomain& box_;
-  std::span<const Circle> circles_;
+  std::span<const particles::Outline> circles_;
   std::vector<Joined> corners_;
 };
 
 }  // namespace
 
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
-                                     std::span<const Circle> circles) {
+                                     std::span<const particles::Outline> circles) {
   std::vector<CellEdge> edges;
   Corners corners(box, circles);
   std::vector<Polygon> cells;

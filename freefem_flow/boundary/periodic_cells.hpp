@@ -30,6 +30,6 @@ struct CellEdge {
 ///
 /// `circles`: the particles, at least one, with centres in the box, which do not overlap.
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
-                                     std::span<const Circle> circles);
+                                     std::span<const particles::Outline> circles);
 
 }  // namespace viscontact::freefem_flow

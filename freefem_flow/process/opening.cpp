@@ -124,8 +124,10 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   // The gradient of a domain with walls is in their velocities.
   const bool mean_gradient = flow != nullptr && labels.empty();
   text += "gradient" + words_of(mean_gradient ? flow->gradient : std::array<double, 4>{}) + '\n';
-  text += fmt::format("particles {}\n", radii.size());
-  for (const double radius : radii) text += format_number(radius) + '\n';
+  text += fmt::format("{} {}\n", fluid.semi_axes.empty() ? "particles" : "ellipses", radii.size());
+  if (fluid.semi_axes.empty())
+    for (const double radius : radii) text += format_number(radius) + '\n';
+  for (const auto& axes : fluid.semi_axes) text += words_of(axes) + '\n';
   if (fluid.has_inertia())
     text +=
         fmt::format("density {}\nadvection {}\ngradient{}\n", format_number(fluid.density),

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
@@ -33,9 +34,10 @@ void add_id(Particles& p, const case_file::TomlSection& section) {
 /// Throws an error for keys of a table [[particle]] that this case cannot have.
 void check_keys(const case_file::TomlSection& section, int dimension, bool in_fluid) {
   section.require(
-      !section.has("semi_axes"), "semi_axes",
-      "is not possible yet, because ellipses are for a later version; the particle must "
-      "be a disc with a radius");
+      !section.has("semi_axes") || (in_fluid && dimension == 2), "semi_axes",
+      "belongs to an ellipse in a fluid in the plane; this particle must have a radius");
+  section.require(!section.has("semi_axes") || !section.has("radius"), "radius",
+                  "must be left out, because semi_axes makes this particle an ellipse");
   for (const auto* key : {"fixed", "velocity_given"})
     section.require(in_fluid || !section.has(key), key,
                     "belongs to a particle in a fluid; the case has no section [fluid]");
@@ -60,6 +62,18 @@ struct ParticleTable {
   Vector centre{}, velocity{}, angular_velocity{};
   double radius = 0, mass = 0, angle = 0;
   std::optional<double> moment_of_inertia;
+  std::array<double, 2> semi_axes{};  // of an ellipse; zeros: a disc or sphere
+  /// Area of the disc or ellipse, volume of the sphere [L^2, L^3].
+  double size(int dimension) const {
+    if (semi_axes[0] > 0) return std::numbers::pi * semi_axes[0] * semi_axes[1];
+    return size_of_particle(dimension, radius);
+  }
+  /// Of a uniform disc or sphere about its centre, or of a uniform ellipse, mass (a^2 + b^2)/4.
+  double uniform_inertia(int dimension) const {
+    if (semi_axes[0] > 0)
+      return mass / 4 * (semi_axes[0] * semi_axes[0] + semi_axes[1] * semi_axes[1]);
+    return homogeneous_inertia(dimension, mass, radius);
+  }
   PiecewiseConstant force, torque;  // without pieces if they are not given
   bool is_fixed = false;
   std::optional<GivenMotion> given;  // also of a particle that is fixed
@@ -87,12 +101,26 @@ void read_mass(case_file::Keys& keys, ParticleTable& p, int dimension, bool in_f
       "must have a mass");
   keys.require(!has_density || !keys.has("mass"), "mass",
                "must be left out, because density gives the mass of this particle");
-  if (has_density) p.mass = density * size_of_particle(dimension, p.radius);
+  if (has_density) p.mass = density * p.size(dimension);
   if (has_density && keys.reads()) return;
   keys.required_if(!in_fluid, "mass",
                    case_file::number(p.mass, in_fluid ? kModeratelyPositiveOr0 : kMassWithoutFluid),
                    {"mass of the disc or sphere", "required; in a fluid 0",
                     "from 1e-100 to 1e100, in a fluid also 0"});
+}
+
+void read_semi_axes(const case_file::TomlSection& section, std::string_view key,
+                    std::array<double, 2>& axes) {
+  const auto numbers = section.numbers(key, kModeratelyPositive);
+  section.require(numbers.size() == axes.size(), key,
+                  "contains {} numbers; it must contain the 2 semi-axes of an ellipse",
+                  numbers.size());
+  std::ranges::copy(numbers, axes.begin());
+  constexpr double kMostSlender = 100;  // meshes were tested up to it
+  const double ratio = std::ranges::max(axes) / std::ranges::min(axes);
+  section.require(ratio <= kMostSlender, key,
+                  "has a larger semi-axis {:.6g} times the smaller one; at most {} is possible",
+                  ratio, kMostSlender);
 }
 
 void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase& c) {
@@ -122,8 +150,14 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
   keys.optional("angular_velocity", turn(p.angular_velocity, dimension),
                 {"at time 0, in 2D counter-clockwise", "0"});
   keys.required("centre", vector(p.centre, dimension), {"at time 0"});
-  keys.required("radius", case_file::number(p.radius, kModeratelyPositive),
-                {"radius of the disc or sphere"});
+  const bool is_ellipse = keys.optional(
+      "semi_axes", case_file::custom("two lengths `[a, b]`", read_semi_axes, p.semi_axes),
+      {"[in a fluid](#particles-in-a-fluid) in the plane, in place of `radius`: an ellipse, whose "
+       "first semi-axis points along `angle`",
+       "from `radius`"});
+  if (is_ellipse) p.radius = std::ranges::max(p.semi_axes);
+  keys.required_if(!is_ellipse, "radius", case_file::number(p.radius, kModeratelyPositive),
+                   {"radius of the disc or sphere", "required without `semi_axes`"});
   read_mass(keys, p, dimension, in_fluid);
   keys.optional("angle", case_file::number(p.angle, kModerate), {"at time 0, in 2D only"});
   keys.optional("moment_of_inertia",
@@ -156,6 +190,11 @@ Vector at_start(const PiecewiseConstant& function) {
   return function.pieces.empty() ? Vector{} : function.pieces.front().value;
 }
 
+/// Extends the semi-axes to the particles before particle `end`, which are discs.
+void add_discs(std::vector<std::array<double, 2>>& axes, const Particles& p, std::size_t end) {
+  for (auto k = axes.size(); k < end; ++k) axes.push_back({p.radii[k], p.radii[k]});
+}
+
 /// Reads a table [[particle]].
 void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
   auto& p = c.particles;
@@ -176,11 +215,15 @@ void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
   }
   p.radii.push_back(table.radius);
   p.masses.push_back(table.mass);
+  if (table.semi_axes[0] > 0) {
+    auto& axes = c.setting.fluid->semi_axes;
+    add_discs(axes, p, p.count() - 1);
+    axes.push_back(table.semi_axes);
+  }
   if (in_fluid && p.dimension == 2) {
     p.angles.push_back(table.angle);
     p.angular_velocities.push_back(table.angular_velocity[2]);
-    p.inertias.push_back(
-        table.moment_of_inertia.value_or(homogeneous_inertia(2, table.mass, table.radius)));
+    p.inertias.push_back(table.moment_of_inertia.value_or(table.uniform_inertia(p.dimension)));
   } else if (!in_fluid) {
     add_rotation_of_last(section, table, p);
   }
@@ -321,6 +364,8 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
       lines.in_case.push_back(section.line());
     }
   if (root.has("arrangement")) read_arrangement(root.section("arrangement"), c);
+  if (c.setting.fluid && !c.setting.fluid->semi_axes.empty())
+    add_discs(c.setting.fluid->semi_axes, c.particles, c.particles.count());
   if (!c.setting.fluid && (c.setting.laws.friction || c.particles.turn()))
     add_rotation(c.particles);
   if (c.particles.count() == 0 && !c.particles_file.empty())

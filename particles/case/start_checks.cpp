@@ -9,6 +9,7 @@
 #include "viscontact/particles/case/particles_sections.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
+#include "viscontact/particles/outline.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -75,6 +76,7 @@ std::string obstacle_name(const ParticlesCase& c, std::size_t k) {
 std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
   const auto& p = c.particles;
   const auto cell = cell_of(c.setting.domain);
+  const bool has_ellipses = c.setting.fluid && !c.setting.fluid->semi_axes.empty();
   std::vector<double> extents = p.radii;
   for (auto& extent : extents) extent += limit / 2;
   ThreadPool pool(1);
@@ -84,16 +86,24 @@ std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
                           : close_pairs(p.dimension, p.positions, extents, pool)) {
     if (p.bodies.are_one(first, second)) continue;
     const auto i = index_of(first), j = index_of(second);
-    const auto apart = p.position(j) + shift_of(cell, image) - p.position(i);
-    gaps.push_back({first, second, norm(apart) - p.radii[i] - p.radii[j]});
+    const auto shift = shift_of(cell, image);
+    double gap = norm(p.position(j) + shift - p.position(i)) - p.radii[i] - p.radii[j];
+    if (has_ellipses) {
+      auto other = outline_of(*c.setting.fluid, p, p.angles, j);
+      for (std::size_t d = 0; d < 2; ++d) other.centre[d] += shift[d];
+      gap = particles::gap(outline_of(*c.setting.fluid, p, p.angles, i), other);
+    }
+    gaps.push_back({first, second, gap});
   }
   const auto obstacles = obstacles_of(c.setting);
   const bool on_axis = std::holds_alternative<CylinderDomain>(c.setting.domain);
   for (std::size_t w = on_axis ? 1 : 0; w < obstacles.size(); ++w) {
     const auto place = obstacles[w].at(0);
     for (std::size_t k = 0; k < p.count(); ++k)
-      if (const double gap = particles::gap(place, p.position(k), p.radii[k]); gap < limit)
+      if (double gap = particles::gap(place, p.position(k), p.radii[k]); gap < limit) {
+        if (has_ellipses) gap = particles::gap(place, outline_of(*c.setting.fluid, p, p.angles, k));
         gaps.push_back({-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k), gap});
+      }
   }
   return gaps;
 }
@@ -258,8 +268,27 @@ void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
                       names(k)));
 }
 
+/// Checks that nothing in the case is known of discs only if there are ellipses.
+void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
+                    const ParticleNames& names) {
+  const auto& fluid = *c.setting.fluid;
+  for (std::size_t k = 0; k < fluid.semi_axes.size(); ++k) {
+    if (!fluid.is_ellipse(k)) continue;
+    if (!c.particles.bodies.empty() || !c.setting.links.empty())
+      throw_bad_input(names.at(k), fmt::format("{} is an ellipse; the particles of a case with "
+                                               "bodies or links must be discs",
+                                               names(k)));
+    root.section("fluid").require(fluid.solver.empty(), "solver",
+                                  "is a program of the user's own, which knows discs only; it must "
+                                  "be left out, because {} is "
+                                  "an ellipse",
+                                  names(k));
+  }
+}
+
 /// Checks what a fluid with inertia needs of its particles.
-void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c, const ParticleNames& names) {
+void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
+                   const ParticleNames& names) {
   const auto& fluid = *c.setting.fluid;
   if (!fluid.has_inertia()) return;
   const auto& p = c.particles;
@@ -278,13 +307,18 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c, c
     // Inertia of a viscous body is that of its density, which is uniform.
     constexpr double kRounding = 1e-9;
     if (fluid.constraint == RigidConstraint::kRigid || p.inertias.empty()) continue;
-    const double uniform = homogeneous_inertia(p.dimension, p.masses[k], p.radii[k]);
+    double uniform = homogeneous_inertia(p.dimension, p.masses[k], p.radii[k]);
+    if (fluid.is_ellipse(k)) {
+      const auto [a, b] = fluid.semi_axes[k];
+      uniform = p.masses[k] / 4 * (a * a + b * b);
+    }
     if (std::abs(p.inertias[k] - uniform) > kRounding * uniform)
-      throw_bad_input(names.at(k),
-                      fmt::format("{} has the moment of inertia {}; in a fluid with a density and "
-                                  "constraint = \"penalty\" it must be that of a uniform disc, {}, "
-                                  "or the constraint \"rigid\"",
-                                  names(k), p.inertias[k], uniform));
+      throw_bad_input(
+          names.at(k),
+          fmt::format("{} has the moment of inertia {}; in a fluid with a density and "
+                      "constraint = \"penalty\" it must be that of a uniform particle, {}, "
+                      "or the constraint \"rigid\"",
+                      names(k), p.inertias[k], uniform));
   }
 }
 
@@ -430,7 +464,10 @@ void check_start(const ParticlesCase& c, const ParticleLines& lines) {
 
 void set_default_threshold_gap(ParticlesCase& c) {
   constexpr double kOfRadius = 0.05;
-  const double longest = kOfRadius * std::ranges::min(c.particles.radii);
+  double smallest = std::ranges::min(c.particles.radii);
+  for (const auto& axes : c.setting.fluid->semi_axes)
+    smallest = std::min(smallest, std::ranges::min(axes));
+  const double longest = kOfRadius * smallest;
   double threshold = longest;
   for (const double period : periods_of(c.setting.domain))
     if (period > 0)
@@ -458,6 +495,7 @@ void check_fluid_start(const case_file::TomlSection& root, const ParticlesCase& 
   check_penalty(root, c);
   check_bodies(root, c, names);
   check_masses(root, c, names);
+  check_ellipses(root, c, names);
   check_inertia(root, c, names);
   check_side_of_cylinder(c, names);
   const double limit = std::max(c.setting.fluid->threshold_gap,

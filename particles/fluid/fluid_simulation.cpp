@@ -20,6 +20,7 @@
 #include "viscontact/particles/fluid/held_solver.hpp"
 #include "viscontact/particles/fluid/step_equation.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
+#include "viscontact/particles/outline.hpp"
 #include "viscontact/particles/steps/step_times.hpp"
 
 namespace viscontact::particles {
@@ -177,9 +178,11 @@ StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
     return velocities;
   };
   // An arm gives the distance of its particles.
+  const auto& fluid = *setting_.fluid;
+  const auto is_ellipse = [&](std::int32_t k) { return k >= 0 && fluid.is_ellipse(index_of(k)); };
   const auto is_left_out = [&](const Pair& pair) {
-    return (!is_movable(pair.first) && !is_movable(pair.second)) ||
-           std::ranges::any_of(setting_.links.arms, [&](const Arm& arm) {
+    return (!is_movable(pair.first) && !is_movable(pair.second)) || is_ellipse(pair.first) ||
+           is_ellipse(pair.second) || std::ranges::any_of(setting_.links.arms, [&](const Arm& arm) {
              return std::minmax(arm.first, arm.second) == std::minmax(pair.first, pair.second);
            });
   };
@@ -378,9 +381,49 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
     hold_at_end(equation, *held, moved, motion.reported);
 }
 
+/// Throws Error(kNotConverged) if an ellipse is closer to a wall, a plane or another particle than the
+/// threshold gap: contacts of ellipses are not computed. The motions of both may not be given.
+void FluidSimulation::check_ellipses() const {
+  const auto& fluid = *setting_.fluid;
+  if (fluid.semi_axes.empty()) return;
+  const auto& p = state_.particles;
+  const double least = fluid.threshold_gap - setting_.solver.tolerance * mean_radius_;
+  const auto is_driven = [&](std::size_t k) {
+    return setting_.given_motions.contains(static_cast<std::int32_t>(k));
+  };
+  const auto check = [&](std::size_t k, double gap, const std::string& other) {
+    if (gap < least)
+      throw Error(ErrorKind::kNotConverged,
+                  fmt::format("particle {}, an ellipse, has a gap of {:.3g} to {} at time {}, less "
+                              "than fluid.threshold_gap, {:.3g}; contacts of ellipses are not "
+                              "computed, and the run must end before",
+                              p.id(k), gap, other, state_.time, fluid.threshold_gap));
+  };
+  const auto places = positions_of(obstacles_, state_.time);
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    if (!fluid.is_ellipse(k)) continue;
+    const auto outline = outline_of(fluid, p, p.angles, k);
+    for (const auto& place : places)
+      if (!is_driven(k) && gap(place, p.position(k), p.radii[k]) < least)
+        check(k, gap(place, outline), "a wall or plane");
+    for (std::size_t j = 0; j < p.count(); ++j)
+      for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
+        const auto shift = shift_of(p.cell, image);
+        const auto apart = p.position(j) + shift - p.position(k);
+        if (j == k || (image != 0 && norm(shift) == 0) || (is_driven(k) && is_driven(j)) ||
+            norm(apart) - p.radii[k] - p.radii[j] >= least)
+          continue;
+        auto other = outline_of(fluid, p, p.angles, j);
+        for (std::size_t d = 0; d < 2; ++d) other.centre[d] += shift[d];
+        check(k, gap(outline, other), fmt::format("particle {}", p.id(j)));
+      }
+  }
+}
+
 StepReport FluidSimulation::step(double end) {
   const auto interval = StepGrid(setting_.time_step).next(state_, end);
   if (!interval) return {.time = state_.time, .parts = 1};
+  check_ellipses();
   StepReport report{.time = interval->end};
   begin_flow(interval->h);
   auto motion = solve(interval->h, interval->end, state_.steps == 0 || interval->reaches_end);

@@ -102,6 +102,7 @@ class FluidSimulation {
                                       double h, const HeldMotion* held);
   StepContacts solve_contacts_of(const StepEquation& equation, std::span<const double> free,
                                  double h, double next);
+  void check_ellipses() const;
   void estimate(const StepEquation& equation, std::span<const double> forces,
                 const HeldMotion* held, Motion& motion);
   void report_inertia(Motion& motion) const;

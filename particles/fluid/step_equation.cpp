@@ -46,7 +46,8 @@ std::vector<double> mean_forces(const Setting& setting, const Particles& p,
   std::vector<double> forces(p.count() * layout.components);
   for (std::size_t k = 0; k < p.count(); ++k) {
     // Buoyancy: gravity acts on the fluid as well, and its pressure carries the fluid's weight.
-    const double displaced = setting.fluid->density * size_of_particle(p.dimension, p.radii[k]);
+    const double displaced =
+        setting.fluid->density * setting.fluid->size_of(p.dimension, k, p.radii[k]);
     for (std::size_t d = 0; d < layout.directions(); ++d)
       forces[k * layout.components + d] =
           (masses[k * layout.components] - displaced) * setting.gravity[d];

@@ -224,6 +224,7 @@ std::string write_particles(const Particles& particles, const std::optional<Flui
     for (const auto name : fluid_columns(particles.dimension)) (text += ',') += name;
   else if (particles.turn())
     for (const auto name : turning_columns(particles.dimension)) (text += ',') += name;
+  if (forces && !forces->semi_axes.empty()) text += ",semi_axis_1,semi_axis_2";
   text += '\n';
   for (std::size_t k = 0; k < particles.count(); ++k) {
     fmt::format_to(std::back_inserter(text), "{}", particles.id(k));
@@ -245,6 +246,8 @@ std::string write_particles(const Particles& particles, const std::optional<Flui
       for (std::size_t i = 0; i < components; ++i) add_or_empty(forces->values, i);
       add_or_empty(forces->errors, 0);
       if (components == 3) add_or_empty(forces->errors, 2);
+      if (!forces->semi_axes.empty())
+        for (const double axis : forces->semi_axes[k]) add(axis);
     } else if (particles.turn()) {
       if (d == 2) add(particles.angles[k]);
       const std::size_t turns = d == 3 ? 3 : 1;

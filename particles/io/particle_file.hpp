@@ -43,6 +43,8 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension,
 struct FluidForces {
   std::span<const double> values;  ///< forces and torques
   std::span<const double> errors;  ///< estimates of their errors, >= 0
+  /// Semi-axes of all particles [L], Fluid::semi_axes; empty if there are no ellipses.
+  std::span<const std::array<double, 2>> semi_axes{};
 };
 
 /// CSV text with the columns id,x,y[,z],vx,vy[,vz],radius,mass, or id,z,vz,radius,mass on an axis.
@@ -50,7 +52,7 @@ struct FluidForces {
 ///
 /// With `forces`, which particles in a fluid have, discs also have the columns
 /// angle,angular_velocity,fluid_force_x,fluid_force_y,fluid_torque,fluid_force_error_estimate,
-/// fluid_torque_error_estimate, and spheres on an axis fluid_force_z,fluid_force_error_estimate.
+/// fluid_torque_error_estimate, with ellipses also semi_axis_1,semi_axis_2, and spheres on an axis fluid_force_z,fluid_force_error_estimate.
 /// Without, particles that turn have the columns angle,angular_velocity (discs) or
 /// angular_velocity_x,angular_velocity_y,angular_velocity_z.
 std::string write_particles(const Particles& particles,

@@ -16,7 +16,6 @@
 namespace viscontact::particles {
 namespace {
 
-
 /// Calls visit(k, place) for each drawn particle k and for those of its images that may be seen.
 template <class Visit>
 void for_each_image(const PanelSettings& d, const Frame& frame, const Visit& visit) {
@@ -98,13 +97,28 @@ std::string circle(const PanelSettings& panel, const Vector& at, double radius) 
              : "";
 }
 
+/// Particle k of a frame about `at`, a disc or an ellipse; nothing if the panel does not show it.
+std::string disc(const PanelSettings& panel, const Frame& frame, std::size_t k, const Vector& at) {
+  const auto& playback = panel.scene.playback;
+  if (playback.semi_axes.empty()) return circle(panel, at, playback.radii[k]);
+  const double x = panel.view.x(at), y = panel.view.y(at), scale = panel.view.scale;
+  if (!is_seen(panel, x, y, scale * playback.radii[k])) return "";
+  return fmt::format(
+      "<ellipse rx=\"{:.2f}\" ry=\"{:.2f}\" transform=\"translate({:.2f} {:.2f}) "
+      "rotate({:.2f})\"/>\n",
+      scale * playback.semi_axes[k][0], scale * playback.semi_axes[k][1], x, y,
+      -frame.angles[k] * 180 / std::numbers::pi);
+}
+
 /// A dot at the rim of each disc, which shows how far it has turned; nothing on very small discs.
 std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
   constexpr double kSmallest = 0.5;  // radius of a dot [page units]
   if (frame.angles.size() != panel.scene.playback.radii.size()) return "";
   std::string text;
   for_each_image(panel, frame, [&](std::size_t k, const Vector& centre) {
-    const double r = panel.scene.playback.radii[k], angle = frame.angles[k];
+    const auto& axes = panel.scene.playback.semi_axes;
+    const double r = axes.empty() ? panel.scene.playback.radii[k] : axes[k][0];
+    const double angle = frame.angles[k];
     if (kStyle.mark_radius * r * panel.view.scale >= kSmallest)
       text += circle(
           panel, centre + kStyle.mark_distance * r * Vector{std::cos(angle), std::sin(angle), 0},
@@ -353,7 +367,7 @@ std::string discs(const PanelSettings& d, const Frame& frame, const std::string&
   text += fmt::format("<g fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\">\n", fill, edge,
                       is_in_fluid ? ".8" : ".6");
   for_each_image(d, frame, [&](std::size_t k, const Vector& centre) {
-    if (!is_in_body(d.scene.playback, k)) text += circle(d, centre, d.scene.playback.radii[k]);
+    if (!is_in_body(d.scene.playback, k)) text += disc(d, frame, k, centre);
   });
   text += "</g>\n" + body_discs(d, frame) + angle_marks(d, frame) + plane_2d_lines(d, frame);
   // All contacts of one colour make one path. Its width is the mean of the widths of these

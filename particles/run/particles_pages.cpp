@@ -26,6 +26,7 @@ Playback without_frames(const ParticlesCase& c) {
   Playback playback;
   playback.dimension = c.particles.dimension;
   playback.radii.assign(c.particles.radii.begin(), c.particles.radii.end());
+  if (c.setting.fluid) playback.semi_axes = c.setting.fluid->semi_axes;
   playback.ids = c.particles.ids;
   playback.cell = cell_of(c.setting);
   playback.bodies = c.particles.bodies.of_particle;

@@ -149,7 +149,8 @@ class Run {
     if (!simulation_.has_fluid()) return write_particles(reported);
     const auto& fluid = simulation_.fluid();
     return write_particles(reported,
-                           FluidForces{fluid.fluid_forces(), fluid.force_errors().of_fluid});
+                           FluidForces{fluid.fluid_forces(), fluid.force_errors().of_fluid,
+                                       fluid.setting().fluid->semi_axes});
   }
 
   /// The record, with computing time and memory of this call and the calls before it.

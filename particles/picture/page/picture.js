@@ -140,15 +140,28 @@ function drawDiscs() {
         const size = pageRadius[k];
         if (pageAtX < -size || pageAtX > canvas.width + size) continue;
         if (pageAtY < -size || pageAtY > canvas.height + size) continue;
-        particle(pageAtX, pageAtY, size, isInBody(k));
+        if (semiAxes) drawEllipse(k, pageAtX, pageAtY);
+        else particle(pageAtX, pageAtY, size, isInBody(k));
         if (angles.length) drawMark(k, pageAtX, pageAtY);
       }
   }
 }
 
+/** A disc or ellipse in a fluid with ellipses. */
+function drawEllipse(k, x, y) {
+  const scale = pageRadius[k] / radii[k];
+  const [a, b] = [Math.max(scale * semiAxes[2 * k], 0.35), Math.max(scale * semiAxes[2 * k + 1], 0.35)];
+  pen.beginPath();
+  pen.ellipse(x, y, a, b, -angles[k], 0, 2 * Math.PI);
+  [pen.fillStyle, pen.strokeStyle] = disc;
+  pen.lineWidth = Math.max(1, Math.min(a, b) / 20);
+  pen.fill();
+  pen.stroke();
+}
+
 /** A dot at the rim, which shows how far a disc has turned. */
 function drawMark(k, x, y) {
-  const r = pageRadius[k];
+  const r = semiAxes ? pageRadius[k] / radii[k] * semiAxes[2 * k] : pageRadius[k];
   if (r < 4 * dots) return;
   const at = style.markDistance * r;
   const markX = x + at * Math.cos(angles[k]), markY = y - at * Math.sin(angles[k]);

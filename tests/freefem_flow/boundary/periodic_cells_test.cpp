@@ -31,7 +31,7 @@ double area_of(const std::vector<CellEdge>& edges) {
 }
 
 // Corners are joined within a tenth of their distance from the discs, which moves the area.
-void check(const BoxDomain& box, const std::vector<Circle>& circles) {
+void check(const BoxDomain& box, const std::vector<particles::Outline>& circles) {
   const auto edges = periodic_cells(box, circles);
   const std::array<double, 2> period = {box.to[0] - box.from[0], box.to[1] - box.from[1]};
   ASSERT_FALSE(edges.empty());
@@ -78,7 +78,7 @@ constexpr BoxDomain kUnit = {{0, 0}, {1, 1}, {true, true}};
 
 TEST(PeriodicCells, OfOneDiscAreItsSquare) {
   check(kUnit, {{{0.5, 0.5}, 0.3}});
-  const auto edges = periodic_cells(kUnit, std::vector<Circle>{{{0.5, 0.5}, 0.3}});
+  const auto edges = periodic_cells(kUnit, std::vector<particles::Outline>{{{0.5, 0.5}, 0.3}});
   EXPECT_EQ(edges.size(), 4U);
   for (const auto& edge : edges)
     EXPECT_NEAR(std::hypot(edge.to[0] - edge.from[0], edge.to[1] - edge.from[1]), 1, 1e-12);
@@ -121,10 +121,10 @@ TEST(PeriodicCells, OfRandomDiscsTileThePeriod) {
                            {-1 + 1 + 3 * uniform(random), 2 + 1 + 3 * uniform(random)},
                            {uniform(random) < 0.7, true}};
     const std::array<double, 2> period = {box.to[0] - box.from[0], box.to[1] - box.from[1]};
-    std::vector<Circle> circles;
+    std::vector<particles::Outline> circles;
     const int tries = 1 + static_cast<int>(30 * uniform(random));
     for (int i = 0; i < tries; ++i) {
-      const Circle drawn = {
+      const particles::Outline drawn = {
           {box.from[0] + period[0] * uniform(random), box.from[1] + period[1] * uniform(random)},
           0.05 + 0.25 * uniform(random)};
       constexpr double kLeastGap = 1e-3;

@@ -18,6 +18,15 @@ struct Refusal {
 };
 std::ostream& operator<<(std::ostream& out, const Refusal& refusal) { return out << refusal.name; }
 
+TEST(RefusedEllipse, InABodyOrWithASolverThatKnowsDiscsOnly) {
+  const auto text = changed(kDiscsInDisc, "radius = 1.0", "semi_axes = [1.0, 0.5]");
+  expect_refused_at(
+      changed(text, "viscosity = 2.0", "viscosity = 2.0\n[[body]]\nparticles = [0, 1]"),
+      "[[particle]]", "is an ellipse; the particles of a case with bodies or links");
+  expect_refused_at(changed(text, "viscosity = 2.0", "viscosity = 2.0\nsolver = [\"true\"]"),
+                    "solver", "is a program of the user's own, which knows discs only");
+}
+
 class RefusedFluid : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(RefusedFluid, NamesTheLineTheKeyAndWhatIsAllowed) {
@@ -231,8 +240,18 @@ INSTANTIATE_TEST_SUITE_P(
                     "is -1; it must be a number 0, or from 1e-100 to 1e100"),
         in_particle("NegativeInertia", kDiscsInDisc, "moment_of_inertia = -1.0",
                     "it must be a number 0, or from 1e-100"),
-        in_particle("Ellipse", kDiscsInDisc, "semi_axes = [2.0, 1.0]",
-                    "particle[0].semi_axes is not possible yet, because ellipses are for a later"),
+        Refusal{"EllipseWithRadius", kDiscsInDisc, "radius = 1.0",
+                "radius = 1.0\nsemi_axes = [2.0, 1.0]", "radius = 1.0",
+                "particle[0].radius must be left out, because semi_axes makes this"},
+        in_particle("EllipseOnAxis", kSpheresOnAxis, "semi_axes = [2.0, 1.0]",
+                    "particle[0].semi_axes belongs to an ellipse in a fluid in the plane"),
+        Refusal{"EllipseWithoutFluid", kDryDiscs, "mass = 1.0",
+                "mass = 1.0\nsemi_axes = [2.0, 1.0]", "semi_axes",
+                "particle[0].semi_axes belongs to an ellipse in a fluid in the plane"},
+        Refusal{"OneSemiAxis", kDiscsInDisc, "radius = 1.0", "semi_axes = [1.0]", "semi_axes",
+                "contains 1 numbers; it must contain the 2 semi-axes"},
+        Refusal{"SlenderEllipse", kDiscsInDisc, "radius = 1.0", "semi_axes = [1.0, 0.001]",
+                "semi_axes", "has a larger semi-axis 1000 times the smaller one; at most 100"},
         in_particle("TorqueOnAxis", kSpheresOnAxis, "torque = 1.0",
                     "a sphere on the axis does not turn"),
         in_particle("GivenRotationOnAxis", kSpheresOnAxis,

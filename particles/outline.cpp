@@ -1,0 +1,126 @@
+// Distances to circles and ellipses (outline.hpp).
+#include "viscontact/particles/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace viscontact::particles {
+namespace {
+
+using Point = std::array<double, 2>;
+
+/// Distance of the point (x, y), x >= 0 and y >= 0, from an ellipse with the semi-axes a >= b along
+/// the axes; < 0 inside. The nearest point of the ellipse is (a^2 x/(s + a^2), b^2 y/(s + b^2)) with
+/// the largest root s of (a x/(s + a^2))^2 + (b y/(s + b^2))^2 = 1. In units of b^2 the left side is
+/// convex and falls for s > -1, so that Newton's method from the left of the root increases to it.
+double distance_to_ellipse(double a, double b, double x, double y) {
+  const double square = (a / b) * (a / b);
+  const double u = x / a, v = y / b;
+  double near_x = 0, near_y = b;
+  if (v > 0) {
+    double s = std::max(v - 1, square * (u - 1));  // where one term alone is 1
+    for (int n = 0; n < 100; ++n) {
+      const double p = square * u / (s + square), q = v / (s + 1);
+      const double value = p * p + q * q - 1;
+      const double slope = 2 * (p * p / (s + square) + q * q / (s + 1));
+      if (!(value > 0) || !(slope > 0)) break;
+      const double next = s + value / slope;
+      if (!(next > s)) break;
+      s = next;
+    }
+    near_x = square * x / (s + square);
+    near_y = y / (s + 1);
+  } else if (const double part = a * x / (a * a - b * b); part < 1) {
+    near_x = a * part;
+    near_y = b * std::sqrt(1 - part * part);
+  } else {
+    near_x = a;
+    near_y = 0;
+  }
+  const double distance = std::hypot(x - near_x, y - near_y);
+  return u * u + v * v < 1 ? -distance : distance;
+}
+
+/// The least value of a function on the outline, which has at most two local minima: among evenly
+/// spaced parameters, then by thirds around the least of them.
+template <class Function>
+double least_on(const Outline& outline, const Function& function) {
+  constexpr int kSamples = 128;
+  constexpr double kStep = 2 * std::numbers::pi / kSamples;
+  const auto value = [&](double t) { return function(outline.at(t)); };
+  double least = std::numeric_limits<double>::infinity(), at = 0;
+  for (int i = 0; i < kSamples; ++i)
+    if (const double here = value(i * kStep); here < least) {
+      least = here;
+      at = i * kStep;
+    }
+  double low = at - kStep, high = at + kStep;
+  constexpr int kDivisions = 60;  // (2/3)^60 is 3e-11: the value is exact to the rounding of its square
+  for (int n = 0; n < kDivisions; ++n) {
+    const double first = low + (high - low) / 3, second = high - (high - low) / 3;
+    if (value(first) < value(second))
+      high = second;
+    else
+      low = first;
+  }
+  return std::min(least, value((low + high) / 2));
+}
+
+}  // namespace
+
+Point Outline::at(double t) const {
+  if (is_circle()) return {centre[0] + radius * std::cos(t), centre[1] + radius * std::sin(t)};
+  const double x = semi_axes[0] * std::cos(t), y = semi_axes[1] * std::sin(t);
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {centre[0] + c * x - s * y, centre[1] + s * x + c * y};
+}
+
+double Outline::speed_at(double t) const {
+  if (is_circle()) return radius;
+  return std::hypot(semi_axes[0] * std::sin(t), semi_axes[1] * std::cos(t));
+}
+
+double Outline::curvature_radius_at(double t) const {
+  if (is_circle()) return radius;
+  const double speed = speed_at(t);
+  return speed * (speed / semi_axes[0]) * (speed / semi_axes[1]);
+}
+
+double distance_to(const Outline& outline, const Point& x) {
+  const double dx = x[0] - outline.centre[0], dy = x[1] - outline.centre[1];
+  // Not hypot, which takes ten times as long and matters for lengths beyond 1e150 only.
+  if (outline.is_circle()) return std::sqrt(dx * dx + dy * dy) - outline.radius;
+  const double c = std::cos(outline.angle), s = std::sin(outline.angle);
+  const double along = std::abs(c * dx + s * dy), across = std::abs(c * dy - s * dx);
+  const auto [a, b] = outline.semi_axes;
+  return a > b ? distance_to_ellipse(a, b, along, across) : distance_to_ellipse(b, a, across, along);
+}
+
+double gap(const Outline& first, const Outline& second) {
+  if (first.is_circle()) return distance_to(second, first.centre) - first.radius;
+  if (second.is_circle()) return distance_to(first, second.centre) - second.radius;
+  return least_on(first, [&](const Point& x) { return distance_to(second, x); });
+}
+
+double gap(const PlanePosition& obstacle, const Outline& outline) {
+  if (outline.is_circle())
+    return gap(obstacle, Vector{outline.centre[0], outline.centre[1], 0}, outline.radius);
+  return least_on(outline,
+                  [&](const Point& x) { return gap(obstacle, Vector{x[0], x[1], 0}, 0); });
+}
+
+Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<const double> angles,
+                   std::size_t k) {
+  const auto x = particles.position(k);
+  Outline outline{particles.dimension == 1 ? Point{0, x[0]} : Point{x[0], x[1]},
+                  particles.radii[k]};
+  if (fluid.is_ellipse(k)) {
+    outline.semi_axes = fluid.semi_axes[k];
+    outline.angle = angles[k];
+  }
+  return outline;
+}
+
+}  // namespace viscontact::particles

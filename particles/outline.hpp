@@ -1,0 +1,50 @@
+// The outline of a particle in the plane: a circle or an ellipse. Lengths are in the unit of the
+// case, angles in radians, counter-clockwise.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "viscontact/particles/domain/plane.hpp"
+#include "viscontact/particles/fluid.hpp"
+#include "viscontact/particles/particles.hpp"
+
+namespace viscontact::particles {
+
+/// A circle, or an ellipse whose first semi-axis points along `angle`.
+struct Outline {
+  std::array<double, 2> centre{};  ///< [L]
+  /// Of the circle, or the larger semi-axis of the ellipse: that of the circle around it [L], > 0.
+  double radius = 0;
+  std::array<double, 2> semi_axes{};  ///< of an ellipse [L], > 0; equal to each other: a circle
+  double angle = 0;                   ///< of the first semi-axis of an ellipse with the x axis
+
+  /// True if it is a circle of the radius `radius`.
+  bool is_circle() const { return semi_axes[0] == semi_axes[1]; }
+  /// The point centre + a cos(t) e_1 + b sin(t) e_2, e_1 and e_2 being the directions of the
+  /// semi-axes a and b [L]. t counts from the x axis on a circle.
+  std::array<double, 2> at(double t) const;
+  /// Length of the derivative of at() [L].
+  double speed_at(double t) const;
+  /// Radius of the circle that touches the outline best at at(t) [L]: (a^2 sin^2 t + b^2 cos^2
+  /// t)^(3/2)/(a b).
+  double curvature_radius_at(double t) const;
+};
+
+/// Distance of a point from the outline [L]; < 0 inside.
+double distance_to(const Outline& outline, const std::array<double, 2>& x);
+
+/// Distance between two outlines of which neither is in the other [L]; <= 0 if they overlap, and then
+/// it is the depth of the deepest point of `first` in `second`.
+double gap(const Outline& first, const Outline& second);
+
+/// Distance of the outline from an obstacle [L]; < 0 if a part of it is behind the obstacle.
+double gap(const PlanePosition& obstacle, const Outline& outline);
+
+/// Outline of particle k in the plane, or of a sphere on the axis, which is at (0, z). `angles`:
+/// those of all particles; used for ellipses only.
+Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<const double> angles,
+                   std::size_t k);
+
+}  // namespace viscontact::particles
