@@ -8,10 +8,10 @@
 
 namespace viscontact::particles {
 
-std::array<double, 2> WallVelocity::at(double time) const {
+std::array<double, 2> WallVelocity::at(double time, double from, double to) const {
   auto velocity = value;
   if (!pieces.pieces.empty()) {
-    const auto now = pieces.value(time);
+    const auto now = to > from ? pieces.mean(from, to) : pieces.value(time);
     velocity = {now[0], now[1]};
   }
   if (period > 0) {

@@ -66,8 +66,9 @@ struct WallVelocity {
 
   /// True if the velocity depends on time.
   bool depends_on_time() const { return !pieces.pieces.empty() || period > 0; }
-  /// The velocity, as in `value`, at `time` [T].
-  std::array<double, 2> at(double time) const;
+  /// The velocity, as in `value`, at `time` [T]. If `to` > `from`, pieces are averaged between these
+  /// times.
+  std::array<double, 2> at(double time, double from = 0, double to = 0) const;
 };
 
 /// The velocity E x of all walls, with the constant matrix E; where the domain is periodic both

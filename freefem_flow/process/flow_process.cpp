@@ -146,7 +146,7 @@ void FlowProcess::place(const FluidParticles& bodies) {
     assert(step.masses.size() == components_);
     placement_ += fmt::format("step {}", step.order);
     append(placement_, std::array{step.length, step.before}, "a time step");
-    placement_ += '\n' + walls_at(fluid_, domain_, step.time) + "masses";
+    placement_ += '\n' + walls_at(fluid_, domain_, step) + "masses";
     append(placement_, step.masses, "a mass");
     placement_ += '\n';
   }

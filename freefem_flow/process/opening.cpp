@@ -52,8 +52,9 @@ std::string wall_line(int label, const char* kind, const WallCoefficients& coeff
   return fmt::format("{} {}{}\n", label, kind, words_of(coefficients));
 }
 
-WallCoefficients side_coefficients(int label, const WallVelocity& velocity, double time) {
-  const auto value = velocity.at(time);
+WallCoefficients side_coefficients(int label, const WallVelocity& velocity,
+                                   const particles::FlowStep& step) {
+  const auto value = velocity.at(step.time, step.from, step.to);
   switch (velocity.kind) {
     case WallVelocity::Kind::kConstant:
       return {value[0], 0, 0, value[1]};
@@ -69,14 +70,15 @@ WallCoefficients side_coefficients(int label, const WallVelocity& velocity, doub
   return coefficients;
 }
 
-/// The coefficients of the wall with this label at `time`.
-WallCoefficients wall_coefficients(const particles::Fluid& fluid, int label, double time) {
+/// The coefficients of the wall with this label at the time of `step`.
+WallCoefficients wall_coefficients(const particles::Fluid& fluid, int label,
+                                   const particles::FlowStep& step) {
   if (const auto* flow = std::get_if<particles::LinearFlow>(&fluid.boundary)) {
     const auto& g = flow->gradient;
     return {0, g[0], g[1], 0, g[2], g[3], 0, 0};
   }
   const auto& sides = std::get<particles::SideVelocities>(fluid.boundary);
-  return side_coefficients(label, sides[static_cast<std::size_t>(label - 1)], time);
+  return side_coefficients(label, sides[static_cast<std::size_t>(label - 1)], step);
 }
 
 bool is_open(const particles::Fluid& fluid, int label) {
@@ -120,7 +122,7 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   text += fmt::format("walls {}\n", labels.size());
   for (const int label : labels)
     text += wall_line(label, is_open(fluid, label) ? "open" : "moving",
-                      wall_coefficients(fluid, label, 0));
+                      wall_coefficients(fluid, label, {}));
   // The gradient of a domain with walls is in their velocities.
   const bool mean_gradient = flow != nullptr && labels.empty();
   text += "gradient" + words_of(mean_gradient ? flow->gradient : std::array<double, 4>{}) + '\n';
@@ -137,10 +139,11 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   return text;
 }
 
-std::string walls_at(const particles::Fluid& fluid, const particles::Domain& domain, double time) {
+std::string walls_at(const particles::Fluid& fluid, const particles::Domain& domain,
+                     const particles::FlowStep& step) {
   std::string text;
   for (const int label : walls_of(domain))
-    text += words_of(wall_coefficients(fluid, label, time)) + '\n';
+    text += words_of(wall_coefficients(fluid, label, step)) + '\n';
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "viscontact/particles/fluid.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {
 
@@ -15,8 +16,9 @@ namespace viscontact::freefem_flow {
 std::string opening(const particles::Fluid& fluid, const particles::Domain& domain,
                     std::span<const double> radii, int dimension);
 
-/// The velocities of all walls at `time` [T]: eight numbers for each wall, in the order of the
-/// opening.
-std::string walls_at(const particles::Fluid& fluid, const particles::Domain& domain, double time);
+/// The velocities of all walls at the time of `step`: eight numbers for each wall, in the order of
+/// the opening.
+std::string walls_at(const particles::Fluid& fluid, const particles::Domain& domain,
+                     const particles::FlowStep& step);
 
 }  // namespace viscontact::freefem_flow

@@ -36,14 +36,17 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   state_.pairs = std::move(motion.contact.pairs);
   state_.walls = std::move(motion.contact.walls);
   std::size_t c = 0;
+  const bool is_computed_again = setting_.fluid->has_inertia() && !(state_.earlier_step > 0);
+  const double share = share_of_impulse(h);
   for (auto* pairs : {&state_.pairs, &state_.walls})
     for (auto& pair : *pairs) {
       const auto& contact = motion.contact.contacts[c];
-      pair.impulse = contact.impulse;
+      pair.impulse = share * contact.impulse;
       if (contact.w > 0) {
         ++report.contacts;
-        setting_.laws.remember(pair, state_.memories, radii_of(pair, p, obstacles_),
-                               motion.impulse_errors[c], h);
+        if (!is_computed_again)
+          setting_.laws.remember(pair, state_.memories, radii_of(pair, p, obstacles_),
+                                 share * motion.impulse_errors[c], h);
       }
       if (pair.gamma < 0) ++report.glued;
       ++c;

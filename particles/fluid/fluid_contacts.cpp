@@ -91,6 +91,8 @@ void make_contacts(StepContacts& step, const Particles& p, double threshold,
     for (const auto& pair : *list) {
       auto contact = contact_in_fluid(p, pair, obstacles, conditions);
       contact.gap -= threshold;
+      contact.lowest /= conditions.share_of_impulse;
+      contact.impulse /= conditions.share_of_impulse;
       // A threshold gap that is crossed by less than the tolerance counts as reached.
       if (std::abs(contact.gap) <= conditions.solver.tolerance * conditions.mean_radius / 2)
         contact.gap = 0;
@@ -168,7 +170,7 @@ StepContacts solve_contacts(const State& state, double threshold,
 
 std::vector<double> set_allowed(std::span<Contact<2>> contacts,
                                 const ContactConditions& conditions) {
-  const auto& [free, h, layout, settings, mean_radius, velocity_error] = conditions;
+  const auto& [free, h, layout, settings, mean_radius, velocity_error, share] = conditions;
   std::vector<double> of_particle(free.size() / layout.components, 0.0);
   const auto for_particles = [](const Contact<2>& contact, const auto& visit) {
     for (const auto k : {contact.first, contact.second})

@@ -72,6 +72,9 @@ struct ContactConditions {
   /// Relative error of velocities, and of the mobility, which is otherwise linear and symmetric;
   /// >= 0. It limits how small residuals can be.
   double velocity_error = 0;
+  /// The length of the step in which forces change the momentum, over h; 1 but in a fluid with
+  /// inertia. The impulse of a force lambda is h lambda times this share.
+  double share_of_impulse = 1;
 };
 
 /// Sets Contact::allowed. Contacts with w = 0 take no part, and only the tolerance of the gaps

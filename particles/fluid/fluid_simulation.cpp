@@ -117,12 +117,12 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
                                                      const HeldMotion* held) {
   std::vector<double> free(flow.begin(), flow.end());
   if (setting_.fluid->has_inertia()) {
-    const bool is_first = !(state_.earlier_step > 0);
-    const double share = is_first ? -0.5 : h / (2 * state_.earlier_step);
     for (std::size_t i = 0; i < free.size(); ++i) {
       const auto k = static_cast<std::int32_t>(i / layout_.components);
-      if (!equation.is_in_contact(k) && !equation.is_driven(k))
-        free[i] += share * (flow[i] - state_.earlier_velocities[i]);
+      if (equation.is_driven(k))
+        free[i] = equation.given_in_step(k)[i % layout_.components];
+      else if (!equation.is_in_contact(k))
+        free[i] += equation.share_of_change() * (flow[i] - state_.earlier_velocities[i]);
     }
     return free;
   }
@@ -158,7 +158,21 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
 
 ContactConditions FluidSimulation::contact_conditions(std::span<const double> free,
                                                       double h) const {
-  return {free, h, layout_, setting_.solver, mean_radius_, error_of_answers(*setting_.fluid)};
+  return {free,
+          h,
+          layout_,
+          setting_.solver,
+          mean_radius_,
+          error_of_answers(*setting_.fluid),
+          share_of_impulse(h)};
+}
+
+/// ContactConditions::share_of_impulse of a step of length h. In a fluid with inertia forces act in
+/// the step that ends at x^n, and the step from there moves the particles.
+double FluidSimulation::share_of_impulse(double h) const {
+  const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
+  const bool is_first = !(state_.earlier_step > 0);
+  return setting_.fluid->has_inertia() && !is_split && !is_first ? state_.earlier_step / h : 1;
 }
 
 StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
@@ -300,12 +314,13 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     if (is_split)
       for (std::size_t i = 0; i < motion.kept.size(); ++i)
         motion.kept[i] += motion.moved[i] - motion.free[i];
-    const bool is_first = !(state_.earlier_step > 0);
-    const double share = is_first ? 0 : h / state_.earlier_step;
+    const double share = 2 * std::max(0.0, equation.share_of_change());
     motion.at_end = motion.kept;
     for (std::size_t i = 0; i < motion.at_end.size(); ++i) {
       const auto k = static_cast<std::int32_t>(i / layout_.components);
-      if (!equation.is_in_contact(k) && !equation.is_driven(k))
+      if (equation.is_driven(k))
+        motion.at_end[i] = motion.moved[i];
+      else if (!equation.is_in_contact(k))
         motion.at_end[i] += share * (motion.kept[i] - state_.earlier_velocities[i]);
     }
   }

@@ -51,7 +51,8 @@ struct ForceErrors {
 ///
 ///     U^+ = U^n + (h^n/(2 h^{n-1})) (U^n - U^{n-1}).
 ///
-/// The first step computes U^1 at x^0, and moves the particles by (U^0 + U^1)/2.
+/// The first step computes U^1 at x^0, and moves the particles by (U^0 + U^1)/2. The second step
+/// computes U^1 again at x^1, so that impulses of contacts in the first step change no memory.
 class FluidSimulation {
  public:
   /// `setting.fluid` must be there. `state` is what read_restart returned, or a state of which only
@@ -107,6 +108,7 @@ class FluidSimulation {
                 const HeldMotion* held, Motion& motion);
   void report_inertia(Motion& motion) const;
   ContactConditions contact_conditions(std::span<const double> free, double h) const;
+  double share_of_impulse(double h) const;
   void examine(Motion& motion, double h, StepReport& report) const;
   void accept(Motion motion, double h, double next, StepReport& report);
   std::vector<double> hold_after_step(const StepEquation& equation, const HeldMotion& held,

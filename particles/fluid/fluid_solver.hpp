@@ -39,6 +39,8 @@ struct FlowStep {
   double length = 0;  ///< of the step from the flow that was kept last to the placement [T], > 0
   double before = 0;  ///< of the step before it [T]; needed by order 2
   double time = 0;    ///< of the placement [T], at which walls have their velocities
+  double from = 0;    ///< time [T] from which the pieces of a wall's velocity are averaged
+  double to = 0;  ///< time [T] until which they are; if it is not larger, they are taken at `time`
   /// Mass and moment of inertia of each component of each particle [M, M L^2]; empty: the fluid has
   /// no inertia.
   std::span<const double> masses{};

@@ -90,20 +90,29 @@ bool has_kink(const Arm& arm, double from, double to) {
 
 }  // namespace
 
+StepEquation::Window StepEquation::window(const Setting& setting, const State& state, double h,
+                                          double next) {
+  const double now = state.time;
+  if (!setting.fluid->has_inertia() || state.steps == 0) return {now, now, next};
+  const double from = now - state.earlier_step / 2;
+  // The difference of first order from t^0 to t^1 begins the sums of those of second order, which
+  // have three halves of the impulse of this step.
+  return {state.steps == 1 ? now - state.earlier_step : from, from, now + h / 2};
+}
+
 StepEquation::StepEquation(const Setting& setting, const State& state, double h, double next)
     : setting_(setting),
       state_(state),
       h_(h),
       layout_{motion_components(state.particles.dimension)},
       masses_(masses_of(state.particles, layout_)),
-      forces_(mean_forces(setting, state.particles, masses_, layout_,
-                          setting.fluid->has_inertia() && state.steps > 1
-                              ? state.time - state.earlier_step / 2
-                              : state.time,
-                          setting.fluid->has_inertia() ? state.time + h / 2 : next)),
+      next_(next),
+      window_(window(setting, state, h, next)),
+      forces_(mean_forces(setting, state.particles, masses_, layout_, window_.from_of_forces,
+                          window_.to)),
       in_contact_(state.particles.count(), 0) {
   for (const auto& [particle, motion] : setting.given_motions)
-    driven_.emplace(particle, given_motion(motion, state.time, next));
+    driven_.emplace(particle, given_motion(motion, window_.from, window_.to));
   for (const auto* pairs : {&state.pairs, &state.walls})
     for (const auto& pair : *pairs) {
       if (pair.impulse == 0 && !(pair.gamma < 0)) continue;
@@ -250,11 +259,25 @@ FlowStep StepEquation::flow_step() const {
   if (!setting_.fluid->has_inertia()) return {};
   // The first step computes the velocity at its end, where the second step computes it again.
   constexpr std::int64_t kFirstOfOrder2 = 2;
-  const int order = state_.steps >= kFirstOfOrder2 && !is_any_in_contact() ? 2 : 1;
   const bool is_first = !(state_.earlier_step > 0);
   const double length = is_first ? h_ : state_.earlier_step;
-  return {order, length, state_.step_before > 0 ? state_.step_before : length,
-          is_first ? state_.time + h_ : state_.time, masses_};
+  const double before = state_.step_before > 0 ? state_.step_before : length;
+  const int order = state_.steps >= kFirstOfOrder2 && !is_any_in_contact() &&
+                            length <= kLargestRatioOfSteps * before
+                        ? 2
+                        : 1;
+  return {order,        length,     before, is_first ? state_.time + h_ : state_.time,
+          window_.from, window_.to, masses_};
+}
+
+double StepEquation::share_of_change() const {
+  const bool is_first = !(state_.earlier_step > 0);
+  if (is_first) return -0.5;
+  return h_ <= kLargestRatioOfSteps * state_.earlier_step ? h_ / (2 * state_.earlier_step) : 0;
+}
+
+std::array<double, 3> StepEquation::given_in_step(std::int32_t driven) const {
+  return given_motion(setting_.given_motions.at(driven), state_.time, next_);
 }
 
 std::vector<double> StepEquation::inertia_of_projection() const {

@@ -14,6 +14,10 @@
 
 namespace viscontact::particles {
 
+/// The largest ratio of the lengths of a step and of the step before it with which differences of
+/// second order are taken. They are stable up to 1 + sqrt(2) (Grigorieff 1983).
+inline constexpr double kLargestRatioOfSteps = 2;
+
 /// The equation of one step of length h from t^n. With the mean force f over the step and the
 /// resistance R of the fluid, the velocities U with which the particles move in the step solve
 ///
@@ -29,7 +33,9 @@ namespace viscontact::particles {
 ///
 /// In a fluid with inertia the fluid solver has the masses in its problem (FlowStep): here all
 /// inertia is 0 and theta is 1. U = u^n is then the velocity at the time t^n of the places x^n, and
-/// forces contain the buoyancy in place of the hydrostatic pressure.
+/// forces contain the buoyancy in place of the hydrostatic pressure. Forces and given motions are
+/// means from the middle of the step before to the middle of this one: the forces of all steps
+/// together then have the whole impulse, wherever a force jumps.
 class StepEquation {
  public:
   /// The step of length h > 0 ends at time `next`; `state` is that before the step. Both references
@@ -80,6 +86,13 @@ class StepEquation {
   /// particles.
   std::vector<double> mobility_of_step() const;
 
+  /// In a fluid with inertia, without contact: U^+ = U + this share of the change of U since the step
+  /// before. It is 0 after a step that was much shorter, whose change says little.
+  double share_of_change() const;
+
+  /// The mean of the given motion of a driven particle in the step, with which it moves.
+  std::array<double, 3> given_in_step(std::int32_t driven) const;
+
   /// u^n of all components [L/T, 1/T]; of driven particles their given motions.
   std::vector<double> velocities() const;
 
@@ -102,6 +115,11 @@ class StepEquation {
   bool drives_as_before() const;
 
  private:
+  /// Times [T] over which forces, and given motions, are means.
+  struct Window {
+    double from_of_forces, from, to;
+  };
+  static Window window(const Setting& setting, const State& state, double h, double next);
   void add_inertia();
   void find_companions();
   void spread_contact();
@@ -120,6 +138,8 @@ class StepEquation {
   double h_;
   MotionLayout layout_;
   std::vector<double> masses_;  // mass or moment of inertia of each component
+  double next_;
+  Window window_;
   std::vector<double> forces_;  // f [M L/T^2]
   std::vector<double> thetas_, inertia_;
   std::map<std::int32_t, std::array<double, 3>> driven_;
