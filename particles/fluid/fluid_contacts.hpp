@@ -72,6 +72,7 @@ struct ContactConditions {
   /// Relative error of velocities, and of the mobility, which is otherwise linear and symmetric;
   /// >= 0. It limits how small residuals can be.
   double velocity_error = 0;
+  double least_reach = 0;  ///< pairs are listed up to this gap at least [L]
 };
 
 /// Sets Contact::allowed. Contacts with w = 0 take no part, and only the tolerance of the gaps
@@ -152,7 +153,18 @@ struct StepContacts {
   std::vector<double> velocities;  ///< with the contact forces [L/T, 1/T]
   int iterations = 0;     ///< products with the mobility, and iterations of a dense problem
   bool is_solved = true;  ///< ContactProblem::solve() reached the tolerances
+  double reach = 0;       ///< all pairs with a gap below it are listed [L]
 };
+
+/// Solves for contacts in rounds, in which those join whose gaps the others close. Takes
+/// `step.contacts` with their bounds and guesses; sets their impulses and w, and the loads,
+/// velocities and `is_solved` of the step. Adds to its iterations.
+void solve_listed(StepContacts& step, const Mobility& mobility,
+                  const ContactConditions& conditions);
+
+/// Up to which gap pairs may meet in the step if particles have these velocities [L].
+double reach_of(const State& state, double threshold, std::span<const double> velocities,
+                const ContactConditions& conditions);
 
 /// Finds the impulses of all contacts, such that no gap closes that was not among the contacts
 /// either. `state` is that before the step, `threshold` is D_c >= 0 [L], `obstacles` are positions
