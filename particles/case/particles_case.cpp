@@ -85,14 +85,12 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
                c.end_time / step, kMostSteps);
   film_keys(keys, film, c.setting.fluid);
   keys.optional("restitution", case_file::number(restitution.coefficient, kShare),
-                {"without a fluid, hinges and arms: the coefficient e_d of "
-                 "[restitution](physics.md#5-many-particles-particles) (5.15) of the solids. The "
-                 "case must give `gamma_min`, or `viscosity` and `roughness`"});
-  if (restitution.is_on()) {
-    keys.require(!c.setting.fluid, "restitution",
-                 "is for particles without a fluid; a case with [fluid] must not have the key");
-    keys.require(film.gamma_min || film.roughness, "restitution", "{}", kNoSolidContact);
-  }
+                {"without hinges and arms, in a fluid also without bodies and springs: the "
+                 "coefficient e_d of [restitution](physics.md#5-many-particles-particles), (5.15) "
+                 "and in a fluid (6.11), of the solids. The case must give `gamma_min`, or "
+                 "`viscosity` and `roughness`"});
+  keys.require(!restitution.is_on() || film.gamma_min || film.roughness, "restitution", "{}",
+               kNoSolidContact);
   keys.optional(
       "scheme",
       case_file::one_of(c.setting.scheme,
@@ -252,6 +250,13 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
   read_forces_by_id(root, c);
   read_bodies(root, c);
   read_links(root, c);
+  root.section("viscous_contact")
+      .require(
+          !c.setting.laws.restitution.is_on() || !c.setting.fluid ||
+              (c.particles.bodies.empty() && c.setting.links.empty()),
+          "restitution",
+          "must be left out, because the case has a fluid and also bodies or links; in a fluid "
+          "only single particles may rebound");
   root.section("viscous_contact")
       .require(!c.setting.laws.restitution.is_on() ||
                    (c.setting.links.hinges.empty() && c.setting.links.arms.empty()),

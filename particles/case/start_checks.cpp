@@ -257,6 +257,14 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
 
 void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
                   const ParticleNames& names) {
+  for (std::size_t k = 0; k < c.particles.count(); ++k)
+    if (c.setting.laws.restitution.is_on() && c.particles.masses[k] == 0 &&
+        !is_driven(c, static_cast<std::int32_t>(k)))
+      throw_bad_input(names.at(k),
+                      fmt::format("{} has no mass, and the case has viscous_contact.restitution: "
+                                  "without a mass nothing rebounds; it must have a density (or "
+                                  "mass) > 0, or the restitution must be left out",
+                                  names(k)));
   if (c.setting.fluid->coupling != Coupling::kSplitting) return;
   for (std::size_t k = 0; k < c.particles.count(); ++k)
     if (c.particles.masses[k] == 0 && !is_driven(c, static_cast<std::int32_t>(k)))

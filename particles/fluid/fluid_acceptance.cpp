@@ -19,14 +19,23 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
                 fmt::format("a particle moves by {} in the step to time {}, too far for the "
                             "precision of a double; check the forces and the time step",
                             longest, report.time));
+  const auto& blow = motion.blow;
+  if (blow)  // no contact takes part in the displacement
+    for (auto& contact : motion.contact.contacts) contact.w = 0;
   auto residuals =
       measure_residuals(motion.contact.contacts, motion.moved, contact_conditions(motion.free, h));
   refuse_deep_overlap(residuals, state_.particles, setting_, mean_radius_, report.time, [] {
     return "is the time step too long for the forces, or do particles with given motions leave the "
            "others too little room?";
   });
-  report.converged = motion.contact.is_solved && motion.links_hold;
+  report.converged = motion.contact.is_solved && motion.links_hold && (!blow || blow->is_solved);
   report_residuals(residuals, mean_radius_, report);
+  if (blow) {
+    auto contacts = blow->contacts;
+    residuals =
+        measure_residuals(contacts, motion.after, contact_conditions(motion.free, kick_length(h)));
+    report_residuals(residuals, mean_radius_, report);
+  }
   motion.impulse_errors = std::move(residuals.impulse_errors);
 }
 
@@ -35,23 +44,26 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   auto& p = state_.particles;
   state_.pairs = std::move(motion.contact.pairs);
   state_.walls = std::move(motion.contact.walls);
+  // The second step computes the impulses of such a step again: films and solids book them once, and
+  // a contact that solids may hit has borne no load yet.
+  const bool is_unloaded = setting_.laws.restitution.is_on() && is_computed_twice();
   std::size_t c = 0;
-  const bool is_computed_again = setting_.fluid->has_inertia() && !(state_.earlier_step > 0);
-  const double share = share_of_impulse(h);
   for (auto* pairs : {&state_.pairs, &state_.walls})
     for (auto& pair : *pairs) {
-      const auto& contact = motion.contact.contacts[c];
-      pair.impulse = share * contact.impulse;
-      if (contact.w > 0) {
-        ++report.contacts;
-        if (!is_computed_again)
-          setting_.laws.remember(pair, state_.memories, radii_of(pair, p, obstacles_),
-                                 share * motion.impulse_errors[c], h);
+      const auto& contact = motion.blow ? motion.blow->contacts[c] : motion.contact.contacts[c];
+      const double share = motion.blow ? 1 : kick_length(h) / h;
+      if (contact.w > 0) ++report.contacts;
+      if (contact.w > 0 && !is_computed_twice()) {
+        pair.impulse = motion.blow ? motion.blow->absorbed[c] : share * contact.impulse;
+        setting_.laws.remember(pair, state_.memories, radii_of(pair, p, obstacles_),
+                               share * motion.impulse_errors[c], h);
       }
+      pair.impulse = is_unloaded ? 0 : share * contact.impulse;
       if (pair.gamma < 0) ++report.glued;
       ++c;
     }
   state_.memories.keep_only(state_.pairs, state_.walls);
+  rebounds_ = motion.blow ? std::move(motion.blow->rebounds) : std::vector<Rebound>{};
   move_bodies(motion, h, next);
   const auto n = layout_.directions();
   for (std::size_t k = 0; k < p.count(); ++k) {

@@ -106,7 +106,8 @@ void make_contacts(StepContacts& step, const Particles& p, double threshold,
     }
 }
 
-/// Solves for contacts in rounds, in which those join whose gaps the others close.
+}  // namespace
+
 void solve_listed(StepContacts& step, const Mobility& mobility,
                   const ContactConditions& conditions) {
   ContactProblem problem(conditions, mobility);
@@ -118,7 +119,7 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
       const auto& contact = step.contacts[c];
       const double after =
           gap_after(contact, problem.velocities().data(), conditions.h, conditions.layout);
-      const bool takes_part = after < 0 || contact.lowest < 0 || contact.impulse != 0;
+      const bool takes_part = after < 0 || contact.lowest != 0 || contact.impulse != 0;
       if (is_chosen[c] != 0 || !takes_part) continue;
       is_chosen[c] = 1;
       chosen.push_back(c);
@@ -136,7 +137,13 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
   step.iterations += problem.iterations();
 }
 
-}  // namespace
+double reach_of(const State& state, double threshold, std::span<const double> velocities,
+                const ContactConditions& conditions) {
+  const auto& cell = state.particles.cell;
+  const double of_images =
+      norm(velocity_of_image(cell, Periods{1, 0})) + norm(velocity_of_image(cell, Periods{0, 1}));
+  return threshold + conditions.h * (2 * fastest(velocities, conditions.layout) + of_images);
+}
 
 StepContacts solve_contacts(const State& state, double threshold,
                             std::span<const PlanePosition> obstacles,
@@ -144,13 +151,12 @@ StepContacts solve_contacts(const State& state, double threshold,
                             const Mobility& mobility, const ContactConditions& conditions,
                             ThreadPool& pool) {
   const auto& p = state.particles;
-  const double h = conditions.h;
-  const double of_images = norm(velocity_of_image(p.cell, Periods{1, 0})) +
-                           norm(velocity_of_image(p.cell, Periods{0, 1}));
+  const auto& free = conditions.free_velocities;
   // Contacts push particles at speeds that are seldom above twice the largest one without contact.
-  double reach = threshold +
-                 h * (4 * fastest(conditions.free_velocities, conditions.layout) + of_images) +
-                 1e-3 * conditions.mean_radius;
+  double reach =
+      std::max(conditions.least_reach, reach_of(state, threshold, free, conditions) +
+                                           2 * conditions.h * fastest(free, conditions.layout) +
+                                           1e-3 * conditions.mean_radius);
   int iterations = 0;
   for (;;) {
     StepContacts step;
@@ -160,8 +166,8 @@ StepContacts solve_contacts(const State& state, double threshold,
     std::erase_if(step.walls, is_left_out);
     make_contacts(step, p, threshold, obstacles, conditions);
     solve_listed(step, mobility, conditions);
-    const double needed =
-        threshold + h * (2 * fastest(step.velocities, conditions.layout) + of_images);
+    step.reach = reach;
+    const double needed = reach_of(state, threshold, step.velocities, conditions);
     if (needed <= reach) return step;
     iterations = step.iterations;
     reach = 2 * needed;
@@ -170,7 +176,7 @@ StepContacts solve_contacts(const State& state, double threshold,
 
 std::vector<double> set_allowed(std::span<Contact<2>> contacts,
                                 const ContactConditions& conditions) {
-  const auto& [free, h, layout, settings, mean_radius, velocity_error, share] = conditions;
+  const auto& [free, h, layout, settings, mean_radius, velocity_error, share, reach] = conditions;
   std::vector<double> of_particle(free.size() / layout.components, 0.0);
   const auto for_particles = [](const Contact<2>& contact, const auto& visit) {
     for (const auto k : {contact.first, contact.second})

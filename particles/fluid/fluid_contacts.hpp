@@ -75,6 +75,7 @@ struct ContactConditions {
   /// The length of the step in which forces change the momentum, over h; 1 but in a fluid with
   /// inertia. The impulse of a force lambda is h lambda times this share.
   double share_of_impulse = 1;
+  double least_reach = 0;  ///< pairs are listed up to this gap at least [L]
 };
 
 /// Sets Contact::allowed. Contacts with w = 0 take no part, and only the tolerance of the gaps
@@ -155,7 +156,18 @@ struct StepContacts {
   std::vector<double> velocities;  ///< with the contact forces [L/T, 1/T]
   int iterations = 0;     ///< products with the mobility, and iterations of a dense problem
   bool is_solved = true;  ///< ContactProblem::solve() reached the tolerances
+  double reach = 0;       ///< all pairs with a gap below it are listed [L]
 };
+
+/// Solves for contacts in rounds, in which those join whose gaps the others close. Takes
+/// `step.contacts` with their bounds and guesses; sets their impulses and w, and the loads,
+/// velocities and `is_solved` of the step. Adds to its iterations.
+void solve_listed(StepContacts& step, const Mobility& mobility,
+                  const ContactConditions& conditions);
+
+/// Up to which gap pairs may meet in the step if particles have these velocities [L].
+double reach_of(const State& state, double threshold, std::span<const double> velocities,
+                const ContactConditions& conditions);
 
 /// Finds the impulses of all contacts, such that no gap closes that was not among the contacts
 /// either. `state` is that before the step, `threshold` is D_c >= 0 [L], `obstacles` are positions

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
+#include "viscontact/particles/fluid/fluid_blow.hpp"
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
 
@@ -24,6 +26,8 @@ struct FluidSimulation::Motion {
   std::vector<double> reported;  ///< u^{n+1} extrapolated from two meshes; empty without estimate
   std::vector<double> kept;      ///< in a fluid with inertia: velocities in the next step's problem
   StepContacts contact;          ///< the contacts of the step, solved
+  std::optional<FluidBlow> blow;       ///< takes the place of `contact` if solids rebound
+  std::vector<double> after;           ///< with contact, after the blow; `linear` if there is none
   std::vector<double> impulse_errors;  ///< of contact.contacts, StepResiduals::impulse_errors
   FluidStepReport fluid;               ///< what the step reports
   FlowQuantities quantities;           ///< dissipation, apparent viscosity and forces of the flow

@@ -164,20 +164,26 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
           setting_.solver,
           mean_radius_,
           error_of_answers(*setting_.fluid),
-          share_of_impulse(h)};
+          kick_length(h) / h};
 }
 
-/// ContactConditions::share_of_impulse of a step of length h. In a fluid with inertia forces act in
-/// the step that ends at x^n, and the step from there moves the particles.
-double FluidSimulation::share_of_impulse(double h) const {
-  const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
-  const bool is_first = !(state_.earlier_step > 0);
-  return setting_.fluid->has_inertia() && !is_split && !is_first ? state_.earlier_step / h : 1;
+/// The time for which the forces of a step of length h act on its velocities [T]. In a fluid with
+/// inertia forces act in the step that ends at x^n, and the step from there moves the particles.
+double FluidSimulation::kick_length(double h) const {
+  const auto& fluid = *setting_.fluid;
+  const bool is_of_flow = fluid.has_inertia() && fluid.coupling != Coupling::kSplitting;
+  return is_of_flow && state_.earlier_step > 0 ? state_.earlier_step : h;
 }
 
-StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
-                                                std::span<const double> free, double h,
-                                                double next) {
+/// True in the first step of a fluid with inertia, whose velocities the second step computes again.
+bool FluidSimulation::is_computed_twice() const {
+  return setting_.fluid->has_inertia() && !(state_.earlier_step > 0);
+}
+
+/// Solves the contacts of a step without restitution, and returns the blow if solids rebound.
+std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& equation,
+                                                            std::span<const double> free, double h,
+                                                            double next, StepContacts& contacts) {
   const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
   const auto inertia = equation.inertia_of_projection();
   const auto is_movable = [&](std::int32_t k) {
@@ -200,8 +206,30 @@ StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
              return std::minmax(arm.first, arm.second) == std::minmax(pair.first, pair.second);
            });
   };
-  return solve_contacts(state_, setting_.fluid->threshold_gap, positions_of(obstacles_, next),
-                        is_left_out, mobility, contact_conditions(free, h), pool_);
+  const double threshold = setting_.fluid->threshold_gap;
+  auto conditions = contact_conditions(free, h);
+  const bool has_inertia = setting_.fluid->has_inertia();
+  const auto before = has_inertia ? state_.earlier_velocities : equation.velocities();
+  const auto loaded = [&] {
+    if (has_inertia) return solver_->velocities(equation.forces(), false);
+    std::vector<double> momentum(before.size());
+    for (std::size_t i = 0; i < before.size(); ++i) momentum[i] = equation.inertia()[i] * before[i];
+    auto velocities = solver_->velocities(momentum, false);
+    for (std::size_t i = 0; i < before.size(); ++i) velocities[i] = free[i] - velocities[i];
+    return velocities;
+  };
+  for (;;) {
+    contacts = solve_contacts(state_, threshold, positions_of(obstacles_, next), is_left_out,
+                              mobility, conditions, pool_);
+    if (!setting_.laws.restitution.is_on() || is_computed_twice()) return std::nullopt;
+    const BlowStep step{setting_, state_, obstacles_, next, kick_length(h), before, loaded};
+    auto blow = solve_blow(contacts, step, mobility, conditions);
+    if (!blow) return blow;
+    // Solids may leave each other faster than the particles were without contact.
+    const double needed = reach_of(state_, threshold, blow->velocities, conditions);
+    if (needed <= contacts.reach) return blow;
+    conditions.least_reach = 2 * needed;
+  }
 }
 
 /// Changes velocities until hinges and arms, and the springs of particles that accelerate, hold after
@@ -287,33 +315,37 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
           hold_after_step(equation, *held, motion.flow, motion.linear, h, motion.links_hold);
       motion.free = held->with_finite_turns(motion.linear);
     }
-    motion.contact = solve_contacts_of(equation, motion.free, h, next);
-    iterations += motion.contact.iterations;
+    motion.blow = solve_contacts_of(equation, motion.free, h, next, motion.contact);
+    iterations += motion.contact.iterations + (motion.blow ? motion.blow->iterations : 0);
     motion.contact.iterations = iterations;
-    if (!equation.put_in_contact(motion.contact.contacts)) break;
+    if (!equation.put_in_contact(motion.blow ? motion.blow->contacts : motion.contact.contacts))
+      break;
   }
-  motion.moved = motion.contact.velocities;
-  if (largest_of(motion.contact.loads) > 0 && !is_split) {
+  const auto& loads = motion.blow ? motion.blow->loads : motion.contact.loads;
+  motion.after = motion.blow ? motion.blow->velocities : motion.contact.velocities;
+  if (largest_of(loads) > 0 && !is_split) {
     // The flow, and the forces of the fluid, are those with the contact forces.
     const auto before = motion.flow;
-    for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += motion.contact.loads[i];
+    add(loads, forces);
     motion.flow = solver_->velocities(forces, true);
     for (std::size_t i = 0; i < before.size(); ++i)
-      motion.moved[i] = motion.free[i] + (motion.flow[i] - before[i]);
+      motion.after[i] = motion.free[i] + (motion.flow[i] - before[i]);
   }
+  motion.moved = motion.blow ? motion.blow->moved : motion.after;
   for (std::size_t i = 0; i < motion.moved.size(); ++i)
     motion.linear[i] += motion.moved[i] - motion.free[i];
+  if (!motion.blow) motion.after = motion.linear;
   motion.drag = forces;
   for (std::size_t i = 0; i < forces.size(); ++i)
     motion.drag[i] -= equation.inertia()[i] * motion.flow[i];
   if (held) add(held_->forces_of_step(), motion.drag);
-  motion.at_end = equation.velocities_at_end(motion.linear, motion.flow);
+  motion.at_end = equation.velocities_at_end(motion.after, motion.flow);
   if (setting_.fluid->has_inertia()) {
     // The splitting changes the velocities of the particles, and not those of the fluid.
     motion.kept = motion.flow;
     if (is_split)
       for (std::size_t i = 0; i < motion.kept.size(); ++i)
-        motion.kept[i] += motion.moved[i] - motion.free[i];
+        motion.kept[i] += motion.after[i] - motion.free[i];
     const double share = 2 * std::max(0.0, equation.share_of_change());
     motion.at_end = motion.kept;
     for (std::size_t i = 0; i < motion.at_end.size(); ++i) {
@@ -388,7 +420,7 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
   motion.force_errors = {std::move(estimate.force_errors), std::move(estimate.further_errors)};
   motion.quantities = std::move(estimate.quantities);
   if (setting_.fluid->coupling == Coupling::kSplitting) return;
-  auto moved = motion.linear;
+  auto moved = motion.after;
   for (std::size_t i = 0; i < moved.size(); ++i)
     moved[i] += estimate.velocities[i] - motion.flow[i];
   motion.reported = equation.velocities_at_end(moved, estimate.velocities);

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
+#include "viscontact/particles/impacts/rebound.hpp"
 #include "viscontact/particles/setting.hpp"
 #include "viscontact/particles/state.hpp"
 #include "viscontact/particles/steps/step_report.hpp"
@@ -18,6 +20,7 @@ class HeldMotion;
 class HeldSolver;
 class StepEquation;
 struct ContactConditions;
+struct FluidBlow;
 struct StepContacts;
 
 /// Estimates of the errors of the forces of one step, each >= 0 [M L/T^2, M L^2/T^2]; both are
@@ -83,6 +86,9 @@ class FluidSimulation {
   /// empty before the first step.
   const std::vector<double>& fluid_forces() const { return quantities_.fluid_forces; }
 
+  /// The contacts in which solids rebounded in the last step.
+  const std::vector<Rebound>& rebounds() const { return rebounds_; }
+
   /// The errors of the forces of the last step, if the errors of velocities were estimated there.
   const ForceErrors& force_errors() const { return force_errors_; }
 
@@ -101,14 +107,16 @@ class FluidSimulation {
   Motion solve(double h, double next, bool is_estimated);
   std::vector<double> free_velocities(const StepEquation& equation, std::span<const double> flow,
                                       double h, const HeldMotion* held);
-  StepContacts solve_contacts_of(const StepEquation& equation, std::span<const double> free,
-                                 double h, double next);
+  std::optional<FluidBlow> solve_contacts_of(const StepEquation& equation,
+                                             std::span<const double> free, double h, double next,
+                                             StepContacts& contacts);
   void check_ellipses() const;
   void estimate(const StepEquation& equation, std::span<const double> forces,
                 const HeldMotion* held, Motion& motion);
   void report_inertia(Motion& motion) const;
   ContactConditions contact_conditions(std::span<const double> free, double h) const;
-  double share_of_impulse(double h) const;
+  double kick_length(double h) const;
+  bool is_computed_twice() const;
   void examine(Motion& motion, double h, StepReport& report) const;
   void accept(Motion motion, double h, double next, StepReport& report);
   std::vector<double> hold_after_step(const StepEquation& equation, const HeldMotion& held,
@@ -128,6 +136,7 @@ class FluidSimulation {
   std::vector<Plane> obstacles_;
   FlowQuantities quantities_;
   ForceErrors force_errors_;
+  std::vector<Rebound> rebounds_;
   bool has_flow_ = false;         // the solver has kept a flow, in a fluid with inertia
   std::vector<double> reported_;  // extrapolated velocities of the last step; empty: there are none
 };

@@ -50,6 +50,8 @@ class StepEquation {
   /// jump.
   std::vector<double> right_side() const;
 
+  /// f of each component [M L/T^2].
+  const std::vector<double>& forces() const { return forces_; }
   /// M/(theta h) of each component [M/T]; 0 without inertia.
   const std::vector<double>& inertia() const { return inertia_; }
 

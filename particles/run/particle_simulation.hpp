@@ -29,8 +29,10 @@ class ParticleSimulation {
     return in_fluid_ ? in_fluid_->reported_particles() : dry_->reported_particles();
   }
 
-  /// The blows of the last step; see Simulation::rebounds. None in a fluid.
-  std::vector<Rebound> rebounds() const { return dry_ ? dry_->rebounds() : std::vector<Rebound>{}; }
+  /// The blows of the last step; see Simulation::rebounds and FluidSimulation::rebounds.
+  const std::vector<Rebound>& rebounds() const {
+    return in_fluid_ ? in_fluid_->rebounds() : dry_->rebounds();
+  }
 
   /// True if there is a fluid. The functions below need one.
   bool has_fluid() const { return in_fluid_ != nullptr; }

@@ -345,6 +345,25 @@ TEST(RefusedFluidTest, ThresholdGapBelowTheGapAtWhichTheSolidsTouch) {
                     "viscous_contact.roughness, 0.12, because the solids touch at that gap");
 }
 
+TEST(RefusedFluidTest, RestitutionWithoutMassOrWithBodiesOrLinks) {
+  const auto with = [](const std::string& more) {
+    return changed(kDiscsInDisc, "end_time = 1.0",
+                   "end_time = 1.0\ngamma_min = 0\nrestitution = 0.9") +
+           more;
+  };
+  const std::string kWords =
+      "viscous_contact.restitution must be left out, because the case has a fluid and also bodies "
+      "or links; in a fluid only single particles may rebound";
+  expect_refused_at(with("[[spring]]\nbetween = [0, 1]\nstiffness = 1.0\n"), "restitution", kWords);
+  expect_refused_at(with("[[arm]]\nbetween = [0, 1]\nlength = 3.0\n"), "restitution", kWords);
+  expect_refused_at(with("[[body]]\nparticles = [0, 1]\n"), "restitution", kWords);
+  expect_refused_at(with(""), "[[particle]]",
+                    "particle 0 (centre 0, 0, radius 1) has no mass, and the case has "
+                    "viscous_contact.restitution");
+  const auto heavy = changed(with(""), "radius = 1.0", "radius = 1.0\nmass = 1.0");
+  EXPECT_EQ(read_particles_text(heavy).setting.laws.restitution.coefficient, 0.9);
+}
+
 TEST(RefusedFluidTest, PlaneAcrossAPeriod) {
   const auto text = changed(kDiscsInBox, "6.0] }", "6.0], periodic = [false, true] }") +
                     "[[plane]]\npoint = [0.0, 0.1]\nnormal = [0.0, 1.0]\n";

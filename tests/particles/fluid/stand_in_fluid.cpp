@@ -1,7 +1,11 @@
 #include "tests/particles/fluid/stand_in_fluid.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <sstream>
+#include <utility>
 
 #include "tests/particles/systems.hpp"
 #include "viscontact/common/error.hpp"
@@ -49,6 +53,15 @@ void StandInFluid::place(const FluidParticles& bodies) {
     const auto k = static_cast<Eigen::Index>(i);
     matrix_(k, k) += bodies.inertia[i];
   }
+  momentum_ = Eigen::VectorXd::Zero(drag_.rows());
+  const auto& step = bodies.flow_step;
+  for (std::size_t i = 0; step.order > 0 && i < step.masses.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double m = step.masses[i] / step.length, r = step.length / step.before;
+    matrix_(k, k) += m * (step.order == 1 ? 1 : (1 + 2 * r) / (1 + r));
+    momentum_[k] =
+        m * (step.order == 1 ? kept_[i] : (1 + r) * kept_[i] - r * r / (1 + r) * kept_before_[i]);
+  }
   is_driven_.assign(p.count() * components_, 0);
   given_ = Eigen::VectorXd::Zero(drag_.rows());
   for (const auto& [k, motion] : bodies.driven)
@@ -85,7 +98,7 @@ std::vector<double> StandInFluid::velocities(std::span<const double> forces, boo
   const Eigen::Map<const Eigen::VectorXd> given_forces(forces.data(),
                                                        static_cast<Eigen::Index>(forces.size()));
   Eigen::VectorXd right = given_forces;
-  if (driving) right += drag_ * flow_ - matrix_ * given_;
+  if (driving) right += drag_ * flow_ - matrix_ * given_ + momentum_;
   for (std::size_t i = 0; i < is_driven_.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     if (is_driven_[i] != 0) right[k] = driving ? given_[k] : 0;
@@ -93,6 +106,30 @@ std::vector<double> StandInFluid::velocities(std::span<const double> forces, boo
   const Eigen::VectorXd v = inverse_ * right;
   if (driving) last_ = v;
   return {v.data(), v.data() + v.size()};
+}
+
+void StandInFluid::keep_flow(bool /*at_rest*/, std::span<const double> motions) {
+  kept_before_ = std::move(kept_);
+  kept_.assign(motions.begin(), motions.end());
+}
+
+std::string StandInFluid::saved_flow() {
+  std::string text;
+  for (const auto* velocities : {&kept_, &kept_before_}) {
+    for (const double u : *velocities) text += fmt::format("{} ", u);
+    text += ";";
+  }
+  return text;
+}
+
+void StandInFluid::load_flow(const std::string& flow) {
+  std::istringstream text(flow);
+  for (auto* velocities : {&kept_, &kept_before_}) {
+    velocities->clear();
+    for (double u = 0; text >> u;) velocities->push_back(u);
+    text.clear();
+    text.ignore(1);
+  }
 }
 
 FlowQuantities StandInFluid::quantities() {

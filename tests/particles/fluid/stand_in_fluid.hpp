@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
@@ -19,6 +20,9 @@ using Resistance = std::function<Eigen::MatrixXd(const Particles&)>;
 /// Free particles take the velocities v with R (v - u) + inertia v = forces, where R is the
 /// resistance matrix. The flow u without particles is 0, except in a sheared cell, where it is the
 /// mean flow at their places, docs/physics.md (6.3). The object counts its questions.
+///
+/// With the masses of a FlowStep it is a fluid with inertia whose flow has no momentum of its own:
+/// its kept flow is the velocities of the particles.
 class StandInFluid : public FluidSolver {
  public:
   explicit StandInFluid(Resistance resistance) : resistance_(std::move(resistance)) {}
@@ -29,6 +33,9 @@ class StandInFluid : public FluidSolver {
   double vary_penalty() override { return 0; }
   SecondMesh vary_mesh() override;
   FlowField flow() override { return {}; }
+  void keep_flow(bool at_rest, std::span<const double> motions) override;
+  std::string saved_flow() override;
+  void load_flow(const std::string& flow) override;
   std::size_t unknowns() const override { return 0; }
 
   int placements = 0,  ///< number of calls of place()
@@ -46,6 +53,8 @@ class StandInFluid : public FluidSolver {
   std::size_t components_ = 3;
   std::vector<char> is_driven_;
   Eigen::VectorXd flow_, given_, last_;
+  Eigen::VectorXd momentum_;                // of the kept flows, over the length of the step
+  std::vector<double> kept_, kept_before_;  // velocities; empty: none
   Eigen::MatrixXd drag_, matrix_, inverse_;
 };
 

@@ -1,0 +1,334 @@
+// Solves the two phases of a blow in a fluid (fluid_blow.hpp). Units are those of the case.
+#include "viscontact/particles/fluid/fluid_blow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace viscontact::particles {
+namespace {
+
+/// The part of the rate of a gap that the velocities of the particles do not contain [L/T]: that of
+/// an obstacle that moves, or of an image in a sheared cell.
+double drift_of(const Contact<2>& contact, const BlowStep& step, double h) {
+  const auto& p = step.state.particles;
+  if (contact.first >= 0) {
+    if (contact.image == 0) return 0;
+    const auto velocity = velocity_of_image(p.cell, contact.image);
+    return contact.normal[0] * velocity[0] + contact.normal[1] * velocity[1];
+  }
+  const auto& obstacle = step.obstacles[index_of(contact.obstacle)];
+  const auto k = index_of(contact.second);
+  const auto gap_at = [&](double t) { return gap(obstacle.at(t), p.position(k), p.radii[k]); };
+  return (gap_at(step.end) - gap_at(step.state.time)) / h;
+}
+
+class Blow {
+ public:
+  Blow(const StepContacts& contacts, const BlowStep& step, const Mobility& mobility,
+       const ContactConditions& conditions)
+      : ordinary_(contacts),
+        step_(step),
+        laws_(step.setting.laws),
+        mobility_(mobility),
+        conditions_(conditions),
+        parts_(contacts.contacts.size()) {}
+
+  std::optional<FluidBlow> solve();
+
+ private:
+  // A contact in the course of the blow.
+  struct Part {
+    double drift = 0;        // as drift_of()
+    double start = 0;        // gap at the beginning of the step, >= 0 [L]
+    double pull = 0;         // rate of the gap that the loads of the step give [L/T]
+    bool is_closed = false;  // at the beginning of the step
+    bool is_hit = false;     // its gap closes by an approach, not by a load
+    double late = 0;         // time of the hit over the length of the step, 0 to 1
+    double load = 0;         // impulse of the loads of the step
+    double compressed = 0;   // impulse at the end of the compression, with the load
+    double solid = 0;        // impulse s of the hit that the solids take, >= 0
+    double left = 0;         // gamma at the end of the compression, <= 0
+    double restored = 0;     // impulse, with that of the compression, which pulls the film open
+  };
+
+  bool find_hits();
+  StepContacts problem() const;
+  void take_load();
+  bool share_impulses(const std::vector<Contact<2>>& compressed);
+  void restrain(const StepContacts& compressed, StepContacts& restored) const;
+  void move(FluidBlow& blow);
+  void book(FluidBlow& blow) const;
+
+  const Pair& pair(std::size_t c) const {
+    const auto n = ordinary_.pairs.size();
+    return c < n ? ordinary_.pairs[c] : ordinary_.walls[c - n];
+  }
+  double lowest_gamma(std::size_t c) const {
+    const auto& of = pair(c);
+    return laws_.lowest_gamma(of, step_.state.memories.of(of.memory),
+                              radii_of(of, step_.state.particles, step_.obstacles));
+  }
+  /// Rate of the gap of contact `c` for velocities of all particles [L/T].
+  double rate(std::size_t c, std::span<const double> velocities) const {
+    return opening(ordinary_.contacts[c], velocities.data(), conditions_.layout) + parts_[c].drift;
+  }
+  ContactConditions conditions_over(double length) const {
+    auto conditions = conditions_;
+    conditions.h = length;
+    conditions.share_of_impulse = 1;
+    return conditions;
+  }
+
+  const StepContacts& ordinary_;
+  const BlowStep& step_;
+  const ContactLaws& laws_;
+  const Mobility& mobility_;
+  const ContactConditions& conditions_;
+  std::vector<Part> parts_;
+  int iterations_ = 0;
+};
+
+/// Finds which contacts are hit. Returns whether there are any.
+bool Blow::find_hits() {
+  const auto free = conditions_.free_velocities;
+  const double h = conditions_.h;
+  const double touching = conditions_.solver.tolerance * conditions_.mean_radius;
+  // An approach that moves the particles by less than a thousandth of `touching` in the step, or is
+  // within rounding errors, hits nothing.
+  constexpr double kUnseen = 1e-3, kRounding = 1e-12;
+  const double unseen = std::max(kUnseen * touching / h,
+                                 kRounding * std::max(fastest(free, conditions_.layout),
+                                                      fastest(step_.before, conditions_.layout)));
+  const auto approaches = [&](std::size_t c) {
+    const auto& part = parts_[c];
+    const double approach = rate(c, free);
+    return ordinary_.contacts[c].w > 0 && -approach > unseen && part.start + h * approach < 0 &&
+           (!part.is_closed || -rate(c, step_.before) > unseen);
+  };
+  std::vector<std::size_t> approaching;
+  for (std::size_t c = 0; c < parts_.size(); ++c) {
+    auto& part = parts_[c];
+    const auto& contact = ordinary_.contacts[c];
+    part.drift = drift_of(contact, step_, h);
+    part.start = std::max(0.0, contact.gap - h * part.drift);
+    part.is_closed = part.start <= touching || contact.lowest < 0;
+    if (approaches(c)) approaching.push_back(c);
+  }
+  if (approaching.empty()) return false;
+  const auto loaded = step_.loaded();
+  for (std::size_t c = 0; c < parts_.size(); ++c) {
+    const double free_rate = rate(c, free);
+    const double by_load = rate(c, loaded) - parts_[c].drift;
+    parts_[c].pull = std::min(by_load, free_rate - rate(c, step_.before));
+  }
+  bool any = false;
+  for (const auto c : approaching) {
+    auto& part = parts_[c];
+    const auto& of = pair(c);
+    constexpr double kUnderLoad = 5;  // as in impacts/: slower blows would keep a packing shaking
+    const bool bore_load = of.impulse != 0 || of.gamma < 0;
+    if (part.is_closed && bore_load && !(rate(c, step_.before) < kUnderLoad * part.pull)) continue;
+    part.is_hit = any = true;
+    part.late = part.start / (-rate(c, free) * h);
+  }
+  return any;
+}
+
+/// The contacts over the time `kick` in which impulses act, with impulses that are not scaled. Hit contacts are closed. The gaps of
+/// the others are stretched, so that they close at the same velocity as in the step.
+StepContacts Blow::problem() const {
+  const double kick = step_.kick;
+  StepContacts problem;
+  problem.contacts = ordinary_.contacts;
+  for (std::size_t c = 0; c < parts_.size(); ++c) {
+    auto& contact = problem.contacts[c];
+    contact.gap = parts_[c].is_hit ? kick * parts_[c].drift : contact.gap * (kick / conditions_.h);
+    contact.lowest *= conditions_.share_of_impulse;
+    contact.impulse *= conditions_.share_of_impulse;
+  }
+  return problem;
+}
+
+/// Finds the impulses of the loads of a step on contacts that are closed or hit: those that would
+/// keep particles at rest at their places.
+void Blow::take_load() {
+  auto load = problem();
+  std::vector<Contact<2>> contacts;
+  std::vector<std::size_t> numbers;
+  for (std::size_t c = 0; c < parts_.size(); ++c) {
+    const auto& part = parts_[c];
+    if (!part.is_hit && !part.is_closed) continue;
+    auto& contact = load.contacts[c];
+    contact.gap = step_.kick * part.pull;
+    contact.impulse = part.is_hit ? 0 : contact.impulse;
+    contacts.push_back(contact);
+    numbers.push_back(c);
+  }
+  load.contacts = std::move(contacts);
+  const std::vector<double> still(conditions_.free_velocities.size());
+  auto conditions = conditions_over(step_.kick);
+  conditions.free_velocities = still;
+  solve_listed(load, mobility_, conditions);
+  iterations_ += load.iterations;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    parts_[numbers[i]].load = load.contacts[i].impulse;
+}
+
+/// Shares the impulses of the compression between films and solids. Returns whether solids give
+/// back more than the load of a step; otherwise the blow is left to the problem without
+/// restitution, because the flight would be shorter than two steps.
+bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
+  bool any = false;
+  for (std::size_t c = 0; c < parts_.size(); ++c) {
+    auto& part = parts_[c];
+    const double gamma = pair(c).gamma, lowest = lowest_gamma(c);
+    part.compressed = compressed[c].impulse;
+    const double by_load = std::clamp(gamma - part.load, lowest, 0.0);
+    part.solid = RestitutionLaw::solid_impulse(part.compressed - part.load, by_load - lowest);
+    part.left = std::clamp(gamma - part.compressed, lowest, 0.0);
+    // Contacts that the blow closes in the rest of the step are not closed yet.
+    const bool gives_back = laws_.restitution.coefficient * part.solid > std::max(part.load, 0.0);
+    if (gives_back && (part.is_hit || part.is_closed))
+      any = true;
+    else
+      part.solid = 0;
+  }
+  return any;
+}
+
+/// Work of the impulses at the mean of the velocities before and after. Films in blows of several
+/// contacts could make it positive; then the impulses go back towards those of the compression,
+/// whose work is negative, until it is not.
+void Blow::restrain(const StepContacts& compressed, StepContacts& restored) const {
+  const auto work = [&](double share) {
+    double sum = 0;
+    for (std::size_t c = 0; c < parts_.size(); ++c) {
+      const double from = compressed.contacts[c].impulse, to = restored.contacts[c].impulse;
+      if (from == 0 && to == 0) continue;
+      const double before = rate(c, conditions_.free_velocities),
+                   least = rate(c, compressed.velocities), most = rate(c, restored.velocities);
+      sum += (from + share * (to - from)) * (before + least + share * (most - least)) / 2;
+    }
+    return sum;
+  };
+  if (!(work(1) > 0)) return;
+  double low = 0, high = 1;
+  constexpr int kHalvings = 50;
+  for (int n = 0; n < kHalvings; ++n) {
+    const double middle = (low + high) / 2;
+    (work(middle) > 0 ? high : low) = middle;
+  }
+  const auto go_back = [&](double from, double& to) { to = from + low * (to - from); };
+  for (std::size_t c = 0; c < parts_.size(); ++c) {
+    auto& contact = restored.contacts[c];
+    go_back(compressed.contacts[c].impulse, contact.impulse);
+    contact.lowest = contact.impulse;  // what measure_residuals() expects of it
+  }
+  for (std::size_t i = 0; i < restored.loads.size(); ++i) {
+    go_back(compressed.loads[i], restored.loads[i]);
+    go_back(compressed.velocities[i], restored.velocities[i]);
+  }
+}
+
+/// Finds the displacements: with the velocities of the loads until the time of the hit, and with
+/// those after the blow in the rest of the step.
+void Blow::move(FluidBlow& blow) {
+  const auto& layout = conditions_.layout;
+  double first = 1;
+  for (const auto& part : parts_)
+    if (part.is_hit) first = std::min(first, part.late);
+  std::vector<double> loads(blow.velocities.size());
+  for (std::size_t c = 0; c < parts_.size(); ++c) {
+    const auto& part = parts_[c];
+    const double load = part.is_hit ? 0 : part.load;
+    const double rest = 1 - (part.is_hit ? part.late : first);
+    const double impulse = load + rest * (blow.contacts[c].impulse - load);
+    add_contact_force(blow.contacts[c], impulse / step_.kick, loads, layout);
+  }
+  blow.moved = mobility_(loads);
+  ++iterations_;
+  for (std::size_t i = 0; i < blow.moved.size(); ++i)
+    blow.moved[i] += conditions_.free_velocities[i];
+  // Hits at different times may leave gaps that overlap, or that a film must close.
+  StepContacts gaps;
+  gaps.contacts = ordinary_.contacts;
+  const double allowed = conditions_.solver.tolerance * conditions_.mean_radius / 2;
+  bool any_off = false;
+  for (std::size_t c = 0; c < parts_.size(); ++c) {
+    auto& contact = gaps.contacts[c];
+    contact.impulse = 0;
+    contact.lowest =
+        std::min(0.0, pair(c).gamma - blow.absorbed[c]) / conditions_.share_of_impulse;
+    const double after = gap_after(contact, blow.moved.data(), conditions_.h, layout);
+    any_off = any_off || after < -allowed || (contact.lowest < 0 && after > allowed);
+  }
+  if (!any_off) return;
+  auto conditions = conditions_;
+  conditions.free_velocities = blow.moved;
+  solve_listed(gaps, mobility_, conditions);
+  iterations_ += gaps.iterations;
+  blow.is_solved = blow.is_solved && gaps.is_solved;
+  blow.moved = std::move(gaps.velocities);
+}
+
+/// Finds what the films take up, and lists the rebounds.
+void Blow::book(FluidBlow& blow) const {
+  constexpr double kAtRest = 1e-9;  // of the approach: rounding errors of the fluid's answers
+  for (std::size_t c = 0; c < parts_.size(); ++c) {
+    const auto& part = parts_[c];
+    const auto& contact = blow.contacts[c];
+    const auto& of = pair(c);
+    blow.absorbed.push_back(contact.impulse);
+    if (!(part.solid > 0)) continue;
+    const double gamma =
+        RestitutionLaw::gamma_after(part.restored, contact.impulse, lowest_gamma(c), of.gamma);
+    blow.absorbed.back() = of.gamma - gamma;
+    const double approach = rate(c, conditions_.free_velocities), after = rate(c, blow.velocities);
+    blow.rebounds.push_back({step_.state.time + part.late * conditions_.h, of.first, of.second,
+                             std::min(approach, 0.0), part.solid,
+                             after <= kAtRest * std::abs(approach) ? 0 : after});
+  }
+}
+
+std::optional<FluidBlow> Blow::solve() {
+  if (!find_hits()) return std::nullopt;
+  const auto conditions = conditions_over(step_.kick);
+  auto compressed = problem();
+  solve_listed(compressed, mobility_, conditions);
+  iterations_ += compressed.iterations;
+  take_load();
+  if (!share_impulses(compressed.contacts)) return std::nullopt;
+  auto restored = problem();
+  for (std::size_t c = 0; c < parts_.size(); ++c) {
+    auto& part = parts_[c];
+    auto& contact = restored.contacts[c];
+    contact.impulse = part.compressed;
+    if (part.solid > 0)
+      contact.lowest = part.restored =
+          part.compressed + laws_.restitution.lowest_in_restitution(part.left, part.solid);
+  }
+  solve_listed(restored, mobility_, conditions);
+  iterations_ += restored.iterations;
+  restrain(compressed, restored);
+  FluidBlow blow;
+  blow.is_solved = compressed.is_solved && restored.is_solved;
+  blow.contacts = std::move(restored.contacts);
+  blow.loads = std::move(restored.loads);
+  blow.velocities = std::move(restored.velocities);
+  book(blow);
+  move(blow);
+  blow.iterations = iterations_;
+  return blow;
+}
+
+}  // namespace
+
+std::optional<FluidBlow> solve_blow(const StepContacts& contacts, const BlowStep& step,
+                                    const Mobility& mobility, const ContactConditions& conditions) {
+  return Blow(contacts, step, mobility, conditions).solve();
+}
+
+}  // namespace viscontact::particles
