@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 namespace viscontact::particles {
@@ -25,8 +24,11 @@ double drift_of(const Contact<2>& contact, const BlowStep& step, double h) {
   return (gap_at(step.end) - gap_at(step.state.time)) / h;
 }
 
+/// One blow, from its hits to its displacements. solve() may be called once. Each function needs what
+/// those before it in solve() have found of `parts_`.
 class Blow {
  public:
+  /// All arguments must outlive the object.
   Blow(const StepContacts& contacts, const BlowStep& step, const Mobility& mobility,
        const ContactConditions& conditions)
       : ordinary_(contacts),
@@ -88,7 +90,7 @@ class Blow {
   const Mobility& mobility_;
   const ContactConditions& conditions_;
   std::vector<Part> parts_;
-  int iterations_ = 0;
+  int iterations_ = 0;  // of all problems
 };
 
 /// Finds which contacts are hit. Returns whether there are any.
