@@ -2,6 +2,7 @@
 // between the matrix W and products with it. Units are those of the case.
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -13,6 +14,9 @@ namespace viscontact::particles {
 namespace {
 
 using Eigen::Index;
+
+/// Relative difference of an entry of W from its transposed one up to which it is a rounding error.
+constexpr double kLargestRoundingOfW = 1e-7;
 
 /// D - D_c + h G v [L] with the velocities without contact.
 double free_gap(const Contact<2>& contact, const ContactConditions& conditions) {
@@ -111,7 +115,28 @@ class FluidDualProblem : public DualProblem {
   mutable ThreadPool pool_{1};
 };
 
-/// The dual problem of few contacts, with the matrix W itself. A vector y = B z holds W z, and then
+/// By how much the skew part of W changes the gaps [L] with the present impulses. Moving fluid carries
+/// what a contact does to the contacts behind it, so that W of a fluid with inertia is not symmetric.
+/// Zeros if W is symmetric but for rounding errors.
+std::vector<double> gaps_of_skew_part(std::span<const Contact<2>> contacts,
+                                      const ContactConditions& conditions,
+                                      std::span<const std::vector<double>> responses) {
+  const auto w = [&](std::size_t c, std::size_t other) {
+    return opening(contacts[c], responses[other].data(), conditions.layout);
+  };
+  std::vector<double> gaps(contacts.size(), 0.0);
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    for (std::size_t other = 0; other < contacts.size(); ++other) {
+      const double skew = (w(c, other) - w(other, c)) / 2;
+      if (std::abs(skew) <= kLargestRoundingOfW * std::sqrt(contacts[c].w * contacts[other].w))
+        continue;
+      gaps[c] += skew * contacts[other].impulse;
+    }
+  return gaps;
+}
+
+/// The dual problem of few contacts, with the symmetric part of the matrix W itself, and gaps that
+/// contain the skew part with the impulses that the contacts had before. A vector y = B z holds W z, and then
 /// z.
 class DenseDualProblem : public DualProblem {
  public:
@@ -119,8 +144,9 @@ class DenseDualProblem : public DualProblem {
   DenseDualProblem(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
                    std::span<const std::vector<double>> responses)
       : DualProblem(contacts.size()), w(contacts.size(), contacts.size()) {
+    const auto further = gaps_of_skew_part(contacts, conditions, responses);
     for (std::size_t c = 0; c < contacts.size(); ++c)
-      set(c, contacts[c], free_gap(contacts[c], conditions));
+      set(c, contacts[c], free_gap(contacts[c], conditions) + further[c]);
     for (std::size_t c = 0; c < contacts.size(); ++c)
       for (std::size_t other = 0; other < contacts.size(); ++other)
         w(static_cast<Index>(other), static_cast<Index>(c)) =
@@ -280,9 +306,11 @@ bool ContactProblem::solve(bool is_rough) {
   // The relative error of velocities that are sums of responses to forces.
   constexpr double kErrorOfSums = 2e-11;
   conditions.velocity_error = kErrorOfSums;
-  // The allowed residuals follow from the impulses, which the first solution tells.
-  constexpr int kRounds = 4;
-  for (int round = 0; round < kRounds; ++round) {
+  // The allowed residuals follow from the impulses, which the first solution tells. Each round also
+  // reduces the error that the skew part of W makes, which Stokes flow does not have.
+  constexpr int kRounds = 4, kRoundsOfSkewPart = 40;
+  const int rounds = is_dense && is_skew() ? kRoundsOfSkewPart : kRounds;
+  for (int round = 0; round < rounds; ++round) {
     for (auto& contact : contacts_) contact.impulse = std::max(contact.impulse, contact.lowest);
     set_allowed(contacts_, conditions);
     // Half of it is left for the difference between this problem and the final velocities.
@@ -294,6 +322,14 @@ bool ContactProblem::solve(bool is_rough) {
   // Residuals that errors of the mobility explain are no failure.
   conditions.velocity_error = std::max(kErrorOfSums, conditions_.velocity_error);
   return is_solved();
+}
+
+/// True if the matrix W of all contacts is not symmetric.
+bool ContactProblem::is_skew() const {
+  auto unit = contacts_;
+  for (auto& contact : unit) contact.impulse = 1;
+  return std::ranges::any_of(gaps_of_skew_part(unit, conditions_, responses_),
+                             [](double gap) { return gap != 0; });
 }
 
 void ContactProblem::solve_dense() {

@@ -135,6 +135,7 @@ class ContactProblem {
  private:
   /// Both improve the impulses until the residuals are those allowed.
   void solve_dense();
+  bool is_skew() const;
   void solve_by_products();
 
   ContactConditions conditions_;

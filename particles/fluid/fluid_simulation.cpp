@@ -346,7 +346,9 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     if (is_split)
       for (std::size_t i = 0; i < motion.kept.size(); ++i)
         motion.kept[i] += motion.after[i] - motion.free[i];
-    const double share = 2 * std::max(0.0, equation.share_of_change());
+    // The fluid may have been set in motion at once at the start, so that the first change of the
+    // velocity says nothing of the next one.
+    const double share = state_.steps > 1 ? 2 * equation.share_of_change() : 0;
     motion.at_end = motion.kept;
     for (std::size_t i = 0; i < motion.at_end.size(); ++i) {
       const auto k = static_cast<std::int32_t>(i / layout_.components);

@@ -41,8 +41,11 @@ std::vector<std::string> evenly_spaced(int colours, const Colour& colour) {
   return all;
 }
 
-/// Round numbers from 0 to `top` > 0, about four intervals, by their shares of `top`.
+/// Round numbers from 0 to `top` >= 0, about four intervals, by their shares of `top`; 0 alone if
+/// `top` is so small that its quarter has lost digits.
 std::vector<std::pair<double, std::string>> round_ticks(double top) {
+  constexpr double kSmallest = 1e-300;
+  if (!(top > kSmallest)) return {{0, "0"}};
   const double rough = top / 4, decade = std::pow(10, std::floor(std::log10(rough)));
   const double step = decade * (rough < 1.5 * decade ? 1
                                 : rough < 3 * decade ? 2

@@ -53,7 +53,7 @@ inline constexpr const char* kSlidingColour = "#d55e00";   ///< for contacts tha
 /// colours are evenly spaced in lightness, and dark lines can be seen on all of them.
 std::string speed_colour(double share);
 
-/// The scale of the speed of a fluid from 0 to `top` > 0 [L/T] with `colours` colours.
+/// The scale of the speed of a fluid from 0 to `top` >= 0 [L/T] with `colours` colours.
 ColourScale speed_scale(double top, int colours);
 
 inline constexpr const char* kStreamLineColour = "#12233f";

@@ -15,11 +15,17 @@ struct Row {
     for (std::size_t k = 0; k < count; ++k)
       free[2 * k] = static_cast<double>(count) / 2 - static_cast<double>(k);
   }
-  bool solve(int max_iterations) {
+  /// With `skew` each force also moves the disc in front of it, and those behind it backwards.
+  bool solve(int max_iterations, double skew = 0) {
     SolverSettings settings;
     settings.max_iterations = max_iterations;
-    const Mobility mobility = [](std::span<const double> forces) {
-      return std::vector<double>(forces.begin(), forces.end());
+    const Mobility mobility = [skew](std::span<const double> forces) {
+      std::vector<double> v(forces.begin(), forces.end());
+      for (std::size_t i = 2; i < v.size(); ++i) {
+        v[i] += skew * forces[i - 2];
+        v[i - 2] -= skew * forces[i];
+      }
+      return v;
     };
     ContactProblem problem({free, 0.1, {2}, settings, 1, 0}, mobility);
     for (std::size_t k = 0; k + 1 < free.size() / 2; ++k) {
@@ -43,6 +49,15 @@ TEST(ContactProblem, SaysWhetherItIsSolved) {
   EXPECT_TRUE(Row(61).solve(10000));
   EXPECT_FALSE(Row(61).solve(8));
   EXPECT_TRUE(Row(5).solve(10000));
+}
+
+TEST(ContactProblem, IsSolvedInAFluidThatCarriesForcesAlong) {
+  for (const double skew : {0.02, 0.2}) {
+    Row row(5);
+    ASSERT_TRUE(row.solve(10000, skew)) << skew;
+    for (std::size_t k = 1; k < 5; ++k)
+      EXPECT_NEAR(row.velocities[2 * k], row.velocities[0], 1e-8) << skew;
+  }
 }
 
 TEST(ContactProblem, HasTheImpulsesThatMakeAllVelocitiesEqual) {

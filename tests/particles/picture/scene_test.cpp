@@ -110,6 +110,8 @@ TEST(SpeedColours, DarkenEvenly) {
   const auto ticks = report::speed_scale(0.137, 2).ticks;
   EXPECT_EQ(ticks.front().second, "0");
   EXPECT_EQ(ticks.back().second, "0.1");
+  // A fluid at rest.
+  EXPECT_EQ(report::speed_scale(0, 2).ticks.size(), 1U);
 }
 
 }  // namespace

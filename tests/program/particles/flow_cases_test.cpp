@@ -193,6 +193,58 @@ TEST_F(FlowCase, ContinuesWithTheSameBits) {
   EXPECT_EQ(column("motion.csv", "vy").back(), whole.back());
 }
 
+// The same of two discs by each method: after the first step, whose mesh is new, and later, when it has
+// moved.
+TEST_F(FlowCase, ContinuesWithTheSameBitsByEachMethod) {
+  const std::string one = R"(title = "Two discs"
+[space]
+dimension = 2
+gravity = [0.3, -1.0]
+[fluid]
+viscosity = 0.2
+density = 1.0
+edges_per_particle = 8
+threshold_gap = 0.05
+METHOD
+[domain]
+box = { from = [0.0, 0.0], to = [3.0, 3.0], periodic = [PERIODIC, false] }
+[viscous_contact]
+time_step = 0.05
+end_time = END
+[output]
+every = 0.5
+[[particle]]
+centre = [1.0, 1.0]
+radius = 0.4
+density = 3.0
+[[particle]]
+centre = [1.1, 2.2]
+radius = 0.5
+density = 6.0
+velocity = [0.0, -1.0]
+)";
+  for (const auto& [method, periodic] :
+       {std::pair("constraint = \"rigid\"", "false"), std::pair("mesh = \"fixed\"", "false"),
+        std::pair("advection = \"characteristics\"\nstart = \"stokes\"\ncoupling = \"splitting\"",
+                  "true")}) {
+    SCOPED_TRACE(method);
+    const auto text = [&](const std::string& end) {
+      auto changed = replaced_matches(one, "METHOD", method);
+      changed = replaced_matches(changed, "PERIODIC", periodic);
+      return replaced_matches(changed, "END", end);
+    };
+    compute(text("0.4"));
+    const auto whole = column("motion.csv", "vy");
+    for (const std::string end : {"0.05", "0.25"}) {
+      compute(text(end));
+      const auto copy = out().parent_path() / "part.bin";
+      fs::copy_file(out() / "restart.bin", copy, fs::copy_options::overwrite_existing);
+      expect_done(run(put_case(text("0.4")), out(), {"--restart", copy.string()}));
+      EXPECT_EQ(column("motion.csv", "vy").back(), whole.back());
+    }
+  }
+}
+
 TEST_F(FlowCase, RefusesARestartWithoutAFlow) {
   const std::string coarse = "\"rigid\"\nedges_per_particle = 8";
   const auto stokes = replaced_matches(
