@@ -26,6 +26,10 @@ constexpr double kNarrow = 0.3, kFurtherAt24Edges = 0.35;
 /// Growth of the edges per distance from a particle, with 24 edges on the smallest one. It is
 /// proportional to the edge length, so that all lengths of a mesh shrink together.
 constexpr double kGrowthAt24Edges = 0.1;
+/// In a fluid with inertia the largest error is that of the layer of fluid around a particle. More
+/// edges on the particle are therefore spent near it: the edges grow faster by the first factor, but
+/// not beyond the second number, with which meshes of up to 24 edges are those of a Stokes flow.
+constexpr double kFasterWithInertia = 2, kFastestWithInertia = 0.1;
 
 }  // namespace
 
@@ -66,6 +70,8 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
   longest_ =
       std::min(coarsening * 2 * std::numbers::pi * smallest / fluid.edges_per_particle, cap_);
   growth_ = coarsening * kGrowthAt24Edges * ratio;
+  if (fluid.has_inertia())
+    growth_ = std::max(growth_, std::min(kFasterWithInertia * growth_, kFastestWithInertia));
   of_gap_ = coarsening * std::min(kOfGapAt24Edges * ratio, kLargestOfGap);
   // A few spheres on an axis cost little, and their films carry all of the load.
   further_ = p.dimension == 1 ? 0 : coarsening * kFurtherAt24Edges * ratio;

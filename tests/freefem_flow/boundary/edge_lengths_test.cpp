@@ -72,6 +72,23 @@ TEST(EdgeLengths, AllShrinkTogetherWithMoreEdges) {
   EXPECT_LT(twice.on_wall(far), 0.51 * some.on_wall(far));
 }
 
+// Twice as fast with 48 and more edges; not at all with up to 24, so that no mesh is coarser than one
+// of 24 edges was.
+TEST(EdgeLengths, GrowFasterInAFluidWithInertia) {
+  const auto growth = [](int edges, double density) {
+    const auto particles = particles_of({{0, 0, 1}}, 2);
+    auto fluid = fluid_with(edges);
+    fluid.density = density;
+    const EdgeLengths lengths(fluid, BoxDomain{{-9, -40}, {9, 40}}, {&particles, {}, {}, {}});
+    return (lengths.on_wall({9, 1}) - lengths.on_particle(0, {1, 0})) / (std::sqrt(82.0) - 1);
+  };
+  for (const int edges : {12, 24})
+    EXPECT_DOUBLE_EQ(growth(edges, 1), growth(edges, 0)) << edges << " edges";
+  EXPECT_NEAR(growth(36, 1), growth(24, 0), 1e-14);
+  for (const int edges : {48, 96})
+    EXPECT_NEAR(growth(edges, 1), 2 * growth(edges, 0), 1e-14) << edges << " edges";
+}
+
 TEST(EdgeLengths, OfACoarserMeshAreLonger) {
   const std::vector<Body> bodies = {{-1.05, 0, 1}, {1.05, 0, 1}};
   const auto fine = lengths_of(DiscDomain{{}, 6}, bodies, 24);
