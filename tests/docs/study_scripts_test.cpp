@@ -38,7 +38,9 @@ TEST_P(StudyScript, HasCasesThatRun) {
   EXPECT_EQ(finished, GetParam().runs);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, StudyScript, ::testing::Values(Study{"inertia_study", 4}),
+INSTANTIATE_TEST_SUITE_P(Each, StudyScript,
+                         ::testing::Values(Study{"inertia_study", 4},
+                                           Study{"convergence_study", 9}),
                          [](const auto& study) { return std::string(study.param.script); });
 
 }  // namespace
