@@ -84,6 +84,19 @@ TEST_F(Plot, WritesPicturesOfTheAskedGapsAndDoesNotTabulateAgain) {
               AllOf(HasSubstr("finest mesh"), HasSubstr("coarsest mesh")));
 }
 
+TEST_F(Plot, IsOfTheFlowOfEachMotion) {
+  auto text = replaced(case_text(), "container = { radius = 5.0, height = 10.0 }",
+                       "container = \"unbounded\"\nmotion = \"all\"");
+  text = replaced(text, "relative_accuracy = 1e-3", "relative_accuracy = 1e-2");
+  put_text(path("case.toml"), replaced(text, "gaps = [0.01, 1.0]", "gaps = [1.0]"));
+  expect_done(run_viscontact({"tabulate", path("case.toml"), "-o", path("out"), "--plot", "1"}));
+  for (const std::string motion : {"approach", "slide", "roll", "spin"}) {
+    EXPECT_FALSE(read_flow(path("out/" + motion + ".plots/gap_1.vtu")).triangles.empty()) << motion;
+    EXPECT_THAT(read_file(path("out/" + motion + ".plots/gap_1_flow.svg")), HasSubstr("</svg>"))
+        << motion;
+  }
+}
+
 TEST_F(Plot, GapThatIsNotThereIsRefusedBeforeAnyWork) {
   const auto before = files_below(scratch_.path());
   expect_refusal(tabulate({"--plot", "1,0.02"}), ErrorKind::kBadInput,
