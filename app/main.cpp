@@ -13,14 +13,12 @@
 #include <vector>
 
 #include "viscontact/app/arguments/command_options.hpp"
-#include "viscontact/app/arguments/optional_values.hpp"
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/commands/interrupt.hpp"
-#include "viscontact/app/help/completion.hpp"
-#include "viscontact/app/help/manual.hpp"
+#include "viscontact/app/help/self_description.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/results/exit_code.hpp"
-#include "viscontact/results/versions.hpp"
+#include "viscontact/results/provenance.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::app {

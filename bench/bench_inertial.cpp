@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "tests/oracles/inertial_motion.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 

@@ -15,7 +15,7 @@
 #include "viscontact/case_file/keys.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 

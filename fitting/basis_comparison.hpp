@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact::fitting {

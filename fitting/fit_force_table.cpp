@@ -20,7 +20,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/fitting/robust_least_squares.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/lubrication/spread_gaps.hpp"
 #include "viscontact/lubrication/terms.hpp"

@@ -1,5 +1,5 @@
 // Iteratively reweighted least squares with the losses of Huber and Cauchy. The constants 1.345 and
-// 2.385 are those of Loss in lubrication/fit/fit.hpp.
+// 2.385 are those of Loss in lubrication/fit.hpp.
 #include "viscontact/fitting/robust_least_squares.hpp"
 
 #include <ceres/loss_function.h>

@@ -5,7 +5,7 @@
 
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/fitting/least_squares.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 
 namespace viscontact::fitting {
 

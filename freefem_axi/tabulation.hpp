@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/freefem_axi/freefem.hpp"
 #include "viscontact/freefem_axi/geometry.hpp"
+#include "viscontact/freefem_axi/journal/freefem.hpp"
 #include "viscontact/lubrication/motion_kind.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
 

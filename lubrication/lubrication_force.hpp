@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact::lubrication {

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact::motions {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 

@@ -1,19 +1,90 @@
-// A trajectory, which every model of motion returns, and its file. Lengths, masses and times are in
-// the units of the case. A change must keep the names of the columns, because published files use
-// them.
+// A trajectory, which every model of motion returns, its budget of momentum and energy, and its
+// file. Lengths, masses and times are in the units of the case. A change must keep the names of the
+// columns, because published files use them, and both balances of the budget.
 #pragma once
 
 #include <array>
+#include <cassert>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "viscontact/common/optional_double.hpp"
-#include "viscontact/reduced_model/momentum_energy_budget.hpp"
-
 namespace viscontact::reduced_model {
+
+/// Like std::optional<double>, but no larger than a double, because millions of rows store several
+/// of these values. NaN stands for a missing value; therefore a value must not be NaN, and sources
+/// that include this file must not be compiled with -ffast-math, which ignores NaN.
+class OptionalDouble {
+ public:
+  constexpr OptionalDouble() = default;
+  /// `value` must not be NaN, because NaN stands for a missing value.
+  // The conversion is implicit, as in std::optional.
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  constexpr OptionalDouble(double value) : value_(value) {}
+
+  bool has_value() const { return !std::isnan(value_); }  ///< false if the value is missing
+  explicit operator bool() const { return has_value(); }  ///< same as has_value()
+  /// The value, which must not be missing (asserted).
+  double operator*() const {
+    assert(has_value());
+    return value_;
+  }
+  double value() const { return **this; }  ///< same as operator*
+
+  /// True if both values are equal or both are missing.
+  friend bool operator==(const OptionalDouble& a, const OptionalDouble& b) {
+    return a.value_ == b.value_ || (!a && !b);
+  }
+
+ private:
+  double value_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Impulses on the sphere along the outward normal [M L/T] and works done on it [M L^2/T^2], from
+/// the start of the motion to its end:
+///
+///     m u(end) - m v0              = sum of the impulses,
+///     m u(end)^2/2 - m v0^2/2      = sum of the works,
+///
+/// with the mass m, the velocity u and its value v0 at the start. The left sides are 0 for a model
+/// without inertia. The film absorbed the energy -film_work, the
+/// resolved drag dissipated -drag_work, and the impact on the solid dissipated -solid_work.
+///
+/// The contact models add up each step. In the other models the film is the whole drag. Its impulse
+/// then is the change of momentum minus the impulse of the external force. Its work is a sum over
+/// the rows, with an error of second order in their spacing, and external_work is set so that the
+/// works are balanced.
+struct MomentumEnergyBudget {
+  double external_impulse = 0;  ///< of the external force [M L/T]
+  double film_impulse = 0;   ///< of the film: of gamma in contact models, else of the drag [M L/T]
+  double drag_impulse = 0;   ///< of the drag that contact models resolve outside contact [M L/T]
+  double solid_impulse = 0;  ///< of the solid contact [M L/T], >= 0
+  double external_work = 0;  ///< of the external force [M L^2/T^2]
+  double film_work = 0;      ///< of the film [M L^2/T^2]
+  double drag_work = 0;      ///< of the resolved drag [M L^2/T^2], <= 0
+  double solid_work = 0;     ///< of the solid contact [M L^2/T^2], <= 0
+};
+
+/// An entry of the budget with its name in files.
+struct BudgetEntry {
+  std::string_view name;                ///< column or key
+  double MomentumEnergyBudget::*value;  ///< the member with this name
+};
+/// All entries, in the order in which files list them.
+inline constexpr std::array kBudgetEntries = {
+    BudgetEntry{"external_impulse", &MomentumEnergyBudget::external_impulse},
+    BudgetEntry{"film_impulse", &MomentumEnergyBudget::film_impulse},
+    BudgetEntry{"drag_impulse", &MomentumEnergyBudget::drag_impulse},
+    BudgetEntry{"solid_impulse", &MomentumEnergyBudget::solid_impulse},
+    BudgetEntry{"external_work", &MomentumEnergyBudget::external_work},
+    BudgetEntry{"film_work", &MomentumEnergyBudget::film_work},
+    BudgetEntry{"drag_work", &MomentumEnergyBudget::drag_work},
+    BudgetEntry{"solid_work", &MomentumEnergyBudget::solid_work}};
 
 /// The state of the sphere at one time. Forces are > 0 away from the wall.
 struct TrajectoryRow {

@@ -1,29 +1,28 @@
-# embed_texts(HEADER NAMESPACE NAME=FILE[,FILE...]...)
+# embed_texts(NAMESPACE NAME=FILE[,FILE...]...)
 #
 # Makes page_texts.cpp in the build folder of the CMakeLists.txt that calls it. Its functions NAME()
-# in viscontact::NAMESPACE, which HEADER declares, return the text of a file. Several files with one
-# name are a script. They are joined in the order given within one function of JavaScript, so that
-# they share their names, and no other script of the page sees these.
+# in viscontact::NAMESPACE return the text of a file; the source that uses them declares them.
+# Several files with one name are a script. They are joined in the order given within one function
+# of JavaScript, so that they share their names, and no other script of the page sees these.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
-  function(embed_texts header namespace)
+  function(embed_texts namespace)
     set(files ${ARGN})
     list(TRANSFORM files REPLACE "^[^=]*=" "")
     string(REPLACE "," ";" files "${files}")
     list(JOIN ARGN "|" texts)
-    cmake_path(GET header FILENAME header_name)
     add_custom_command(
       OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/page_texts.cpp
       COMMAND ${CMAKE_COMMAND} -D OUTPUT=${CMAKE_CURRENT_BINARY_DIR}/page_texts.cpp
-              -D HEADER=${header} -D NAMESPACE=${namespace} -D FOLDER=${CMAKE_CURRENT_SOURCE_DIR}
+              -D NAMESPACE=${namespace} -D FOLDER=${CMAKE_CURRENT_SOURCE_DIR}
               "-D TEXTS=${texts}" -P ${PROJECT_SOURCE_DIR}/report/embed_texts.cmake
-      DEPENDS ${files} ${header_name} ${PROJECT_SOURCE_DIR}/report/embed_texts.cmake
+      DEPENDS ${files} ${PROJECT_SOURCE_DIR}/report/embed_texts.cmake
       VERBATIM)
   endfunction()
   return()
 endif()
 
 set(code "// Generated from files by report/embed_texts.cmake.\n")
-string(APPEND code "#include \"${HEADER}\"\n\nnamespace viscontact::${NAMESPACE} {\n")
+string(APPEND code "#include <string_view>\n\nnamespace viscontact::${NAMESPACE} {\n")
 string(REPLACE "|" ";" pairs "${TEXTS}")
 foreach(pair IN LISTS pairs)
   string(REPLACE "=" ";" parts "${pair}")

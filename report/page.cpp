@@ -15,12 +15,20 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
-#include "viscontact/report/page_texts.hpp"
 #include "viscontact/report/pictures/gnuplot.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::report {
+
+// The scripts and styles in page/, which are built into the executable (report/embed_texts.cmake),
+// so that pages load nothing from elsewhere. CMakeLists.txt lists the same names with the files.
+std::string_view uplot_script();
+std::string_view uplot_style();
+std::string_view uplot_licence();
+std::string_view report_script();
+std::string_view report_style();
+
 namespace {
 
 /// The text with % doubled, because gnuplot reads the name of a tick as a format.

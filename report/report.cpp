@@ -23,7 +23,6 @@
 #include "viscontact/report/run_plots.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_results.hpp"
-#include "viscontact/results/versions.hpp"
 
 namespace viscontact::report {
 namespace {

@@ -2,9 +2,12 @@
 // its JSON (kBegin) must not change, because earlier files are recognised by it.
 #include "viscontact/results/provenance.hpp"
 
+#include <ceres/version.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sundials/sundials_config.h>
 
+#include <Eigen/Core>
 #include <cassert>
 #include <charconv>
 #include <cstdint>
@@ -15,7 +18,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/json.hpp"
-#include "viscontact/results/versions.hpp"
+#include "viscontact/freefem_axi/journal/freefem.hpp"
 
 namespace viscontact::results {
 namespace {
@@ -378,6 +381,23 @@ std::string output_text(const std::filesystem::path& path, TextKind kind, const 
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
                   Provenance provenance) {
   write_file(path, output_text(path, kind, text, std::move(provenance)));
+}
+
+std::map<std::string, std::string> library_versions() {
+  return {{"Viscontact", VISCONTACT_VERSION},
+          {"Ceres", CERES_VERSION_STRING},
+          {"SUNDIALS", SUNDIALS_VERSION},
+          {"Eigen",
+           fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+}
+
+std::string freefem_version_or_not_found(const StopToken& stop) {
+  try {
+    return freefem_axi::freefem_version(freefem_axi::default_freefem(stop));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kExternalProgram) throw;
+    return "not found";
+  }
 }
 
 }  // namespace viscontact::results

@@ -1,6 +1,6 @@
 // Provenance: how a file was made. Every output contains its provenance as one line, which
-// `viscontact rerun`, the report and foreign_files.hpp read. A change must keep files of earlier
-// versions readable.
+// `viscontact rerun`, the report and foreign_files.hpp read. It names the versions of the programs
+// and libraries that made the file. A change must keep files of earlier versions readable.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "viscontact/common/stop_token.hpp"
 #include "viscontact/common/text/text_kind.hpp"
 
 namespace viscontact::results {
@@ -111,5 +112,11 @@ std::string output_text(const std::filesystem::path& path, TextKind kind, const 
 /// write_file do.
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
                   Provenance provenance);
+
+/// The versions of Viscontact and of the libraries it was built with, by name.
+std::map<std::string, std::string> library_versions();
+
+/// The version that FreeFEM reports, or "not found" if FreeFEM cannot be run.
+std::string freefem_version_or_not_found(const StopToken& stop = {});
 
 }  // namespace viscontact::results

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "viscontact/case_file/case_file.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/fit_uncertainty.hpp"

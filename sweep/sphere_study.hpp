@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "viscontact/case_file/case_file.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/sweep/study.hpp"
 
 namespace viscontact::sweep {

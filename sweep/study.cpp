@@ -21,7 +21,7 @@
 #include <utility>
 
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/files/locked_file.hpp"
+#include "viscontact/common/files/locks.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"

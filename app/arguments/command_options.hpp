@@ -1,4 +1,4 @@
-// Options that several commands have, and checks of what a command line names. help/completion.cpp
+// Options that several commands have, and checks of what a command line names. help/self_description.cpp
 // recognises by the type names below whether to offer files, folders or models as the value of an
 // option; a change of the names must be made there, too.
 #pragma once
@@ -62,5 +62,13 @@ CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help);
 
 /// Adds the flag --json, which sets `json`.
 CLI::Option* add_json(CLI::App& command, bool& json);
+
+/// Returns the arguments of a command line, from the command's name on, in an order that CLI11
+/// reads correctly. An option whose value may be left out (`fit --fix`, `tabulate --plot`,
+/// `simulate --lubrication-limit`) would take the word after it as its value even if that is the
+/// command's file, as in `fit --fix own.csv`. In this case the option is moved to the end of the
+/// arguments or, if they contain the word "--", to just before it. A further option whose value may
+/// be left out must be added to the list in command_options.cpp.
+std::vector<std::string> with_files_apart(std::vector<std::string> arguments);
 
 }  // namespace viscontact::app

@@ -17,7 +17,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/process.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
-#include "viscontact/results/versions.hpp"
+#include "viscontact/results/provenance.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::app {

@@ -10,7 +10,7 @@
 #include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/commands/interrupt.hpp"
-#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/common/files/locks.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/particles/run/particles_pages.hpp"
 #include "viscontact/pipeline/compare_stage.hpp"

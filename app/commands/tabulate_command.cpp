@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/app/arguments/array_options.hpp"
 #include "viscontact/app/arguments/command_options.hpp"
+#include "viscontact/app/commands/array_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/case_file/case_file.hpp"
@@ -23,7 +23,6 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/pipeline/tabulate/picture_stage.hpp"
-#include "viscontact/pipeline/tabulate/tabulate_job.hpp"
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 #include "viscontact/rolling/case/rolling_case.hpp"
 #include "viscontact/swimmer/job/swimmer_stage.hpp"

@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"

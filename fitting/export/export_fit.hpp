@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "viscontact/common/text/text_kind.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 
 namespace viscontact::fitting {
 

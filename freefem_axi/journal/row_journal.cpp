@@ -14,7 +14,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/files/locked_file.hpp"
+#include "viscontact/common/files/locks.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {

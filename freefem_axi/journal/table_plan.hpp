@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/journal/freefem.hpp"
 
 namespace viscontact::freefem_axi {
 

@@ -12,7 +12,6 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/shell_words.hpp"
 #include "viscontact/results/provenance.hpp"
-#include "viscontact/results/versions.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::motions {

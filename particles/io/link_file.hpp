@@ -1,6 +1,6 @@
-// The motion of rigid bodies, and the forces of links, as CSV tables over time. Lengths, masses and
-// times are in the units of the case. A change must keep the names of the columns, which scripts of
-// users read.
+// The motion of rigid bodies, and the forces of links, as CSV tables over time, and the links at one
+// time as a VTK file. Lengths, masses and times are in the units of the case. A change must keep the
+// names of the columns, which scripts of users read.
 #pragma once
 
 #include <span>
@@ -38,5 +38,15 @@ struct TimeTable {
 /// step that ended at the time, 0 before the first one. The power is the work of an arm in this
 /// step over the length of the step.
 std::vector<TimeTable> time_tables(const Setting& setting, const Particles& particles);
+
+/// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; appended raw data)
+/// with a vertex for each hinge, at its place, and a line for each spring and each arm, between the
+/// centres of its particles. In a periodic domain the line goes to the nearest image of the second
+/// particle. Each cell has
+///
+/// - kind: 0 hinge, 1 spring, 2 arm;
+/// - id: number of the link in its list of the case, from 0;
+/// - force: in the last step, on the body of a hinge or on the second particle [M L/T^2].
+std::string write_links(const Setting& setting, const State& state);
 
 }  // namespace viscontact::particles

@@ -19,11 +19,17 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/particles/picture/page_texts.hpp"
 #include "viscontact/particles/picture/scene.hpp"
 #include "viscontact/report/page.hpp"
 
 namespace viscontact::particles {
+
+// The scripts and styles in page/, which are built into the executable (report/embed_texts.cmake),
+// so that pages load nothing from elsewhere. CMakeLists.txt lists the same names with the files.
+std::string_view flow_script();
+std::string_view particles_script();
+std::string_view particles_style();
+
 namespace {
 
 /// The number of characters that `bytes` bytes have in base64.

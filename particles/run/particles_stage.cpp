@@ -17,7 +17,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/common/files/locks.hpp"
 #include "viscontact/particles/case/particles_case.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/particle_file.hpp"

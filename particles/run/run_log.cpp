@@ -10,7 +10,6 @@
 #include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/link_file.hpp"
-#include "viscontact/particles/io/link_vtk.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 

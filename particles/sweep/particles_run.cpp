@@ -13,7 +13,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/common/files/locks.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
 #include "viscontact/particles/arrangement/arrangement.hpp"

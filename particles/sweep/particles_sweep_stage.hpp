@@ -10,8 +10,8 @@
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/particles/case/particles_study.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
-#include "viscontact/pipeline/array_job.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
+#include "viscontact/pipeline/slurm/array_job.hpp"
 #include "viscontact/results/provenance.hpp"
 
 namespace viscontact::particles {

@@ -13,7 +13,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/freefem_axi/motion_table_plan.hpp"
-#include "viscontact/pipeline/array_job.hpp"
+#include "viscontact/pipeline/slurm/array_job.hpp"
 
 namespace viscontact::pipeline {
 
@@ -84,5 +84,13 @@ void share_stage(const std::vector<CaseTable>& tables, const Share& share, int j
 [[nodiscard]] RowFailure gather_stage(const std::vector<CaseTable>& tables,
                                       const std::filesystem::path& slurm_folder,
                                       const StopToken& stop);
+
+/// Submits the tasks that have rows to compute and prints the number of the job to standard output.
+/// If no row is missing, no job is submitted and no number is printed. Throws Error(kBadInput)
+/// if an earlier job for the same output is still pending or running, and Error(kExternalProgram)
+/// with the message of Slurm if Slurm is missing or refuses the job. `options` are further words of
+/// the command, which the tasks and the command that gathers need.
+void submit_to_slurm(const std::vector<CaseTable>& tables, const ArrayRequest& request,
+                     const std::vector<std::string>& options = {});
 
 }  // namespace viscontact::pipeline

@@ -11,7 +11,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/common/files/locks.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/json.hpp"
 #include "viscontact/common/text/number.hpp"

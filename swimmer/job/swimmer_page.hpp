@@ -13,7 +13,6 @@
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 #include "viscontact/swimmer/swim.hpp"
-#include "viscontact/swimmer/swim_errors.hpp"
 
 namespace viscontact::swimmer {
 

@@ -1,4 +1,3 @@
-#include "viscontact/lubrication/fit/fit_diagnostics.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +9,7 @@
 #include "tests/common/failure.hpp"
 #include "tests/fitting/samples.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 

@@ -1,4 +1,4 @@
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

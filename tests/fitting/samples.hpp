@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tests/oracles/brenner.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 

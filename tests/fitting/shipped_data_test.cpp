@@ -9,7 +9,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact::fitting {

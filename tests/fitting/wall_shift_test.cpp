@@ -7,7 +7,7 @@
 #include <string>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
 
 namespace viscontact::fitting {

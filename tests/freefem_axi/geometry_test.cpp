@@ -13,7 +13,7 @@
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/bispherical/bispherical.hpp"
-#include "viscontact/freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/journal/freefem.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact::freefem_axi {

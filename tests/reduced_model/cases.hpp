@@ -6,7 +6,7 @@
 #include <random>
 #include <string_view>
 
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 

@@ -193,14 +193,6 @@ TEST(Release, TheRoughSphereForgetsThePushTheSmoothOneDoesNot) {
   }
 }
 
-TEST(Release, IsThePushOfFourOfTheCase) {
-  const Study s = study("release.toml");
-  const auto rough = s.run("viscous_contact_exact");
-  EXPECT_NEAR(touch(rough).time, 1, 1e-14);
-  EXPECT_NEAR(release(rough), 5, 1e-14);
-  EXPECT_NEAR(release(s.run("viscous_contact_exact_smooth")), 8, 1e-14);
-}
-
 TEST(Splitting, TheThresholdHasTheFilmOfTheFirstIntegral) {
   const Study s = study("splitting.toml");
   for (const std::string suffix : {"", "_brenner"}) {
@@ -261,17 +253,6 @@ TEST(AnyForce, MakesAndLosesContactWhereItsImpulsesSaySo) {
     EXPECT_NEAR(f.impulse(times[i]), 0, 1e-12) << i;
     EXPECT_NEAR(f.impulse_integral(times[i + 1]), f.impulse_integral(times[i]), 1e-12) << i;
   }
-}
-
-TEST(AnyForce, TheSchemeFindsTheSameContacts) {
-  const Study s = study("any_force.toml");
-  const auto exact = contact_times(s.run("viscous_contact_exact"));
-  const auto scheme = contact_times(s.run("viscous_contact"));
-  ASSERT_EQ(scheme.size(), exact.size());
-  for (std::size_t i = 0; i < exact.size(); ++i)
-    // A flight of 2.6 with an error of h in its velocity, divided by that of the landing, of size
-    // 1; and a step.
-    EXPECT_NEAR(scheme[i], exact[i], 4 * s.motion().parameter(kContactTimeStep)) << i;
 }
 
 TEST(AnyForce, TheSphereWithInertiaTendsToItAsTheDragVanishes) {

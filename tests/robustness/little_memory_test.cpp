@@ -35,7 +35,7 @@ class LittleMemory : public ::testing::Test {
   /// Runs the command, whose outputs go to the folder `out`, with more and more memory.
   void expect_done_or_refused(const std::vector<std::string>& arguments) const {
     int done = 0, refused = 0;
-    for (int limit = kSmallest; limit <= kLargest; limit += limit / 4) {
+    for (int limit = kSmallest; limit <= kLargest; limit += limit / 2) {
       SCOPED_TRACE(fmt::format("{} MB", limit));
       std::filesystem::remove_all(path("out"));
       const auto result = run_viscontact(arguments, {"VISCONTACT_FREEFEM=" + fake_.executable()},

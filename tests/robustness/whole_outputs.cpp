@@ -14,7 +14,7 @@
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/reduced_model/comparison.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/app/arguments/array_options.hpp"
 #include "viscontact/app/arguments/command_options.hpp"
+#include "viscontact/app/commands/array_options.hpp"
 #include "viscontact/case_file/case_template.hpp"
 #include "viscontact/sweep/study.hpp"
 

@@ -3,7 +3,6 @@
 // accuracy was asked. Rows must not depend on the units either.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -21,29 +20,28 @@ struct Units {
   double radius, viscosity, speed;
 };
 
-/// Units over ten decades; the first ones are those in which the rows failed.
-std::array<Units, 3> units() {
-  return {Units{1, 1, 1}, Units{1, 0.1, 1}, Units{2.7e-5, 8.9e4, 3.1e-5}};
-}
-
 Tabulation changed(const Tabulation& tabulation, const Units& u) {
   return in_units(tabulation, u.radius, u.viscosity, u.speed);
 }
 
 TEST(RowsInUnboundedFluid, AreSolvedAtTheGapsThatFailed) {
   constexpr double kAccuracy = 1e-5;
-  for (const auto& exact :
-       {exact_row("plane", 0.0141, {}, kAccuracy, bispherical_plane_factor(0.0141)),
-        exact_row("plane", 0.0138, {}, kAccuracy, bispherical_plane_factor(0.0138)),
-        exact_row("free_surface", 0.0141, {}, kAccuracy, free_surface_drag_factor(0.0141))})
-    for (const auto& u : units()) {
-      auto row = exact;
-      row.tabulation = changed(exact.tabulation, u);
-      const auto solved = solve(default_freefem(), row);
-      SCOPED_TRACE(solved.in_words());
-      EXPECT_LE(solved.ratio(), 1);
-      EXPECT_TRUE(solved.says_reached());
-    }
+  // In the units in which the rows failed. Rows.AreTheSameInAnyUnits checks that others give the
+  // same.
+  for (auto [row, units] :
+       {std::pair(exact_row("plane", 0.0141, {}, kAccuracy, bispherical_plane_factor(0.0141)),
+                  Units{1, 1, 1}),
+        std::pair(exact_row("plane", 0.0138, {}, kAccuracy, bispherical_plane_factor(0.0138)),
+                  Units{1, 0.1, 1}),
+        std::pair(
+            exact_row("free_surface", 0.0141, {}, kAccuracy, free_surface_drag_factor(0.0141)),
+            Units{1, 1, 1})}) {
+    row.tabulation = changed(row.tabulation, units);
+    const auto solved = solve(default_freefem(), row);
+    SCOPED_TRACE(solved.in_words());
+    EXPECT_LE(solved.ratio(), 1);
+    EXPECT_TRUE(solved.says_reached());
+  }
 }
 
 /// The shares of the drag that rounding may change. A length of the case may differ by a unit in
@@ -58,22 +56,20 @@ TEST(Rows, AreTheSameInAnyUnits) {
        {exact_row("plane", 0.7, {}, 1e-2, 1), exact_row("sphere", 0.03, {1.7, 0.3, 0}, 1e-2, 1)}) {
     const auto& plain = row.tabulation;
     const auto expected = solve_row(freefem, plain, row.gap(), -1);
+    const Units u{log_uniform(random, 1e-5, 1e5), log_uniform(random, 1e-5, 1e5),
+                  log_uniform(random, 1e-5, 1e5)};
+    const auto tabulation = changed(plain, u);
+    const double gap = tabulation.gaps.front();
+    const auto solved =
+        solve_row(freefem, tabulation, gap, tabulation.reference_velocities.front());
+    EXPECT_NEAR(solved.force / (u.viscosity * u.radius * u.speed) / expected.force, 1, kRounding);
+    EXPECT_EQ(solved.degrees_of_freedom, expected.degrees_of_freedom);
+    if (plain.geometry != "plane") continue;  // rows of sliding take four times as long
     const auto expected_slide = solve_motions(freefem, plain, MotionGroup::kAcross, row.gap());
-    for (int i = 0; i < 2; ++i) {
-      const Units u{log_uniform(random, 1e-5, 1e5), log_uniform(random, 1e-5, 1e5),
-                    log_uniform(random, 1e-5, 1e5)};
-      const auto tabulation = changed(plain, u);
-      const double gap = tabulation.gaps.front();
-      const auto solved =
-          solve_row(freefem, tabulation, gap, tabulation.reference_velocities.front());
-      EXPECT_NEAR(solved.force / (u.viscosity * u.radius * u.speed) / expected.force, 1, kRounding);
-      EXPECT_EQ(solved.degrees_of_freedom, expected.degrees_of_freedom);
-      if (i > 0) continue;
-      const auto slide = solve_motions(freefem, tabulation, MotionGroup::kAcross, gap);
-      for (const std::size_t motion : {0U, 1U}) {
-        EXPECT_NEAR(slide[motion].force_factor, expected_slide[motion].force_factor, kRounding);
-        EXPECT_NEAR(slide[motion].torque_factor, expected_slide[motion].torque_factor, kRounding);
-      }
+    const auto slide = solve_motions(freefem, tabulation, MotionGroup::kAcross, gap);
+    for (const std::size_t motion : {0U, 1U}) {
+      EXPECT_NEAR(slide[motion].force_factor, expected_slide[motion].force_factor, kRounding);
+      EXPECT_NEAR(slide[motion].torque_factor, expected_slide[motion].torque_factor, kRounding);
     }
   }
 }

@@ -52,7 +52,7 @@ std::vector<Sample> samples() {
   std::vector<Sample> all;
   for (const auto& rows : exact_rows()) {
     const bool pair = std::string(rows.name).find("spheres") != std::string::npos;
-    std::vector<double> accuracies(pair ? 3 : 6, 1e-5);
+    std::vector<double> accuracies(pair ? 3 : 4, 1e-5);
     if (!pair) accuracies.back() = 1e-6;
     all.push_back({rows, accuracies});
   }

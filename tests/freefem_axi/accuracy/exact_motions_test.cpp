@@ -51,7 +51,7 @@ void expect_factor(double factor, double exact, double diagonal, double estimate
 }
 
 TEST(MotionsAboveAPlane, AreWithinTheirEstimatesAndTheAccuracyThatWasAsked) {
-  constexpr double kAccuracy = 1e-6;
+  constexpr double kAccuracy = 1e-5;
   const auto plane = in_unbounded_fluid("plane", {}, kAccuracy);
   const auto rows = exact_factors();
   ASSERT_EQ(rows.size(), 5U);
@@ -95,7 +95,7 @@ TEST(MotionsInACavity, AreThoseOfConcentricSpheres) {
 }
 
 TEST(MotionsOfAPair, AreThoseBesideAFreeSurfaceIfTheFlowIsSymmetric) {
-  constexpr double kAccuracy = 1e-4;
+  constexpr double kAccuracy = 1e-3;
   // The free surface is the plane of symmetry of two spheres, whose gap is twice as large. Mirror
   // images move alike along it, turn against each other about axes in it, and alike about its
   // normal.
@@ -130,10 +130,9 @@ TEST(MotionsOfAPair, AreThoseOfARigidBodyIfItTurnsAsAWhole) {
 }
 
 TEST(MotionsOfAPair, AddUpFromThoseOfEachSphere) {
-  constexpr double kAccuracy = 1e-5, kGap = 0.3, kMoves = 0.7, kTurns = -1.3;
+  constexpr double kGap = 0.3, kMoves = 0.7, kTurns = -1.3;
   const auto solved = [](double moves, double turns) {
-    return solve_motions(default_freefem(),
-                         in_unbounded_fluid("sphere", {2, moves, turns}, kAccuracy),
+    return solve_motions(default_freefem(), in_unbounded_fluid("sphere", {2, moves, turns}, 1e-2),
                          MotionGroup::kAcross, kGap);
   };
   const auto alone = solved(0, 0), both = solved(1, 1), any = solved(kMoves, kTurns);
@@ -141,8 +140,8 @@ TEST(MotionsOfAPair, AddUpFromThoseOfEachSphere) {
     const double ratio = motion == 0 ? kMoves : kTurns;
     const auto expect_sum = [&](auto entry) {
       const double one = entry(alone.at(motion)), sum = entry(both.at(motion));
-      // Each row may be wrong by the accuracy of its largest entry.
-      EXPECT_NEAR(entry(any.at(motion)), one + ratio * (sum - one), 50 * kAccuracy);
+      // The meshes are the same, so only the round-off of the solves is left.
+      EXPECT_NEAR(entry(any.at(motion)), one + ratio * (sum - one), 1e-9 * std::abs(sum));
     };
     expect_sum([](const lubrication::MotionRow& row) { return row.force_factor; });
     expect_sum([](const lubrication::MotionRow& row) { return row.torque_factor; });

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tests/common/temporary_folder.hpp"
-#include "viscontact/freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/journal/freefem.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "tests/freefem_axi/scripts/levels.hpp"
-#include "viscontact/freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/journal/freefem.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "tests/freefem_axi/scripts/levels.hpp"
 #include "tests/oracles/bispherical/bispherical.hpp"
-#include "viscontact/freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/journal/freefem.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {

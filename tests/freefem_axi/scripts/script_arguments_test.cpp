@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/journal/freefem.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {

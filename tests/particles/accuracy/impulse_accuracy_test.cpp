@@ -49,33 +49,6 @@ TEST(ImpulseAccuracy, TwoDiscsPushedTogetherRememberThePush) {
   }
 }
 
-TEST(ImpulseAccuracy, StackOfShortStepsCarriesItsWeights) {
-  Setting setting;
-  setting.planes = {plane_at_rest({}, {0, 1, 0})};
-  setting.gravity = {0, -1, 0};
-  setting.time_step = 1e-5;
-  Simulation simulation(setting, chain(2, {1, 1, 1}, {1, 1, 1}, 1), 1);
-  take_steps(simulation, 100'000);
-  EXPECT_NEAR(pair_of(simulation.state(), -1, 0).gamma, -3, 1e-9);
-  EXPECT_NEAR(pair_of(simulation.state(), 0, 1).gamma, -2, 1e-9);
-  EXPECT_NEAR(pair_of(simulation.state(), 1, 2).gamma, -1, 1e-9);
-}
-
-TEST(ImpulseAccuracy, MicrometreStackInSiUnits) {
-  constexpr double kRadius = 1e-6, kMass = 1e-15, kForce = 1e-14;
-  Setting setting;
-  setting.planes = {plane_at_rest({}, {0, 1, 0})};
-  setting.time_step = 1e-5;
-  for (int k = 0; k < 5; ++k) setting.forces[k] = constant({0, -kForce, 0});
-  Simulation simulation(setting, chain(2, std::vector(5, kRadius), std::vector(5, kMass), 1), 1);
-  take_steps(simulation, 1000);
-  for (int k = 0; k < 5; ++k)
-    EXPECT_NEAR(
-        pair_of(simulation.state(), k == 0 ? -1 : k - 1, k).gamma / (-(5 - k) * kForce * 1e-2), 1,
-        1e-8)
-        << k;
-}
-
 TEST(ImpulseAccuracy, RowThatIsPushedSharesThePush) {
   constexpr int kCount = 300;
   Setting setting;

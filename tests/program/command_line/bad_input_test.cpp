@@ -1,5 +1,5 @@
 // Bad files and values for each command: exit code 3, an error that says where and what, and
-// nothing written.
+// nothing written. The tests of the readers have all that can be wrong in a file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,8 +25,6 @@ struct BadInputCase {
 // What GoogleTest shows of the parameter.
 std::ostream& operator<<(std::ostream& out, const BadInputCase& bad) { return out << bad.name; }
 
-std::string first_half(const std::string& text) { return text.substr(0, text.size() / 2); }
-
 /// Good files and one of each kind of bad one.
 void fill(const std::filesystem::path& folder) {
   const std::string good_case = lecture_case_text();
@@ -42,32 +40,20 @@ void fill(const std::filesystem::path& folder) {
 
   put("empty", "");
   std::filesystem::create_directory(folder / "folder");
-  put("half.toml", first_half(good_case));
   put("nan.toml", replaced(good_case, "viscosity = 3.0", "viscosity = nan"));
-  put("negative.toml", replaced(good_case, "mass = 20.0", "mass = -20.0"));
   put("unknown_key.toml", replaced(good_case, "end_time", "ende_time"));
   put("no_motion.toml", good_case.substr(0, good_case.find("[motion]")));
   put("no_tabulation.toml",
       replaced(read_file(VISCONTACT_SOURCE_FOLDER "/data/cases/limit.toml"), "../fits/", "no/"));
-  put("unknown_basis.toml", replaced(good_case, "\"lecture\"", "\"cubic\""));
-  put("unknown_weights.toml", replaced(good_case, "\"relative\"", "\"heavy\""));
   put("unknown_model.toml",
       replaced(good_case, "end_time = 4.0", "end_time = 4.0\nmodels = [\"inertial\", \"magic\"]"));
-  put("unknown_geometry.toml", replaced(good_case, "\"plane\"", "\"torus\""));
-  put("half.csv", first_half(table));
   put("nan.csv", replaced(table, "\n2,-1,", "\n2,nan,"));
-  put("no_force.csv", replaced(table, "force,", "farce,"));
-  put("half.json", first_half(fit));
-  put("null.json", replaced(fit, "\"radius\": 1.0", "\"radius\": null"));
   put("other_radius.json", replaced(fit, "\"radius\": 1.0", "\"radius\": 2.0"));
-  put("twice.json", replaced(fit, "\"radius\"", "\"radius\": 2.0, \"radius\""));
-  put("comma.json", replaced(fit, "\"radius\": 1.0", "\"radius\": 1,0"));
   put("unknown_key.json", replaced(fit, "\"radius\"", "\"radios\": 1.0, \"radius\""));
   std::filesystem::create_directories(folder / "run" / "trajectories");
   put("run/trajectories/inertial.csv", "time,gap,velocity\n0,1,0\n1,1,0\n");
   std::filesystem::create_directories(folder / "nan_run" / "trajectories");
   put("nan_run/trajectories/inertial.csv", "time,gap,velocity\n0,1,0\n1,nan,0\n");
-  put("half_trajectory.csv", "# rows: 3\ntime,gap,velocity\n0,1,0\n1,1,0\n");
 }
 
 class BadInput : public ::testing::TestWithParam<BadInputCase> {};
@@ -94,13 +80,8 @@ std::string name_of(const ::testing::TestParamInfo<BadInputCase>& test) { return
 
 const Cases kTabulate = {
     {"MissingCase", {"tabulate", "@no.toml", "-o", "@t.csv"}, "no.toml: cannot be read"},
-    {"FolderAsCase", {"tabulate", "@folder", "-o", "@t.csv"}, "folder: cannot be read"},
-    {"EmptyCase", {"tabulate", "@empty", "-o", "@t.csv"}, "title"},
-    {"TruncatedCase", {"tabulate", "@half.toml", "-o", "@t.csv"}, "half.toml"},
     {"NotANumberInCase", {"tabulate", "@nan.toml", "-o", "@t.csv"}, "fluid.viscosity is nan"},
-    {"NegativeMass", {"tabulate", "@negative.toml", "-o", "@t.csv"}, "sphere.mass"},
     {"UnknownKey", {"tabulate", "@unknown_key.toml", "-o", "@t.csv"}, "end_time"},
-    {"UnknownGeometry", {"tabulate", "@unknown_geometry.toml", "-o", "@t.csv"}, "'torus'"},
     {"NoTabulation", {"tabulate", "@no_tabulation.toml", "-o", "@t.csv"}, "[tabulation]"},
     {"OutputBelowAFile", {"tabulate", "@case.toml", "-o", "@empty/t.csv"}, "empty"},
     {"OutputIsAFolder", {"tabulate", "@case.toml", "-o", "@folder"}, "folder"},
@@ -115,10 +96,7 @@ const Cases kFit = {
     {"FolderAsTable",
      {"fit", "@folder", "-o", "@f.json"},
      "folder: has none of the tables approach.csv"},
-    {"EmptyTable", {"fit", "@empty", "-o", "@f.json"}, "empty: "},
-    {"TruncatedTable", {"fit", "@half.csv", "-o", "@f.json"}, "half.csv"},
     {"NotANumberInTable", {"fit", "@nan.csv", "-o", "@f.json"}, "nan.csv:37: reference_velocity"},
-    {"NoForceInTable", {"fit", "@no_force.csv", "-o", "@f.json"}, "'force'"},
     {"OutputBelowAFile", {"fit", "@table.csv", "-o", "@empty/f.json"}, "empty"},
     {"OutputIsAFolder", {"fit", "@table.csv", "-o", "@folder"}, "folder: cannot be written"},
     {"OutputIsItsInput", {"fit", "@table.csv", "-o", "@table.csv"}, "table.csv: is not a fit"},
@@ -136,20 +114,6 @@ const Cases kSimulate = {
     {"MissingFit",
      {"simulate", "@case.toml", "--fit", "@no.json", "-o", "@out"},
      "no.json: cannot be read"},
-    {"FolderAsFit",
-     {"simulate", "@case.toml", "--fit", "@folder", "-o", "@out"},
-     "folder: cannot be read"},
-    {"EmptyFit",
-     {"simulate", "@case.toml", "--fit", "@empty", "-o", "@out"},
-     "empty:1: is not valid JSON"},
-    {"TruncatedFit", {"simulate", "@case.toml", "--fit", "@half.json", "-o", "@out"}, "half.json"},
-    {"NullInFit", {"simulate", "@case.toml", "--fit", "@null.json", "-o", "@out"}, "radius"},
-    {"KeyTwiceInFit",
-     {"simulate", "@case.toml", "--fit", "@twice.json", "-o", "@out"},
-     "twice.json:6: radius stands twice"},
-    {"DecimalCommaInFit",
-     {"simulate", "@case.toml", "--fit", "@comma.json", "-o", "@out"},
-     "comma.json:6: is not valid JSON at column 15 (syntax error"},
     {"UnknownKeyInFit",
      {"simulate", "@case.toml", "--fit", "@unknown_key.json", "-o", "@out"},
      "radios"},
@@ -176,10 +140,6 @@ const Cases kCompareAndReport = {
     {"CompareMissingTrajectory",
      {"compare", "@run", "@no.csv", "-o", "@c.json"},
      "no.csv: cannot be read"},
-    {"CompareTruncatedTrajectory",
-     {"compare", "@run", "@half_trajectory.csv", "-o", "@c.json"},
-     "half_trajectory.csv"},
-    {"CompareEmptyTrajectory", {"compare", "@run", "@empty", "-o", "@c.json"}, "empty: "},
     {"CompareOutputBelowAFile", {"compare", "@run", "-o", "@empty/c.json"}, "empty"},
     {"ReportMissingFolder", {"report", "@no"}, "no"},
     {"ReportOfAFolderWithoutCase", {"report", "@run"}, "case.toml: cannot be read"},
@@ -190,10 +150,7 @@ INSTANTIATE_TEST_SUITE_P(CompareAndReport, BadInput, ::testing::ValuesIn(kCompar
 
 const Cases kRun = {
     {"MissingCase", {"run", "@no.toml", "-o", "@out"}, "no.toml: cannot be read"},
-    {"FolderAsCase", {"run", "@folder", "-o", "@out"}, "folder: cannot be read"},
     {"NoMotion", {"run", "@no_motion.toml", "-o", "@out"}, "[motion]"},
-    {"UnknownBasis", {"run", "@unknown_basis.toml", "-o", "@out"}, "'cubic'"},
-    {"UnknownWeights", {"run", "@unknown_weights.toml", "-o", "@out"}, "heavy"},
     {"UnknownModel", {"run", "@unknown_model.toml", "-o", "@out"}, "'magic'"},
     {"FitFileMissing", {"run", "@no_tabulation.toml", "-o", "@out"}, "limit.json: cannot be read"},
     {"OutputIsAFile", {"run", "@case.toml", "-o", "@empty"}, "empty"},

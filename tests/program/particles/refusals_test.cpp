@@ -9,7 +9,7 @@
 #include "tests/program/program.hpp"
 #include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/common/files/locks.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/restart.hpp"
 

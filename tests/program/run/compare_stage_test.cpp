@@ -18,24 +18,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST_F(Stages, MinimalGapsAreTheLecturesNumbers) {
-  put("case.toml", replaced(lecture_case_text(), "[viscous_contact]\ntime_step = 1e-3",
-                            "[viscous_contact]\ntime_step = 1e-4"));
-  simulate();
-  expect_done(run_viscontact({"compare", path("run")}));
-  EXPECT_EQ(reduced_model::read_comparison(path("run/comparison.json")).reference_model,
-            "inertial");
-  // docs/theory.md, section 3, with the exact drag; the fit (6e-6 relative) changes them in the
-  // fifth digit, and Euler at h = 1e-3 is 8.9e-3 below. A quarter of that as tolerance.
-  EXPECT_NEAR(comparison_of("reference_exact").minimal_gap / 2.97084661e-3, 1, 1e-3);
-  EXPECT_NEAR(comparison_of("inertial").minimal_gap / 2.97845928e-3, 1, 1e-3);
-  EXPECT_NEAR(comparison_of("inertial").minimal_gap_time, 2.00072819, 1e-3);  // one row's spacing
-  EXPECT_NEAR(comparison_of("reference").minimal_gap / 2.97084661e-3, 1 - 8.9e-3, 2e-3);
-  ASSERT_TRUE(comparison_of("viscous_contact_regular_drag").recovered_minimal_gap);
-  EXPECT_NEAR(*comparison_of("viscous_contact_regular_drag").recovered_minimal_gap / 3e-3, 1,
-              0.03);  // the exact drag gives 3.004e-3 as h -> 0
-}
-
 TEST_F(Stages, CompareTakesATrajectoryOfTheUsersOwn) {
   simulate();
   constexpr double kShift = 0.01;

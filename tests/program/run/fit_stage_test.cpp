@@ -9,7 +9,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/csv.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
 

@@ -9,7 +9,7 @@
 #include "tests/program/run/run.hpp"
 #include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/common/files/locks.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 
 namespace viscontact {

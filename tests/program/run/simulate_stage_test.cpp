@@ -11,7 +11,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/fit_uncertainty.hpp"

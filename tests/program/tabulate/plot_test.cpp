@@ -84,6 +84,17 @@ TEST_F(Plot, WritesPicturesOfTheAskedGapsAndDoesNotTabulateAgain) {
               AllOf(HasSubstr("finest mesh"), HasSubstr("coarsest mesh")));
 }
 
+TEST_F(Plot, IsOfTheFlowOfTheMotion) {
+  auto text = replaced(case_text(), "container = { radius = 5.0, height = 10.0 }",
+                       "container = \"unbounded\"\nmotion = \"slide\"");
+  text = replaced(text, "relative_accuracy = 1e-3", "relative_accuracy = 1e-2");
+  put_text(path("case.toml"), replaced(text, "gaps = [0.01, 1.0]", "gaps = [1.0]"));
+  expect_done(tabulate({"--plot", "1"}));
+  EXPECT_FALSE(read_flow(path("table.plots/gap_1.vtu")).triangles.empty());
+  EXPECT_THAT(read_file(path("table.plots/gap_1_flow.svg")),
+              HasSubstr("speed in the plane of motion"));
+}
+
 TEST_F(Plot, GapThatIsNotThereIsRefusedBeforeAnyWork) {
   const auto before = files_below(scratch_.path());
   expect_refusal(tabulate({"--plot", "1,0.02"}), ErrorKind::kBadInput,

@@ -19,56 +19,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The largest |m u + Gamma(q) - P(t)| over the rows, relative to the largest |P| or m |u|.
-double first_integral_error(const Trajectory& trajectory, const Motion& motion,
-                            const lubrication::LubricationForce& force) {
-  double largest = 0;
-  double error = 0;
-  const double at_start = motion.mass * motion.initial_velocity + force.impulse(motion.initial_gap);
-  for (const auto& row : trajectory.rows) {
-    const double momentum = at_start + motion.external_force.impulse(row.time);
-    largest = std::max(largest, std::abs(momentum));
-    error =
-        std::max(error, std::abs(motion.mass * row.velocity + force.impulse(row.gap) - momentum));
-  }
-  return error / largest;
-}
-
-TEST(Inertial, FindsTheLecturesMinimalGapWithTheLecturesBasis) {
-  const auto lowest =
-      lowest_row(simulate_inertial(lecture_motion(), lubrication::LubricationForce(lecture_fit())));
-  EXPECT_NEAR(lowest.gap / kInertialMinimalGap, 1,
-              5e-3);  // the bar; the basis is 4.6e-3 off in places
-}
-
-TEST(Inertial, FindsTheExactMinimalGapAndItsTimeWithTheAsymptoticBasis) {
-  const auto lowest =
-      lowest_row(simulate_inertial(lecture_motion(), lubrication::LubricationForce(close_fit())));
-  EXPECT_NEAR(lowest.gap / kInertialMinimalGap, 1,
-              1e-5);  // as for ReferenceExact: what residuals of 7e-6 leave is 1e-6
-  // The event is CVODE's to 1e-9 times the time; the exact value is printed to 5e-9.
-  EXPECT_NEAR(lowest.time, kInertialMinimalGapTime, 1.5e-8);
-}
-
-TEST(Inertial, KeepsTheFirstIntegralOnTheLecturesCase) {
-  const Motion motion = lecture_motion();
-  for (const auto& fit : {lecture_fit(), close_fit()}) {
-    const lubrication::LubricationForce force(fit);
-    EXPECT_LT(first_integral_error(simulate_inertial(motion, force), motion, force), 1e-8)
-        << fit.basis;  // the bar
-  }
-}
-
-TEST(Inertial, KeepsTheFirstIntegralForASphereThatStartsFastAndBounces) {
-  Motion motion = lecture_motion();
-  motion.initial_velocity = -30;
-  motion.end_time = 3;
-  motion.external_force = ExternalForce({{0.5, -50}, {1.25, 120}, {1.5, 0}, {3, -80}});
-  const lubrication::LubricationForce force(leading_term_fit(50));
-  EXPECT_LT(first_integral_error(simulate_inertial(motion, force), motion, force),
-            1e-8);  // the bar
-}
-
 TEST(Inertial, HasARowWhereItTurns) {
   const auto trajectory =
       simulate_inertial(lecture_motion(), lubrication::LubricationForce(lecture_fit()));

@@ -20,23 +20,6 @@ double euler_minimal_gap(const lubrication::LubricationForce& force, double step
   return lowest_row(simulate_reference(motion, force)).gap;
 }
 
-TEST(ReferenceExact, FindsTheLecturesMinimalGapWithTheLecturesBasis) {
-  const auto lowest = lowest_row(
-      simulate_reference_exact(lecture_motion(), lubrication::LubricationForce(lecture_fit())));
-  EXPECT_EQ(lowest.time, 2);
-  // The bar. The basis itself is 4.6e-3 off the exact drag in places.
-  EXPECT_NEAR(lowest.gap / kExactMinimalGap, 1, 5e-3);
-}
-
-TEST(ReferenceExact, FindsTheExactMinimalGapWithTheAsymptoticBasis) {
-  const auto lowest = lowest_row(
-      simulate_reference_exact(lecture_motion(), lubrication::LubricationForce(close_fit())));
-  EXPECT_EQ(lowest.time, 2);
-  // Residuals of 7e-6 all of one sign would move ln q by 7e-6 * 400 / k = 5e-5; they alternate, and
-  // 1e-6 is left.
-  EXPECT_NEAR(lowest.gap / kExactMinimalGap, 1, 1e-5);
-}
-
 TEST(ReferenceExact, IsTheExponentialOfTheImpulseWhereTheDragIsKOverQ) {
   const double k = 0.7;
   const Motion motion = limit_motion();
@@ -48,23 +31,6 @@ TEST(ReferenceExact, IsTheExponentialOfTheImpulseWhereTheDragIsKOverQ) {
     EXPECT_NEAR(row.velocity, motion.external_force.value(row.time) / k * row.gap,
                 1e-15 * row.gap * 10)
         << row.time;
-  }
-}
-
-TEST(ReferenceExact, RunsBackwardsOnTheSamePathWhenTheForceTurns) {
-  // Stokes flow is reversible: pulled as it was pushed, the sphere passes the same gaps in reverse.
-  const lubrication::LubricationForce force(lecture_fit());
-  Motion motion = lecture_motion();
-  motion.set(kReferenceTimeStep, 0.0625);  // dyadic, so that times mirror to the bit
-  const auto rows = simulate_reference_exact(motion, force).rows;
-  ASSERT_EQ(rows.size(), 65U);
-  for (std::size_t i = 0; i < 32; ++i) {
-    const auto& out = rows[i];
-    const auto& back = rows[64 - i];
-    ASSERT_EQ(out.time, 4 - back.time);
-    // At the two ends Gamma differs by its last bit, and ln q by that over k: 400 * 2.2e-16 / 56.
-    EXPECT_NEAR(back.gap / out.gap, 1, 1e-14) << out.time;
-    EXPECT_NEAR(back.velocity / out.velocity, -1, 1e-14) << out.time;
   }
 }
 

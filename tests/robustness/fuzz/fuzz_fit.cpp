@@ -4,7 +4,7 @@
 
 #include "tests/robustness/fuzz/fuzz_target.hpp"
 #include "viscontact/fitting/export/export_fit.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 
 namespace viscontact {

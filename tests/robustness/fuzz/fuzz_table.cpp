@@ -4,7 +4,7 @@
 
 #include "tests/robustness/fuzz/fuzz_target.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 

@@ -46,20 +46,8 @@ TEST_P(ExactMatrix, IsMetWithinTheAccuracyThatWasAskedAndWithinTheEstimates) {
 // The exact matrices have eight digits or more at these gaps (exact_resistance). A gap below 0.15
 // of the smaller radius has a structured film.
 INSTANTIATE_TEST_SUITE_P(Rows, ExactMatrix,
-                         ::testing::Values(Row{{1, 1, 1}, {0.1, 0.1}}, Row{{1, 1, 1}, {8, 0.3}},
-                                           Row{{1, 2, 0.5}, {1, 1}},
+                         ::testing::Values(Row{{1, 1, 1}, {0.1, 0.1}}, Row{{1, 2, 0.5}, {1, 8}},
                                            Row{{0.7, 1, 0.5, 1.2}, {0.5, 2, 0.14}}));
-
-TEST(CollinearSpheres, TwoAgreeWithTheGeometryOfASphereAndItsNeighbour) {
-  freefem_axi::Tabulation tabulation = freefem_axi::unit_tabulation({0.05}, 1, 1e-5);
-  tabulation.container.reset();
-  tabulation.geometry = "sphere";
-  tabulation.geometry_parameters = {2, 0, 0};
-  // The force on the sphere at rest of the neighbour: it is the upper one.
-  const auto sphere = freefem_axi::solve_row(freefem_axi::default_freefem(), tabulation, 0.05, -1);
-  const auto row = solve_resistance(freefem_axi::default_freefem(), {1, {2, 1}, {}, 1e-5}, {0.05});
-  EXPECT_NEAR(row.entries[2] / sphere.force, 1, 2e-5);
-}
 
 TEST(CollinearSpheres, InALongTubeHaveTheDragOfOneIfTheyAreFarApart) {
   const auto row =

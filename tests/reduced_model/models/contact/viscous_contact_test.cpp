@@ -34,22 +34,6 @@ std::array<double, 2> contact_interval(const Trajectory& trajectory) {
       .contact_interval.value();
 }
 
-double sup_error(const Trajectory& trajectory) {
-  double error = 0;
-  for (const auto& row : trajectory.rows)
-    error = std::max(error, std::abs(row.gap - limit_gap(row.time)));
-  return error;
-}
-
-TEST(ViscousContact, IsInContactFromOneToFourInTheLimitCase) {
-  for (const double step : {1e-2, 1e-3, 1e-4}) {
-    const auto [from, to] = contact_interval(limit_trajectory(step));
-    // One step, and round-off of its time.
-    EXPECT_NEAR(from, 1, step * (1 + 1e-6)) << step;
-    EXPECT_NEAR(to, 4, step * (1 + 1e-6)) << step;
-  }
-}
-
 TEST(ViscousContact, FollowsTheParabolasOfTheLimitCaseToFirstOrder) {
   // Before landing q^n = 1 - h^2 n (n+1) = 1 - t^2 - h t; the error after leaving is that of the
   // velocity and of the release, to one step each: 2 h (t - 4) + h (t - 4) <= 6 h at t = 6.
@@ -57,15 +41,6 @@ TEST(ViscousContact, FollowsTheParabolasOfTheLimitCaseToFirstOrder) {
     for (const auto& row : limit_trajectory(step).rows)
       EXPECT_NEAR(row.gap, limit_gap(row.time), row.time < 4 ? 1.001 * step : 6.1 * step)
           << step << ", t = " << row.time;
-}
-
-TEST(ViscousContact, ConvergesToTheLimitCaseAtFirstOrderInItsStep) {
-  const double coarse = sup_error(limit_trajectory(1e-2));
-  const double middle = sup_error(limit_trajectory(1e-3));
-  const double fine = sup_error(limit_trajectory(1e-4));
-  // The error is C h (1 + O(h)).
-  EXPECT_NEAR(std::log10(coarse / middle), 1, 0.01);
-  EXPECT_NEAR(std::log10(middle / fine), 1, 0.01);
 }
 
 TEST(ViscousContact, RemembersExactlyTheImpulseItHasTaken) {

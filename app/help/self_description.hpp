@@ -1,5 +1,6 @@
-// Scripts by which shells complete the command line. They are made from CLI11's list of options, so
-// that they always agree with --help.
+// What the program says of its own command line: the manual page, and scripts by which shells
+// complete the command line. They are made from CLI11's list of options, so that they always agree
+// with --help.
 #pragma once
 
 #include <string>
@@ -9,6 +10,12 @@ class App;
 }
 
 namespace viscontact::app {
+
+/// The text of --help below the commands: exit codes and environment variables.
+std::string help_footer();
+
+/// The page viscontact(1) in the language roff: every command with its options.
+std::string manual(const CLI::App& app, const std::string& version);
 
 /// A script for bash that completes commands, options, words of a choice and files. The user
 /// sources it, or installs it as "viscontact" in bash's folder of completions.

@@ -13,7 +13,7 @@
 #include "tests/fitting/samples.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact::lubrication {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/pipeline/array_job.hpp"
+#include "viscontact/pipeline/slurm/array_job.hpp"
 
 namespace viscontact::app {
 

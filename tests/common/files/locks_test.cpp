@@ -1,4 +1,4 @@
-#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/common/files/locks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

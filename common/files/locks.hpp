@@ -1,5 +1,6 @@
-// A file that only one process at a time may append to: the journal of a tabulation or sweep. A
-// change must keep that a text is at the end of the file, in one piece, when append_to returns.
+// Files that only one process at a time may append to (the journal of a tabulation or sweep), and
+// folders that only one process at a time may write into (that of a run). A change must keep that a
+// text is at the end of the file, in one piece, when append_to returns.
 #pragma once
 
 #include <filesystem>
@@ -23,5 +24,24 @@ void append_to(const Descriptor& file, std::string_view text, const std::filesys
 /// Returns when the content of the file is on disk. Throws Error(kBadInput), which names the path,
 /// if the disk reports an error.
 void sync_file(const Descriptor& file, const std::filesystem::path& path);
+
+/// Locks a folder against other processes that lock it in the same way, until this object is
+/// destroyed. A folder that does not exist is made, and removed at the end if it is still empty.
+/// The lock is on the folder itself, so that no lock file is left. It is not an error if the file
+/// system has no locks.
+class LockedFolder {
+ public:
+  /// Throws Error(kBadInput), which names the path, if the folder cannot be made, or if another
+  /// process has locked it; then its message ends with `message`.
+  LockedFolder(std::filesystem::path path, const std::string& message);
+  ~LockedFolder();
+  LockedFolder(const LockedFolder&) = delete;
+  LockedFolder& operator=(const LockedFolder&) = delete;
+
+ private:
+  std::filesystem::path path_;
+  bool made_ = false;
+  Descriptor lock_;
+};
 
 }  // namespace viscontact

@@ -1,6 +1,6 @@
 // Runs FreeFEM processes to their end and reads what they print (freefem.hpp). Times are in
 // seconds.
-#include "viscontact/freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/journal/freefem.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // An array job: its tasks, its script and the calls of squeue and sbatch. Each task runs
 // `viscontact COMMAND --task K/T`, where K is the number of the task.
-#include "viscontact/pipeline/array_job.hpp"
+#include "viscontact/pipeline/slurm/array_job.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-// Opens, locks (flock) and appends with system calls (locked_file.hpp). The lock must remain an
-// flock, because freefem_axi/journal/row_record.cpp locks the same files with flock.
-#include "viscontact/common/files/locked_file.hpp"
+// Opens, locks (flock) and appends with system calls (locks.hpp). The locks must remain flocks,
+// because freefem_axi/journal/row_record.cpp locks the same files with flock.
+#include "viscontact/common/files/locks.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,8 +10,11 @@
 
 #include <cerrno>
 #include <cstring>
+#include <system_error>
+#include <utility>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {
@@ -62,6 +65,25 @@ void append_to(const Descriptor& file, std::string_view text, const std::filesys
 
 void sync_file(const Descriptor& file, const std::filesystem::path& path) {
   if (::fsync(file.get()) != 0) throw_not_written(path, errno);
+}
+
+LockedFolder::LockedFolder(std::filesystem::path path, const std::string& message)
+    : path_(std::move(path)) {
+  std::error_code said_below;
+  made_ = !std::filesystem::exists(path_, said_below) && !said_below;
+  make_folder(path_);
+  lock_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  // A folder that cannot be opened or locked (on a file system without locks, for example) is not
+  // an error here. If no file can be written into it, the error comes when the first file is
+  // written.
+  if (lock_.get() >= 0 && ::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw_bad_input({path_.string()}, message);
+}
+
+LockedFolder::~LockedFolder() {
+  if (!made_) return;
+  std::error_code not_empty;
+  std::filesystem::remove(path_, not_empty);
 }
 
 }  // namespace viscontact

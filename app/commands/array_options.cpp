@@ -1,6 +1,6 @@
 // Adds and checks the options of array jobs (array_options.hpp). A change must keep the names of
 // the options, because submitted scripts contain them.
-#include "viscontact/app/arguments/array_options.hpp"
+#include "viscontact/app/commands/array_options.hpp"
 
 #include <fmt/format.h>
 

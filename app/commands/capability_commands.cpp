@@ -1,0 +1,71 @@
+// The command lines of `particles`, `rolling` and `swimmer` (docs/command-line.md), each of which
+// does a whole job from a case to a page. The work is done in particles/run/particles_stage.hpp,
+// rolling/job/rolling_stage.hpp and swimmer/job/swimmer_stage.hpp.
+#include <memory>
+#include <string>
+
+#include "viscontact/app/arguments/command_options.hpp"
+#include "viscontact/app/commands/commands.hpp"
+#include "viscontact/app/commands/interrupt.hpp"
+#include "viscontact/freefem_flow/freefem_solver.hpp"
+#include "viscontact/particles/run/particles_stage.hpp"
+#include "viscontact/rolling/job/rolling_stage.hpp"
+#include "viscontact/swimmer/job/swimmer_stage.hpp"
+
+namespace viscontact::app {
+namespace {
+
+/// Adds the arguments of a job: its case, and its folder, which contains `contents`.
+template <class Request>
+void add_case_and_folder(CLI::App& command, Request& o, const std::string& contents) {
+  add_value(command, "CASE", o.case_file, kFile, "case file (TOML)")->required();
+  add_value(command, "-o,--output", o.folder, kFolder, "folder for " + contents)->required();
+}
+
+/// Adds the flag --json, and calls `run` with the request when the command runs.
+template <class Request>
+void run_job(CLI::App& command, const std::shared_ptr<Request>& o, void (*run)(const Request&)) {
+  add_json(command, o->json);
+  command.callback([o, run] {
+    check_outputs({o->folder});
+    o->stop = interrupt_token();
+    run(*o);
+  });
+}
+
+}  // namespace
+
+void add_particles(CLI::App& app) {
+  auto* command = app.add_subcommand("particles", "simulate many particles with viscous contact");
+  auto o = std::make_shared<particles::ParticlesRequest>();
+  o->threads = default_jobs();
+  o->start_solver = freefem_flow::start_fluid_solver;
+  add_case_and_folder(*command, *o, "frames, final state, restart file, page and record");
+  add_value(*command, "--restart", o->restart, kFile,
+            "restart.bin of a run to be continued with the case's forces, planes and end_time");
+  add_jobs(*command, o->threads, "number of threads; the results do not depend on it");
+  run_job(*command, o, particles::run_particles);
+}
+
+void add_rolling(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "rolling", "roll a sphere along a plane: tables, fit, trajectories and a report");
+  auto o = std::make_shared<rolling::RollingRequest>();
+  o->jobs = default_jobs();
+  add_case_and_folder(*command, *o, "tables, fit, trajectories and report");
+  add_jobs(*command, o->jobs, "number of FreeFEM processes at once");
+  run_job(*command, o, rolling::run_rolling);
+}
+
+void add_swimmer(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "swimmer",
+      "swim with spheres on a line: table, fit, strokes, the optimal stroke and a report");
+  auto o = std::make_shared<swimmer::SwimmerRequest>();
+  o->jobs = default_jobs();
+  add_case_and_folder(*command, *o, "table, fit, strokes and report");
+  add_jobs(*command, o->jobs, "number of FreeFEM processes at once");
+  run_job(*command, o, swimmer::run_swimmer);
+}
+
+}  // namespace viscontact::app
