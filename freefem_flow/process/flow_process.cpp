@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
@@ -80,10 +81,13 @@ std::string words_of(const MeshBoundary& boundary) {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "viscontact-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-      throw Error(ErrorKind::kExternalProgram,
-                  fmt::format("cannot make the folder {} for the flow of the fluid", name));
+    std::error_code problem;
+    const auto parent = std::filesystem::temp_directory_path(problem);
+    std::string name = (parent / "viscontact-XXXXXX").string();
+    if (problem || mkdtemp(name.data()) == nullptr)
+      throw Error(ErrorKind::kWrongUsage,
+                  "cannot make a temporary folder for the flow of the fluid; the environment "
+                  "variable TMPDIR, or else /tmp, must be a folder to write in");
     path_ = name;
   }
   ~TemporaryFolder() {
@@ -112,6 +116,8 @@ FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain&
       command_(std::move(command)),
       limits_(limits),
       opening_(opening(fluid, domain, radii, dimension)) {
+  // A run with inertia needs it to save its state: an error must not come after the first steps.
+  if (fluid.has_inertia()) const TemporaryFolder needed;
   start();
 }
 

@@ -292,6 +292,14 @@ TEST_F(FlowCase, RefusesARestartWithoutAFlow) {
   expect_refusal(result, ErrorKind::kBadInput, HasSubstr("the restart file has no flow"));
 }
 
+TEST_F(FlowCase, RefusesAMissingTemporaryFolderBeforeTheFirstStep) {
+  put_case(with("falling_disc", {}));
+  const auto result = run_viscontact({"particles", path("case.toml"), "-o", path("out")},
+                                     {"TMPDIR=" + path("missing")});
+  expect_refusal(result, ErrorKind::kWrongUsage, HasSubstr("TMPDIR"));
+  EXPECT_FALSE(fs::exists(path("out") + "/motion.csv"));
+}
+
 TEST_F(FlowCase, RefusesAStepThatLeadsThroughTheMesh) {
   const std::string coarse = "\"rigid\"\nedges_per_particle = 8";
   const auto result =
