@@ -88,9 +88,10 @@ RandomCase resolvable_case(std::mt19937_64& generator) {
 }
 
 TEST(RandomMotions, WithInertiaKeepTheFirstIntegralAndNeverTouch) {
+  constexpr int kMotions = kCases / 5;  // far slower than the other models
   std::mt19937_64 generator(2);
   int thin = 0;
-  for (int i = 0; i < kCases; ++i) {
+  for (int i = 0; i < kMotions; ++i) {
     const auto [motion, k] = resolvable_case(generator);
     SCOPED_TRACE(::testing::Message() << i << ": m = " << motion.mass << ", k = " << k);
     const lubrication::LubricationForce force = force_of(i, k);
@@ -114,7 +115,7 @@ TEST(RandomMotions, WithInertiaKeepTheFirstIntegralAndNeverTouch) {
     }
     if (HasFailure()) return;
   }
-  EXPECT_GT(thin, kCases);
+  EXPECT_GT(thin, kMotions);
 }
 
 TEST(RandomMotions, WithoutInertiaAreReversible) {

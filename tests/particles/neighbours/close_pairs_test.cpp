@@ -145,10 +145,16 @@ TEST_P(Neighbours, OnALatticeAreFoundThoughTheyAreCloseByARoundingOnly) {
     }
 }
 
+/// Width of a space in which so many points have few neighbours each; `in_plane` in two dimensions.
+double width_for(int dimension, std::size_t count, double in_plane) {
+  return dimension == 1 ? static_cast<double>(count) : dimension == 2 ? in_plane : 50;
+}
+
 TEST_P(Neighbours, AreTheSameForAnyNumberOfThreadsInManyBlocks) {
   Random random(4);
+  constexpr std::size_t kCount = 3 * ThreadPool::kBlock + 5;
   const auto points =
-      random_points(GetParam(), 3 * ThreadPool::kBlock + 5, GetParam() == 2 ? 300 : 50, 1, random);
+      random_points(GetParam(), kCount, width_for(GetParam(), kCount, 300), 1, random);
   ThreadPool one(1);
   const auto expected = close_pairs(GetParam(), points.positions, points.extents, one);
   EXPECT_GT(expected.size(), ThreadPool::kBlock);
@@ -164,7 +170,7 @@ TEST_P(Neighbours, AreTheSameForAnyNumberOfThreadsInManyBlocks) {
 TEST_P(Neighbours, DoNotTakeLongerBecauseOneParticleFled) {
   Random random(5);
   constexpr std::size_t kCount = 20'000;
-  auto points = random_points(GetParam(), kCount, GetParam() == 2 ? 250 : 50, 0, random);
+  auto points = random_points(GetParam(), kCount, width_for(GetParam(), kCount, 250), 0, random);
   ThreadPool pool(1);
   const auto seconds = [&] {
     const auto start = std::chrono::steady_clock::now();
