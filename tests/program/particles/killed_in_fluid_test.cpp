@@ -99,5 +99,11 @@ TEST_F(KilledInFluid, GoesOnWithFreeFem) {
   expect_same_if_disturbed(case_in_fluid("", "0.05"), 2.5);
 }
 
+// All discs have mass, and the steps are short enough for the mesh to follow them.
+TEST_F(KilledInFluid, GoesOnWithInertiaOfTheFluid) {
+  const auto text = case_in_fluid("density = 1.0\nconstraint = \"rigid\"", "0.02");
+  expect_same_if_disturbed(replaced_matches(text, "mass = 0.0", "mass = 2.0"), 4);
+}
+
 }  // namespace
 }  // namespace viscontact

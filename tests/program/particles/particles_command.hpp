@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -103,16 +106,22 @@ class ParticlesCommand : public ::testing::Test {
     std::map<std::string, std::string> files;
     for (const auto& [file, text] : files_below(folder)) {
       std::istringstream lines(text);
-      bool has_seconds = false;  // in the last column
+      std::optional<std::ptrdiff_t> seconds;  // number of the column
       for (std::string line; std::getline(lines, line);) {
         const auto begin = line.substr(0, 100);
         const auto has = [&](const char* words) { return begin.find(words) != std::string::npos; };
         if (has("provenance") || has("# record after step ") || has("seconds\": ") ||
             has("\"peak_memory_mebibytes\": "))
           continue;
-        has_seconds = has_seconds || line.ends_with(",fluid_seconds");
-        files[std::filesystem::path(file).filename()] +=
-            (has_seconds ? line.substr(0, line.rfind(',')) : line) + "\n";
+        if (const auto at = line.find(",fluid_seconds"); at != std::string::npos)
+          seconds = std::count(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(at), ',');
+        if (seconds) {
+          std::size_t from = 0;
+          for (std::ptrdiff_t comma = 0; comma < *seconds; ++comma) from = line.find(',', from) + 1;
+          from = line.find(',', from);
+          line.erase(from, std::min(line.find(',', from + 1), line.size()) - from);
+        }
+        files[std::filesystem::path(file).filename()] += line + "\n";
       }
     }
     return files;
