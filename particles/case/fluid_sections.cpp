@@ -353,11 +353,12 @@ void fluid_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
                                                    {"splitting", Coupling::kSplitting}}),
                 {"contact forces act in the problem of the fluid, or the velocities that the fluid "
                  "gives are projected (masses must be > 0)"});
-  keys.optional("threshold_gap", case_file::number(fluid.threshold_gap, kGap),
-                {"gap at which contact is made. Rough solids touch at the gap 2 `roughness`: a "
-                 "smaller value is an error, and the default is at least this gap",
-                 "0.05 of the smallest radius, or half of the smallest gap at the start if this is "
-                 "smaller"});
+  keys.optional(
+      "threshold_gap", case_file::number(fluid.threshold_gap, kGap),
+      {"gap at which contact is made. Rough solids touch at the gap 2 `roughness`: a "
+       "smaller value is an error, and the default is at least this gap",
+       "0.05 of the smallest radius or semi-axis, or half of the smallest gap at the start "
+       "if this is smaller"});
   keys.optional("solver", case_file::texts(fluid.solver),
                 {"command of a [fluid solver of your own](fluid-solver.md) in place of FreeFEM. A "
                  "text with the name of a file is relative to the case file; a first text without "

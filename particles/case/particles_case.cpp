@@ -258,6 +258,13 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
           "must be left out, because the case has a fluid and also bodies or links; in a fluid "
           "only single particles may rebound");
   root.section("viscous_contact")
+      .require(!c.setting.laws.restitution.is_on() || !c.setting.fluid ||
+                   !c.setting.fluid->has_inertia() ||
+                   c.setting.fluid->coupling == Coupling::kConstrained,
+               "restitution",
+               "must be left out, because the fluid has a density and fluid.coupling is "
+               "\"splitting\": the momentum of the fluid around a particle would not rebound");
+  root.section("viscous_contact")
       .require(!c.setting.laws.restitution.is_on() ||
                    (c.setting.links.hinges.empty() && c.setting.links.arms.empty()),
                "restitution",

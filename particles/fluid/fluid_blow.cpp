@@ -45,7 +45,7 @@ class Blow {
   struct Part {
     double drift = 0;        // as drift_of()
     double start = 0;        // gap at the beginning of the step, >= 0 [L]
-    double pull = 0;         // rate of the gap that the loads of the step give [L/T]
+    double pull = 0;         // rate of the gap that the loads give between solids at rest [L/T]
     bool is_closed = false;  // at the beginning of the step
     bool is_hit = false;     // its gap closes by an approach, not by a load
     double late = 0;         // time of the hit over the length of the step, 0 to 1
@@ -120,11 +120,19 @@ bool Blow::find_hits() {
     if (approaches(c)) approaching.push_back(c);
   }
   if (approaching.empty()) return false;
-  const auto loaded = step_.loaded();
+  // The approach of a driven particle is no load.
+  const auto of_free = [&](std::span<const double> velocities) {
+    std::vector<double> result(velocities.begin(), velocities.end());
+    for (const auto& [particle, motion] : step_.setting.given_motions)
+      std::fill_n(result.begin() + static_cast<std::ptrdiff_t>(conditions_.layout.at(particle, 0)),
+                  conditions_.layout.components, 0.0);
+    return result;
+  };
+  const auto loaded = of_free(step_.loaded()), after = of_free(free),
+             before = of_free(step_.before);
   for (std::size_t c = 0; c < parts_.size(); ++c) {
-    const double free_rate = rate(c, free);
     const double by_load = rate(c, loaded) - parts_[c].drift;
-    parts_[c].pull = std::min(by_load, free_rate - rate(c, step_.before));
+    parts_[c].pull = std::min(by_load, rate(c, after) - rate(c, before));
   }
   bool any = false;
   for (const auto c : approaching) {
@@ -262,8 +270,7 @@ void Blow::move(FluidBlow& blow) {
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     auto& contact = gaps.contacts[c];
     contact.impulse = 0;
-    contact.lowest =
-        std::min(0.0, pair(c).gamma - blow.absorbed[c]) / conditions_.share_of_impulse;
+    contact.lowest = std::min(0.0, pair(c).gamma - blow.absorbed[c]) / conditions_.share_of_impulse;
     const double after = gap_after(contact, blow.moved.data(), conditions_.h, layout);
     any_off = any_off || after < -allowed || (contact.lowest < 0 && after > allowed);
   }

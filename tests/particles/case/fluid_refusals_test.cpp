@@ -345,7 +345,7 @@ TEST(RefusedFluidTest, ThresholdGapBelowTheGapAtWhichTheSolidsTouch) {
                     "viscous_contact.roughness, 0.12, because the solids touch at that gap");
 }
 
-TEST(RefusedFluidTest, RestitutionWithoutMassOrWithBodiesOrLinks) {
+TEST(RefusedFluidTest, RestitutionWithoutMassOrWithBodiesLinksOrSplitting) {
   const auto with = [](const std::string& more) {
     return changed(kDiscsInDisc, "end_time = 1.0",
                    "end_time = 1.0\ngamma_min = 0\nrestitution = 0.9") +
@@ -362,6 +362,11 @@ TEST(RefusedFluidTest, RestitutionWithoutMassOrWithBodiesOrLinks) {
                     "viscous_contact.restitution");
   const auto heavy = changed(with(""), "radius = 1.0", "radius = 1.0\nmass = 1.0");
   EXPECT_EQ(read_particles_text(heavy).setting.laws.restitution.coefficient, 0.9);
+  const auto split = changed(heavy, "viscosity = 2.0", "viscosity = 2.0\ncoupling = \"splitting\"");
+  EXPECT_EQ(read_particles_text(split).setting.laws.restitution.coefficient, 0.9);
+  expect_refused_at(changed(split, "viscosity = 2.0", "viscosity = 2.0\ndensity = 1.0"),
+                    "restitution",
+                    "because the fluid has a density and fluid.coupling is \"splitting\"");
 }
 
 TEST(RefusedFluidTest, PlaneAcrossAPeriod) {

@@ -322,6 +322,29 @@ TEST(ReboundInFluid, OfAWallThatComesIsRelativeToIt) {
   EXPECT_NEAR(p.positions[1], 6 + 1.5 * 1.7, 1e-7);
 }
 
+TEST(ReboundInFluid, OfADrivenDiscThatComesIsRelativeToIt) {
+  // A disc at rest, hit by a driven disc at the velocity 1, leaves it at e_d. Later on the driven disc
+  // pushes it against the drag 1 at the velocity 1, which is a load.
+  for (const bool pushes : {false, true})
+    for (const auto coupling : {Coupling::kConstrained, Coupling::kSplitting}) {
+      auto system = flying_disc(0.03, 0.7, 0);
+      system.setting.fluid->coupling = coupling;
+      add_particle(system.state, {10, 4, 0}, 1, 1, {0, 1, 0});
+      add_particle(system.state, {10, pushes ? 6 : 6.5, 0}, 1, 1, {0, pushes ? 1.0 : 0.0, 0});
+      system.setting.given_motions[0].velocity = constant({0, 1, 0});
+      auto simulation = system.simulation(constant_drag(pushes ? 1 : kNoDrag));
+      std::size_t rebounds = 0;
+      while (simulation.state().time < 2) {
+        EXPECT_TRUE(simulation.step(2).converged);
+        rebounds += simulation.rebounds().size();
+      }
+      const auto& p = simulation.state().particles;
+      EXPECT_EQ(rebounds, pushes ? 0U : 1U);
+      EXPECT_NEAR(p.velocities[3], pushes ? 1 : 1.7, 1e-8);
+      EXPECT_NEAR(p.positions[3], pushes ? 8 : 6.5 + 1.5 * 1.7, 1e-7);
+    }
+}
+
 /// The sphere of the first test in a fluid with inertia.
 InFluid with_inertia(InFluid system) {
   system.setting.fluid->density = 1e-12;  // no buoyancy; > 0: the solver has the masses
