@@ -120,10 +120,8 @@ class BoundaryMaker {
         for (auto& axis : inner.semi_axes) axis *= kOfRadius;
         add_outline(inner, kInsideLabel, false, [&](double) { return kLongest * outline.radius; });
       }
-      add_outline(outline, kFirstParticleLabel + static_cast<int>(k), has_holes_, [&](double t) {
-        return outline.is_circle() ? lengths_.on_particle(k, outline.at(t))
-                                   : lengths_.on_ellipse(k, t);
-      });
+      add_outline(outline, kFirstParticleLabel + static_cast<int>(k), has_holes_,
+                  [&](double t) { return lengths_.on_outline(k, t); });
     }
   }
 

@@ -22,8 +22,12 @@ std::array<double, 2> WallVelocity::at(double time, double from, double to) cons
 }
 
 double Fluid::size_of(int dimension, std::size_t k, double radius) const {
-  if (is_ellipse(k)) return std::numbers::pi * semi_axes[k][0] * semi_axes[k][1];
-  return size_of_particle(dimension, radius);
+  return is_ellipse(k) ? size_of_ellipse(semi_axes[k]) : size_of_particle(dimension, radius);
+}
+
+double Fluid::homogeneous_inertia_of(std::size_t k, double mass, double radius) const {
+  return is_ellipse(k) ? homogeneous_inertia_of_ellipse(mass, semi_axes[k])
+                       : homogeneous_inertia(2, mass, radius);
 }
 
 }  // namespace viscontact::particles

@@ -118,6 +118,9 @@ struct Fluid {
   }
   /// Area of particle k, or volume of a sphere on the axis [L^2, L^3], if its radius is `radius` [L].
   double size_of(int dimension, std::size_t k, double radius) const;
+  /// Moment of inertia of particle k in the plane [M L^2] if it is homogeneous and has this mass [M]
+  /// and radius [L].
+  double homogeneous_inertia_of(std::size_t k, double mass, double radius) const;
 };
 
 }  // namespace viscontact::particles

@@ -57,7 +57,8 @@ double least_on(const Outline& outline, const Function& function) {
       at = i * kStep;
     }
   double low = at - kStep, high = at + kStep;
-  constexpr int kDivisions = 60;  // (2/3)^60 is 3e-11: the value is exact to the rounding of its square
+  constexpr int kDivisions =
+      60;  // (2/3)^60 is 3e-11: the value is exact to the rounding of its square
   for (int n = 0; n < kDivisions; ++n) {
     const double first = low + (high - low) / 3, second = high - (high - low) / 3;
     if (value(first) < value(second))
@@ -95,7 +96,8 @@ double distance_to(const Outline& outline, const Point& x) {
   const double c = std::cos(outline.angle), s = std::sin(outline.angle);
   const double along = std::abs(c * dx + s * dy), across = std::abs(c * dy - s * dx);
   const auto [a, b] = outline.semi_axes;
-  return a > b ? distance_to_ellipse(a, b, along, across) : distance_to_ellipse(b, a, across, along);
+  return a > b ? distance_to_ellipse(a, b, along, across)
+               : distance_to_ellipse(b, a, across, along);
 }
 
 double gap(const Outline& first, const Outline& second) {
@@ -107,13 +109,12 @@ double gap(const Outline& first, const Outline& second) {
 double gap(const PlanePosition& obstacle, const Outline& outline) {
   if (outline.is_circle())
     return gap(obstacle, Vector{outline.centre[0], outline.centre[1], 0}, outline.radius);
-  return least_on(outline,
-                  [&](const Point& x) { return gap(obstacle, Vector{x[0], x[1], 0}, 0); });
+  return least_on(outline, [&](const Point& x) { return gap(obstacle, Vector{x[0], x[1], 0}, 0); });
 }
 
 Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<const double> angles,
-                   std::size_t k) {
-  const auto x = particles.position(k);
+                   std::size_t k, const Vector& shift) {
+  const Vector x = particles.position(k) + shift;
   Outline outline{particles.dimension == 1 ? Point{0, x[0]} : Point{x[0], x[1]},
                   particles.radii[k]};
   if (fluid.is_ellipse(k)) {

@@ -42,9 +42,10 @@ double gap(const Outline& first, const Outline& second);
 /// Distance of the outline from an obstacle [L]; < 0 if a part of it is behind the obstacle.
 double gap(const PlanePosition& obstacle, const Outline& outline);
 
-/// Outline of particle k in the plane, or of a sphere on the axis, which is at (0, z). `angles`:
-/// those of all particles; used for ellipses only.
+/// Outline of particle k in the plane, or of a sphere on the axis, which is at (0, z). `angles`: of
+/// all particles [rad]; used for ellipses only. With `shift` [L] the outline is that of an image of the
+/// particle.
 Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<const double> angles,
-                   std::size_t k);
+                   std::size_t k, const Vector& shift = {});
 
 }  // namespace viscontact::particles

@@ -3,6 +3,7 @@
 // that a change of their layout needs a new version of that file.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -64,6 +65,16 @@ inline double size_of_particle(int dimension, double radius) {
 /// Moment of inertia of a homogeneous disc or sphere about its centre [M L^2].
 inline double homogeneous_inertia(int dimension, double mass, double radius) {
   return (dimension == 3 ? 0.4 : 0.5) * mass * radius * radius;
+}
+
+/// Area of an ellipse [L^2].
+inline double size_of_ellipse(const std::array<double, 2>& semi_axes) {
+  return size_of_particle(2, 1) * semi_axes[0] * semi_axes[1];
+}
+
+/// Moment of inertia of a homogeneous ellipse about its centre, m (a^2 + b^2)/4 [M L^2].
+inline double homogeneous_inertia_of_ellipse(double mass, const std::array<double, 2>& semi_axes) {
+  return mass / 4 * (semi_axes[0] * semi_axes[0] + semi_axes[1] * semi_axes[1]);
 }
 
 /// Makes all particles turn: extends each array of the rotation to all particles. The new entries

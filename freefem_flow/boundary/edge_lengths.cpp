@@ -125,9 +125,11 @@ double EdgeLengths::on_particle(std::size_t k, const Point& x) const {
   return std::min(longest_, across(distance));
 }
 
-double EdgeLengths::on_ellipse(std::size_t k, double t) const {
-  const auto& ellipse = outlines_[k];
-  return std::min(on_particle(k, ellipse.at(t)), per_radius_ * ellipse.curvature_radius_at(t));
+double EdgeLengths::on_outline(std::size_t k, double t) const {
+  const auto& outline = outlines_[k];
+  const double length = on_particle(k, outline.at(t));
+  if (outline.is_circle()) return length;
+  return std::min(length, per_radius_ * outline.curvature_radius_at(t));
 }
 
 double EdgeLengths::on_wall(const Point& x) const {

@@ -32,9 +32,9 @@ class EdgeLengths {
   /// most a fraction of the distance to the nearest other surface.
   double on_particle(std::size_t k, const Point& x) const;
 
-  /// At the point outlines()[k].at(t) of an ellipse: as on_particle(), and shorter where the ellipse is
-  /// more curved than the smallest particle.
-  double on_ellipse(std::size_t k, double t) const;
+  /// The same at the point outlines()[k].at(t). On an ellipse the length is shorter where it is more
+  /// curved than the smallest particle.
+  double on_outline(std::size_t k, double t) const;
 
   /// At a point on a wall: longer the further the nearest particle is, and at most a fraction of the
   /// distance to it.

@@ -28,7 +28,8 @@ struct CellEdge {
 /// does. Edges that are very short against their distance from the particles are left out, their
 /// ends joined.
 ///
-/// `circles`: the particles, at least one, with centres in the box, which do not overlap.
+/// `circles`: the particles, at least one, with centres in the box. Their circles, which are those
+/// around ellipses, do not overlap.
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
                                      std::span<const particles::Outline> circles);
 

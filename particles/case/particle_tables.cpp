@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
@@ -65,14 +64,13 @@ struct ParticleTable {
   std::array<double, 2> semi_axes{};  // of an ellipse; zeros: a disc or sphere
   /// Area of the disc or ellipse, volume of the sphere [L^2, L^3].
   double size(int dimension) const {
-    if (semi_axes[0] > 0) return std::numbers::pi * semi_axes[0] * semi_axes[1];
-    return size_of_particle(dimension, radius);
+    return semi_axes[0] > 0 ? size_of_ellipse(semi_axes) : size_of_particle(dimension, radius);
   }
-  /// Of a uniform disc or sphere about its centre, or of a uniform ellipse, mass (a^2 + b^2)/4.
-  double uniform_inertia(int dimension) const {
-    if (semi_axes[0] > 0)
-      return mass / 4 * (semi_axes[0] * semi_axes[0] + semi_axes[1] * semi_axes[1]);
-    return homogeneous_inertia(dimension, mass, radius);
+  /// Of a disc or ellipse about its centre, homogeneous if the moment is not given [M L^2].
+  double inertia_in_plane() const {
+    if (moment_of_inertia) return *moment_of_inertia;
+    return semi_axes[0] > 0 ? homogeneous_inertia_of_ellipse(mass, semi_axes)
+                            : homogeneous_inertia(2, mass, radius);
   }
   PiecewiseConstant force, torque;  // without pieces if they are not given
   bool is_fixed = false;
@@ -223,7 +221,7 @@ void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
   if (in_fluid && p.dimension == 2) {
     p.angles.push_back(table.angle);
     p.angular_velocities.push_back(table.angular_velocity[2]);
-    p.inertias.push_back(table.moment_of_inertia.value_or(table.uniform_inertia(p.dimension)));
+    p.inertias.push_back(table.inertia_in_plane());
   } else if (!in_fluid) {
     add_rotation_of_last(section, table, p);
   }

@@ -77,6 +77,9 @@ std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
   const auto& p = c.particles;
   const auto cell = cell_of(c.setting.domain);
   const bool has_ellipses = c.setting.fluid && !c.setting.fluid->semi_axes.empty();
+  const auto outline = [&](std::size_t k, const Vector& shift = {}) {
+    return outline_of(*c.setting.fluid, p, p.angles, k, shift);
+  };
   std::vector<double> extents = p.radii;
   for (auto& extent : extents) extent += limit / 2;
   ThreadPool pool(1);
@@ -87,23 +90,20 @@ std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
     if (p.bodies.are_one(first, second)) continue;
     const auto i = index_of(first), j = index_of(second);
     const auto shift = shift_of(cell, image);
-    double gap = norm(p.position(j) + shift - p.position(i)) - p.radii[i] - p.radii[j];
-    if (has_ellipses) {
-      auto other = outline_of(*c.setting.fluid, p, p.angles, j);
-      for (std::size_t d = 0; d < 2; ++d) other.centre[d] += shift[d];
-      gap = particles::gap(outline_of(*c.setting.fluid, p, p.angles, i), other);
-    }
-    gaps.push_back({first, second, gap});
+    gaps.push_back({first, second,
+                    has_ellipses
+                        ? gap(outline(i), outline(j, shift))
+                        : norm(p.position(j) + shift - p.position(i)) - p.radii[i] - p.radii[j]});
   }
   const auto obstacles = obstacles_of(c.setting);
   const bool on_axis = std::holds_alternative<CylinderDomain>(c.setting.domain);
   for (std::size_t w = on_axis ? 1 : 0; w < obstacles.size(); ++w) {
     const auto place = obstacles[w].at(0);
     for (std::size_t k = 0; k < p.count(); ++k)
-      if (double gap = particles::gap(place, p.position(k), p.radii[k]); gap < limit) {
-        if (has_ellipses) gap = particles::gap(place, outline_of(*c.setting.fluid, p, p.angles, k));
-        gaps.push_back({-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k), gap});
-      }
+      // The gap of the circle around an ellipse is at most that of the ellipse.
+      if (const double least = gap(place, p.position(k), p.radii[k]); least < limit)
+        gaps.push_back({-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k),
+                        has_ellipses ? gap(place, outline(k)) : least});
   }
   return gaps;
 }
@@ -315,11 +315,7 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
     // Inertia of a viscous body is that of its density, which is uniform.
     constexpr double kRounding = 1e-9;
     if (fluid.constraint == RigidConstraint::kRigid || p.inertias.empty()) continue;
-    double uniform = homogeneous_inertia(p.dimension, p.masses[k], p.radii[k]);
-    if (fluid.is_ellipse(k)) {
-      const auto [a, b] = fluid.semi_axes[k];
-      uniform = p.masses[k] / 4 * (a * a + b * b);
-    }
+    const double uniform = fluid.homogeneous_inertia_of(k, p.masses[k], p.radii[k]);
     if (std::abs(p.inertias[k] - uniform) > kRounding * uniform)
       throw_bad_input(
           names.at(k),

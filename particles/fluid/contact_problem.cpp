@@ -2,7 +2,6 @@
 // between the matrix W and products with it. Units are those of the case.
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -14,9 +13,6 @@ namespace viscontact::particles {
 namespace {
 
 using Eigen::Index;
-
-/// Relative difference of an entry of W from its transposed one up to which it is a rounding error.
-constexpr double kLargestRoundingOfW = 1e-7;
 
 /// D - D_c + h G v [L] with the velocities without contact.
 double free_gap(const Contact<2>& contact, const ContactConditions& conditions) {
@@ -115,43 +111,38 @@ class FluidDualProblem : public DualProblem {
   mutable ThreadPool pool_{1};
 };
 
-/// By how much the skew part of W changes the gaps [L] with the present impulses. Moving fluid carries
-/// what a contact does to the contacts behind it, so that W of a fluid with inertia is not symmetric.
-/// Zeros if W is symmetric but for rounding errors.
-std::vector<double> gaps_of_skew_part(std::span<const Contact<2>> contacts,
-                                      const ContactConditions& conditions,
-                                      std::span<const std::vector<double>> responses) {
-  const auto w = [&](std::size_t c, std::size_t other) {
-    return opening(contacts[c], responses[other].data(), conditions.layout);
-  };
-  std::vector<double> gaps(contacts.size(), 0.0);
+/// W of contacts [T/M], by which an impulse of one changes the rate of the gap of another: row `other`
+/// and column c belong to the response of contact c, the velocities that a unit force of it causes.
+Eigen::MatrixXd dense_w(std::span<const Contact<2>> contacts,
+                        std::span<const std::vector<double>> responses,
+                        const MotionLayout& layout) {
+  const auto n = std::ssize(contacts);
+  Eigen::MatrixXd w(n, n);
   for (std::size_t c = 0; c < contacts.size(); ++c)
-    for (std::size_t other = 0; other < contacts.size(); ++other) {
-      const double skew = (w(c, other) - w(other, c)) / 2;
-      if (std::abs(skew) <= kLargestRoundingOfW * std::sqrt(contacts[c].w * contacts[other].w))
-        continue;
-      gaps[c] += skew * contacts[other].impulse;
-    }
-  return gaps;
+    for (std::size_t other = 0; other < contacts.size(); ++other)
+      w(static_cast<Index>(other), static_cast<Index>(c)) =
+          opening(contacts[other], responses[c].data(), layout);
+  return w;
 }
 
-/// The dual problem of few contacts, with the symmetric part of the matrix W itself, and gaps that
-/// contain the skew part with the impulses that the contacts had before. A vector y = B z holds W z, and then
-/// z.
+/// The dual problem of few contacts, with the matrix W itself. A vector y = B z holds W z, and then z.
 class DenseDualProblem : public DualProblem {
  public:
-  /// `responses` are the velocities that a unit force of each contact causes [T/M].
+  /// The problem has the symmetric part of `full_w`, dense_w() of the contacts. If `conditions` say that
+  /// W is not symmetric, its gaps contain what the skew part does with the present impulses.
   DenseDualProblem(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
-                   std::span<const std::vector<double>> responses)
-      : DualProblem(contacts.size()), w(contacts.size(), contacts.size()) {
-    const auto further = gaps_of_skew_part(contacts, conditions, responses);
+                   const Eigen::MatrixXd& full_w)
+      : DualProblem(contacts.size()) {
+    Eigen::VectorXd further = Eigen::VectorXd::Zero(full_w.rows());
+    if (!conditions.is_symmetric)
+      for (std::size_t c = 0; c < contacts.size(); ++c) {
+        const auto i = static_cast<Index>(c);
+        further += contacts[c].impulse / 2 * (full_w.col(i) - full_w.row(i).transpose());
+      }
     for (std::size_t c = 0; c < contacts.size(); ++c)
-      set(c, contacts[c], free_gap(contacts[c], conditions) + further[c]);
-    for (std::size_t c = 0; c < contacts.size(); ++c)
-      for (std::size_t other = 0; other < contacts.size(); ++other)
-        w(static_cast<Index>(other), static_cast<Index>(c)) =
-            opening(contacts[other], responses[c].data(), conditions.layout) /
-            (scale[c] * scale[other]);
+      set(c, contacts[c], free_gap(contacts[c], conditions) + further[static_cast<Index>(c)]);
+    const Eigen::Map<const Eigen::VectorXd> scales(scale.data(), std::ssize(scale));
+    w = full_w.cwiseQuotient(scales * scales.transpose());
     w = (w + w.transpose().eval()) / 2;
   }
 
@@ -307,9 +298,9 @@ bool ContactProblem::solve(bool is_rough) {
   constexpr double kErrorOfSums = 2e-11;
   conditions.velocity_error = kErrorOfSums;
   // The allowed residuals follow from the impulses, which the first solution tells. Each round also
-  // reduces the error that the skew part of W makes, which Stokes flow does not have.
+  // divides the error that the skew part of W makes by about the symmetric part over the skew one.
   constexpr int kRounds = 4, kRoundsOfSkewPart = 40;
-  const int rounds = is_dense && is_skew() ? kRoundsOfSkewPart : kRounds;
+  const int rounds = is_dense && !conditions.is_symmetric ? kRoundsOfSkewPart : kRounds;
   for (int round = 0; round < rounds; ++round) {
     for (auto& contact : contacts_) contact.impulse = std::max(contact.impulse, contact.lowest);
     set_allowed(contacts_, conditions);
@@ -324,16 +315,9 @@ bool ContactProblem::solve(bool is_rough) {
   return is_solved();
 }
 
-/// True if the matrix W of all contacts is not symmetric.
-bool ContactProblem::is_skew() const {
-  auto unit = contacts_;
-  for (auto& contact : unit) contact.impulse = 1;
-  return std::ranges::any_of(gaps_of_skew_part(unit, conditions_, responses_),
-                             [](double gap) { return gap != 0; });
-}
-
 void ContactProblem::solve_dense() {
-  DenseDualProblem problem(contacts_, conditions_, responses_);
+  DenseDualProblem problem(contacts_, conditions_,
+                           dense_w(contacts_, responses_, conditions_.layout));
   DenseFactor factor(conditions_.velocity_error);
   const int most = conditions_.solver.max_iterations - iterations_;
   constexpr int kNewtonSteps = 50;

@@ -147,8 +147,9 @@ bool Blow::find_hits() {
   return any;
 }
 
-/// The contacts over the time `kick` in which impulses act, with impulses that are not scaled. Hit contacts are closed. The gaps of
-/// the others are stretched, so that they close at the same velocity as in the step.
+/// The contacts over the time `kick` in which impulses act, with impulses that are not scaled. Hit
+/// contacts are closed. The gaps of the others are stretched, so that they close at the same velocity
+/// as in the step.
 StepContacts Blow::problem() const {
   const double kick = step_.kick;
   StepContacts problem;

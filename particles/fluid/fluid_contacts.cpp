@@ -176,7 +176,10 @@ StepContacts solve_contacts(const State& state, double threshold,
 
 std::vector<double> set_allowed(std::span<Contact<2>> contacts,
                                 const ContactConditions& conditions) {
-  const auto& [free, h, layout, settings, mean_radius, velocity_error, share, reach] = conditions;
+  const auto& free = conditions.free_velocities;
+  const auto& settings = conditions.solver;
+  const auto& layout = conditions.layout;
+  const double h = conditions.h;
   std::vector<double> of_particle(free.size() / layout.components, 0.0);
   const auto for_particles = [](const Contact<2>& contact, const auto& visit) {
     for (const auto k : {contact.first, contact.second})
@@ -192,13 +195,14 @@ std::vector<double> set_allowed(std::span<Contact<2>> contacts,
                   [&](std::size_t k) { of_particle[k] = std::max(of_particle[k], impulse); });
   }
   constexpr double kGapError = 1e-14;  // rounding errors of positions
-  const double rounding = kGapError * mean_radius + velocity_error * h * fastest(free, layout);
+  const double rounding =
+      kGapError * conditions.mean_radius + conditions.velocity_error * h * fastest(free, layout);
   std::vector<double> at_work(contacts.size(), std::numeric_limits<double>::infinity());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     for_particles(contacts[c],
                   [&](std::size_t k) { at_work[c] = std::min(at_work[c], of_particle[k]); });
     auto& contact = contacts[c];
-    contact.allowed = settings.tolerance * mean_radius / 2;
+    contact.allowed = settings.tolerance * conditions.mean_radius / 2;
     if (contact.w > 0)
       contact.allowed = std::min(
           contact.allowed, std::max(settings.impulse_tolerance * contact.w * at_work[c], rounding));

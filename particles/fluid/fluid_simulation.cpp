@@ -158,13 +158,11 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
 
 ContactConditions FluidSimulation::contact_conditions(std::span<const double> free,
                                                       double h) const {
-  return {free,
-          h,
-          layout_,
-          setting_.solver,
-          mean_radius_,
-          error_of_answers(*setting_.fluid),
-          kick_length(h) / h};
+  const auto& fluid = *setting_.fluid;
+  ContactConditions conditions{
+      free, h, layout_, setting_.solver, mean_radius_, error_of_answers(fluid), kick_length(h) / h};
+  conditions.is_symmetric = !fluid.has_inertia() || fluid.coupling == Coupling::kSplitting;
+  return conditions;
 }
 
 /// The time for which the forces of a step of length h act on its velocities [T]. In a fluid with
@@ -180,7 +178,8 @@ bool FluidSimulation::is_computed_twice() const {
   return setting_.fluid->has_inertia() && !(state_.earlier_step > 0);
 }
 
-/// Solves the contacts of a step without restitution, and returns the blow if solids rebound.
+/// Solves the contacts of a step of length h that ends at `next` without restitution, and returns the
+/// blow if solids rebound.
 std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& equation,
                                                             std::span<const double> free, double h,
                                                             double next, StepContacts& contacts) {
@@ -197,19 +196,20 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
         velocities[i] = loads[i] / inertia[i];
     return velocities;
   };
-  // An arm gives the distance of its particles.
   const auto& fluid = *setting_.fluid;
   const auto is_ellipse = [&](std::int32_t k) { return k >= 0 && fluid.is_ellipse(index_of(k)); };
+  // Ellipses make no contact (check_ellipses()), and an arm gives the distance of its particles.
   const auto is_left_out = [&](const Pair& pair) {
     return (!is_movable(pair.first) && !is_movable(pair.second)) || is_ellipse(pair.first) ||
            is_ellipse(pair.second) || std::ranges::any_of(setting_.links.arms, [&](const Arm& arm) {
              return std::minmax(arm.first, arm.second) == std::minmax(pair.first, pair.second);
            });
   };
-  const double threshold = setting_.fluid->threshold_gap;
+  const double threshold = fluid.threshold_gap;
   auto conditions = contact_conditions(free, h);
-  const bool has_inertia = setting_.fluid->has_inertia();
+  const bool has_inertia = fluid.has_inertia();
   const auto before = has_inertia ? state_.earlier_velocities : equation.velocities();
+  // BlowStep::loaded: what is left of the velocities without contact if no particle had a momentum.
   const auto loaded = [&] {
     if (has_inertia) return solver_->velocities(equation.forces(), false);
     std::vector<double> momentum(before.size());
@@ -290,6 +290,26 @@ std::vector<double> FluidSimulation::hold_at_end(const StepEquation& equation,
   return forces;
 }
 
+/// Sets the velocities that a fluid with inertia keeps, and extrapolates them to the end of the step.
+void FluidSimulation::keep_and_extrapolate(const StepEquation& equation, Motion& motion) const {
+  // The splitting changes the velocities of the particles, and not those of the fluid.
+  motion.kept = motion.flow;
+  if (setting_.fluid->coupling == Coupling::kSplitting)
+    for (std::size_t i = 0; i < motion.kept.size(); ++i)
+      motion.kept[i] += motion.after[i] - motion.free[i];
+  // The fluid may have been set in motion at once at the start, so that the first change of the
+  // velocity says nothing of the next one.
+  const double share = state_.steps > 1 ? 2 * equation.share_of_change() : 0;
+  motion.at_end = motion.kept;
+  for (std::size_t i = 0; i < motion.at_end.size(); ++i) {
+    const auto k = static_cast<std::int32_t>(i / layout_.components);
+    if (equation.is_driven(k))
+      motion.at_end[i] = motion.moved[i];
+    else if (!equation.is_in_contact(k))
+      motion.at_end[i] += share * (motion.kept[i] - state_.earlier_velocities[i]);
+  }
+}
+
 /// Computes a step of length h that ends at `next`.
 FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_estimated) {
   const auto begin = Clock::now();
@@ -340,24 +360,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     motion.drag[i] -= equation.inertia()[i] * motion.flow[i];
   if (held) add(held_->forces_of_step(), motion.drag);
   motion.at_end = equation.velocities_at_end(motion.after, motion.flow);
-  if (setting_.fluid->has_inertia()) {
-    // The splitting changes the velocities of the particles, and not those of the fluid.
-    motion.kept = motion.flow;
-    if (is_split)
-      for (std::size_t i = 0; i < motion.kept.size(); ++i)
-        motion.kept[i] += motion.after[i] - motion.free[i];
-    // The fluid may have been set in motion at once at the start, so that the first change of the
-    // velocity says nothing of the next one.
-    const double share = state_.steps > 1 ? 2 * equation.share_of_change() : 0;
-    motion.at_end = motion.kept;
-    for (std::size_t i = 0; i < motion.at_end.size(); ++i) {
-      const auto k = static_cast<std::int32_t>(i / layout_.components);
-      if (equation.is_driven(k))
-        motion.at_end[i] = motion.moved[i];
-      else if (!equation.is_in_contact(k))
-        motion.at_end[i] += share * (motion.kept[i] - state_.earlier_velocities[i]);
-    }
-  }
+  if (setting_.fluid->has_inertia()) keep_and_extrapolate(equation, motion);
   std::vector<double> of_step, at_end;  // the forces of the links within the step and at its end
   if (held) {
     auto row_forces = held_->row_forces();
@@ -462,9 +465,8 @@ void FluidSimulation::check_ellipses() const {
         if (j == k || (image != 0 && norm(shift) == 0) || (is_driven(k) && is_driven(j)) ||
             norm(apart) - p.radii[k] - p.radii[j] >= least)
           continue;
-        auto other = outline_of(fluid, p, p.angles, j);
-        for (std::size_t d = 0; d < 2; ++d) other.centre[d] += shift[d];
-        check(k, gap(outline, other), fmt::format("particle {}", p.id(j)));
+        check(k, gap(outline, outline_of(fluid, p, p.angles, j, shift)),
+              fmt::format("particle {}", p.id(j)));
       }
   }
 }

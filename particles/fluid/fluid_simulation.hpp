@@ -113,6 +113,7 @@ class FluidSimulation {
   void check_ellipses() const;
   void estimate(const StepEquation& equation, std::span<const double> forces,
                 const HeldMotion* held, Motion& motion);
+  void keep_and_extrapolate(const StepEquation& equation, Motion& motion) const;
   void report_inertia(Motion& motion) const;
   ContactConditions contact_conditions(std::span<const double> free, double h) const;
   double kick_length(double h) const;

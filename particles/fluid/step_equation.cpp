@@ -16,15 +16,16 @@ namespace {
 
 /// Mass or moment of inertia of each component. The members of a body share its mass, and what of
 /// its moment of inertia their masses at their places do not make up.
-std::vector<double> masses_of(const Particles& p, const MotionLayout& layout) {
+std::vector<double> masses_of(const Particles& p, const Fluid& fluid, const MotionLayout& layout) {
   std::vector<double> masses(p.count() * layout.components);
   for (std::size_t k = 0; k < p.count(); ++k) {
     for (std::size_t d = 0; d < layout.directions(); ++d)
       masses[k * layout.components + d] = p.masses[k];
-    // A disc whose moment of inertia is not given is uniform.
+    // A disc or ellipse whose moment of inertia is not given is homogeneous.
     if (layout.components == 3)
-      masses[k * 3 + 2] =
-          p.inertias.empty() ? homogeneous_inertia(2, p.masses[k], p.radii[k]) : p.inertias[k];
+      masses[k * 3 + 2] = p.inertias.empty()
+                              ? fluid.homogeneous_inertia_of(k, p.masses[k], p.radii[k])
+                              : p.inertias[k];
   }
   for (const auto& body : p.bodies.bodies) {
     const auto shares = member_masses(body, p);
@@ -105,7 +106,7 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
       state_(state),
       h_(h),
       layout_{motion_components(state.particles.dimension)},
-      masses_(masses_of(state.particles, layout_)),
+      masses_(masses_of(state.particles, *setting.fluid, layout_)),
       next_(next),
       window_(window(setting, state, h, next)),
       forces_(mean_forces(setting, state.particles, masses_, layout_, window_.from_of_forces,

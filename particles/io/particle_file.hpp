@@ -52,7 +52,8 @@ struct FluidForces {
 ///
 /// With `forces`, which particles in a fluid have, discs also have the columns
 /// angle,angular_velocity,fluid_force_x,fluid_force_y,fluid_torque,fluid_force_error_estimate,
-/// fluid_torque_error_estimate, with ellipses also semi_axis_1,semi_axis_2, and spheres on an axis fluid_force_z,fluid_force_error_estimate.
+/// fluid_torque_error_estimate, with ellipses also semi_axis_1,semi_axis_2, and spheres on an axis
+/// fluid_force_z,fluid_force_error_estimate.
 /// Without, particles that turn have the columns angle,angular_velocity (discs) or
 /// angular_velocity_x,angular_velocity_y,angular_velocity_z.
 std::string write_particles(const Particles& particles,

@@ -35,8 +35,8 @@ TEST(Outline, DistanceToAnEllipseIsThatToItsNearestPoint) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> number(-3, 3), axis(0.05, 2);
   for (int n = 0; n < 40; ++n) {
-    const auto e = ellipse({number(random), number(random)}, {axis(random), axis(random)},
-                           2 * number(random));
+    const auto e =
+        ellipse({number(random), number(random)}, {axis(random), axis(random)}, 2 * number(random));
     const Point x = {number(random), number(random)};
     const double found = distance_to(e, x);
     EXPECT_NEAR(std::abs(found), distance_by_search(e, x), 1e-7);

@@ -46,8 +46,8 @@ class PlacedEllipse {
     particles_.dimension = 2;
     particles_.positions = {0, 0};
     particles_.radii = {std::max(fluid.semi_axes[0][0], fluid.semi_axes[0][1])};
-    solver_ = start_fluid_solver(fluid, particles::DiscDomain{{0, 0}, wall_radius},
-                                 particles_.radii, 2);
+    solver_ =
+        start_fluid_solver(fluid, particles::DiscDomain{{0, 0}, wall_radius}, particles_.radii, 2);
     solver_->place({&particles_, angles_, std::move(driven), {}});
   }
 
@@ -141,8 +141,7 @@ TEST(Ellipse, WithEqualSemiAxesIsADiscBitForBit) {
   disc.positions = {0, 0};
   disc.radii = {1};
   const std::vector<double> angles = {0};
-  const auto solver =
-      start_fluid_solver(fluid, particles::DiscDomain{{0, 0}, 5}, disc.radii, 2);
+  const auto solver = start_fluid_solver(fluid, particles::DiscDomain{{0, 0}, 5}, disc.radii, 2);
   solver->place({&disc, angles, {}, {}});
   EXPECT_EQ(solver->velocities(forces, true), ellipse);
 }

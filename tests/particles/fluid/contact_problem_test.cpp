@@ -27,7 +27,9 @@ struct Row {
       }
       return v;
     };
-    ContactProblem problem({free, 0.1, {2}, settings, 1, 0}, mobility);
+    ContactConditions conditions{free, 0.1, {2}, settings, 1, 0};
+    conditions.is_symmetric = skew == 0;
+    ContactProblem problem(conditions, mobility);
     for (std::size_t k = 0; k + 1 < free.size() / 2; ++k) {
       Contact<2> contact;
       contact.first = static_cast<std::int32_t>(k);
@@ -58,6 +60,36 @@ TEST(ContactProblem, IsSolvedInAFluidThatCarriesForcesAlong) {
     for (std::size_t k = 1; k < 5; ++k)
       EXPECT_NEAR(row.velocities[2 * k], row.velocities[0], 1e-8) << skew;
   }
+}
+
+// Two pairs far from each other: what the fluid carries along is little, and yet it is much for the
+// pair with the small impulse.
+TEST(ContactProblem, CountsWhatALargeImpulseDoesToASmallOne) {
+  const std::vector<double> free = {1e6, 0, 0, 0, 1, 0, 0, 0};
+  constexpr double kSkew = 1e-8;
+  const Mobility mobility = [](std::span<const double> forces) {
+    std::vector<double> v(forces.begin(), forces.end());
+    v[4] += kSkew * forces[2];
+    v[2] -= kSkew * forces[4];
+    return v;
+  };
+  const SolverSettings settings;
+  ContactConditions conditions{free, 0.1, {2}, settings, 1, 0};
+  conditions.is_symmetric = false;
+  ContactProblem problem(conditions, mobility);
+  for (const std::int32_t first : {0, 2}) {
+    Contact<2> contact;
+    contact.first = first;
+    contact.second = first + 1;
+    contact.normal = {1, 0};
+    problem.add(contact);
+  }
+  ASSERT_TRUE(problem.solve(false));
+  // Equal velocities of both discs of a pair: p = h (v_1 - v_2)/2 with the velocities without the
+  // impulses of the own pair.
+  EXPECT_NEAR(problem.contacts()[0].impulse, 0.1 * 1e6 / 2, 1e-2);
+  const double carried = kSkew * problem.contacts()[0].impulse / 0.1;
+  EXPECT_NEAR(problem.contacts()[1].impulse, 0.1 * (1 + carried) / 2, 1e-8);
 }
 
 TEST(ContactProblem, HasTheImpulsesThatMakeAllVelocitiesEqual) {
