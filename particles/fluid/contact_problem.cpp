@@ -269,7 +269,8 @@ bool ContactProblem::solve(bool is_rough) {
   is_rough_ = false;
   if (contacts_.empty()) return true;
   const auto& layout = conditions_.layout;
-  const bool is_dense = contacts_.size() <= kMostDenseContacts;
+  // Conjugate gradients need a symmetric W.
+  const bool is_dense = contacts_.size() <= kMostDenseContacts || !conditions_.is_symmetric;
   if (is_dense) {
     while (responses_.size() < contacts_.size()) {
       auto& contact = contacts_[responses_.size()];

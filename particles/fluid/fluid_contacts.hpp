@@ -95,7 +95,7 @@ StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const 
                                 const ContactConditions& conditions);
 
 /// Largest number of contacts for which the matrix W is computed, by one product with the mobility
-/// for each contact. Above it, products take place within conjugate gradients.
+/// for each contact. Above it, products take place within conjugate gradients, if W is symmetric.
 inline constexpr std::size_t kMostDenseContacts = 24;
 
 /// Finds the impulses p of contacts with p >= gamma, D + h G v >= 0 where p = gamma, and

@@ -65,6 +65,16 @@ double coefficient(InFluid system, const Units& units, std::vector<Rebound>& reb
   return 0;
 }
 
+/// Does so many steps, each of which must converge. Returns how often solids rebound in them.
+std::size_t rebounds_in(FluidSimulation& simulation, int steps) {
+  std::size_t rebounds = 0;
+  for (int step = 0; step < steps; ++step) {
+    EXPECT_TRUE(simulation.step(1e9).converged);
+    rebounds += simulation.rebounds().size();
+  }
+  return rebounds;
+}
+
 TEST(ReboundInFluid, OfASphereIsThatOfTheFirstIntegral) {
   // (4.14) with the drag k/q at all gaps, which the fluid resolves above 0.1. It is of first order in
   // the step, and the film and the solids are exact, so that the error vanishes with the step.
@@ -297,12 +307,7 @@ TEST(ReboundInFluid, DoesNotOccurUnderALoadOrWithoutMomentum) {
         add_pushed(system, {1.05 + gap * 1e-3, 0, 0}, 1, 2, {-3, 0, 0});
         add_pushed(system, {3.10 + gap * 2e-3, 0, 0}, 1, 1, {-3, 0, 0});
         auto simulation = system.simulation(constant_drag(drag));
-        std::size_t rebounds = 0;
-        for (int step = 0; step < 300; ++step) {
-          EXPECT_TRUE(simulation.step(1e9).converged);
-          rebounds += simulation.rebounds().size();
-        }
-        EXPECT_EQ(rebounds, 0U);
+        EXPECT_EQ(rebounds_in(simulation, 300), 0U);
         EXPECT_NEAR(simulation.state().particles.positions[0], 1.05, 1e-4);
         EXPECT_NEAR(simulation.state().particles.positions[1], 3.10, 1e-4);
       }
@@ -372,12 +377,7 @@ TEST(ReboundInFluid, InTheFirstStepWithInertiaIsCountedOnce) {
       auto system = with_inertia(sphere_in_film(stokes, 0.1, 0.001));
       system.setting.fluid->coupling = coupling;
       auto simulation = system.simulation(constant_drag(kNoDrag));
-      std::size_t rebounds = 0;
-      for (int step = 0; step < 30; ++step) {
-        EXPECT_TRUE(simulation.step(1e9).converged);
-        rebounds += simulation.rebounds().size();
-      }
-      EXPECT_EQ(rebounds, 1U);
+      EXPECT_EQ(rebounds_in(simulation, 30), 1U);
       EXPECT_NEAR(simulation.state().particles.velocities[0],
                   kDry - (1 + kDry) * std::log(10.0) / stokes, 1e-9);
       EXPECT_EQ(pair_of(simulation.state(), -2, 0).gamma, 0);
