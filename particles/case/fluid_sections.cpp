@@ -289,7 +289,7 @@ void inertia_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
       "start",
       case_file::one_of(fluid.start, {{"rest", FlowStart::kRest}, {"stokes", FlowStart::kStokes}}),
       {"the flow at time 0: at rest, or the Stokes flow around particles that move "
-       "without inertia"});
+       "without inertia, and therefore must have no `velocity`"});
   const bool has_gradient = keys.optional(
       "pressure_gradient",
       case_file::custom("`[NUMBER, NUMBER]`", read_pressure_gradient, fluid.pressure_gradient),

@@ -312,6 +312,14 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
           fmt::format("{} has no mass; in a fluid with a density it must have a density "
                       "(or mass) > 0",
                       names(k)));
+    const bool turns = !p.angular_velocities.empty() && p.angular_velocities[k] != 0;
+    if (fluid.start == FlowStart::kStokes && (norm(p.velocity(k)) > 0 || turns))
+      throw_bad_input(names.at(k),
+                      fmt::format("{} has a velocity at time 0, which has no effect with "
+                                  "fluid.start = \"stokes\": the Stokes flow of the first instant "
+                                  "gives the particle its velocity; the velocity must be left out, "
+                                  "or fluid.start be \"rest\"",
+                                  names(k)));
     // Inertia of a viscous body is that of its density, which is uniform.
     constexpr double kRounding = 1e-9;
     if (fluid.constraint == RigidConstraint::kRigid || p.inertias.empty()) continue;

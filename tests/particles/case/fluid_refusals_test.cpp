@@ -27,6 +27,17 @@ TEST(RefusedEllipse, InABodyOrWithASolverThatKnowsDiscsOnly) {
                     "solver", "is a program of the user's own, which knows discs only");
 }
 
+TEST(RefusedVelocity, AtTheStartOfAStokesFlow) {
+  const auto text = changed(kDiscsInDisc, "viscosity = 2.0",
+                            "viscosity = 2.0\ndensity = 1.0\nstart = \"stokes\"");
+  const auto moving = changed(text, "force = [0.0, -1.0]", "mass = 1.0\nVELOCITY");
+  for (const auto* velocity : {"velocity = [1.0, 0.0]", "angular_velocity = 1.0"})
+    expect_refused_at(
+        changed(moving, "VELOCITY", velocity), "[[particle]]",
+        "has a velocity at time 0, which has no effect with fluid.start = \"stokes\"");
+  EXPECT_NO_THROW((void)read_particles_text(changed(moving, "VELOCITY\n", "")));
+}
+
 class RefusedFluid : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(RefusedFluid, NamesTheLineTheKeyAndWhatIsAllowed) {
