@@ -267,15 +267,18 @@ density = 3.0
 centre = [1.1, 2.2]
 radius = 0.5
 density = 6.0
-velocity = [0.0, -1.0]
+VELOCITY
 )";
   for (const auto& [method, periodic] :
        {std::pair("constraint = \"rigid\"", "false"), std::pair("mesh = \"fixed\"", "false"),
         std::pair("advection = \"characteristics\"\nstart = \"stokes\"\ncoupling = \"splitting\"",
                   "true")}) {
     SCOPED_TRACE(method);
+    // The Stokes flow of the first instant gives every particle its velocity.
+    const bool from_rest = std::string_view(method).find("stokes") == std::string_view::npos;
     const auto text = [&](const std::string& end) {
       auto changed = replaced_matches(one, "METHOD", method);
+      changed = replaced_matches(changed, "VELOCITY", from_rest ? "velocity = [0.0, -1.0]" : "");
       changed = replaced_matches(changed, "PERIODIC", periodic);
       return replaced_matches(changed, "END", end);
     };
