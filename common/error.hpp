@@ -1,6 +1,6 @@
 // The error type of Viscontact. Every error that a user can cause or meet is thrown as
-// viscontact::Error, and, unless a caller handles it, app/main.cpp prints its message and ends with
-// the exit code of its kind. A new kind needs an exit code, and a row in docs/command-line.md.
+// viscontact::Error. Unless a caller handles it, app/main.cpp prints its message and ends with the
+// exit code of its kind. A new kind needs an exit code, and a row in docs/command-line.md.
 #pragma once
 
 #include <stdexcept>

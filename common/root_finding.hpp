@@ -1,7 +1,7 @@
 // Root finding in one unknown: bisection of a condition, and Newton's method in a bracket. A change
-// must keep the points at which functions are evaluated, because trajectories depend on them in
-// their last digits. Boost.Math 1.74 takes other points and is therefore not used; besides, its
-// header takes 1.2 s to compile.
+// must keep the points at which functions are evaluated, because the drag, the models of one sphere
+// and rolling depend on them in their last digits. Nothing is thrown. Boost.Math 1.74 takes other
+// points and is therefore not used; besides, its header takes 1.2 s to compile.
 #pragma once
 
 #include <utility>
@@ -30,8 +30,8 @@ enum class Bracket { kOpen, kClosed };
 template <class ExcessAndSlope, class Settled>
 double bracketed_newton(double x, double low, double high, Bracket bracket,
                         const ExcessAndSlope& excess_and_slope, const Settled& settled) {
-  // A safety limit. Bisection alone takes about 60 steps to shorten the bracket by a factor of
-  // 1e18.
+  // A limit that is never reached. Bisection alone takes about 60 steps to shorten the bracket by a
+  // factor of 1e18.
   constexpr int kMaxSteps = 200;
   for (int step = 0; step < kMaxSteps; ++step) {
     const auto [excess, slope] = excess_and_slope(x);

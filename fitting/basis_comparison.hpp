@@ -1,6 +1,7 @@
 // Fits of one table in several bases, and the choice between them by Akaike's information criterion
 // (FitDiagnostics::information_criterion). Lengths, masses and times are in the units of the table.
-// `fit --compare-bases` and the report print and draw these fits.
+// `fit --compare-bases` and the report print and draw these fits. A change must keep that one basis
+// that fails does not stop the others.
 #pragma once
 
 #include <optional>
@@ -26,7 +27,7 @@ struct BasisResult {
 std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
                                        const FitSettings& settings, const StopToken& stop = {});
 
-/// The result with the smallest information criterion; null if no result has one.
+/// The result with the smallest information criterion; null if no result has a criterion.
 const BasisResult* best_basis(const std::vector<BasisResult>& results);
 
 }  // namespace viscontact::fitting

@@ -1,6 +1,7 @@
 // Assembles the equations of a fit, physics.md (3.2), from the rows of a table, solves them, and
 // sets the members of the fit. Lengths, masses and times are in the units of the table; q is the
-// gap, r the radius of the sphere, F the force and u the velocity of a row.
+// gap, r the radius of the sphere, F the force and u the velocity of a row. Errors and what a
+// change must keep are in fit_force_table.hpp.
 #include "viscontact/fitting/fit_force_table.hpp"
 
 #include <fmt/format.h>
@@ -31,9 +32,9 @@ namespace {
 /// The least squares problem of a fit: a row for each row of the table, a column for each fitted
 /// coefficient.
 struct FittedSystem {
-  /// Weight * term(gap), times the square root of the weight that the loss gives the row.
+  /// Row weight times term(gap), times the square root of the weight that the loss gives the row.
   Eigen::MatrixXd weighted_matrix;
-  /// (Fit - table), times the same weights.
+  /// Fit minus table, times the same two factors.
   Eigen::VectorXd weighted_residual;
   /// Fit/table - 1, or the residual over another scale (FitSettings::row_scales).
   Eigen::VectorXd relative_residual;
@@ -46,7 +47,7 @@ struct FittedSystem {
 };
 
 /// The diagnostics of a fit whose other members are complete. They contain a warning if the fitted
-/// resistance has not the shape that theory demands (FitSettings::shape).
+/// resistance does not have the shape that theory demands (FitSettings::shape).
 lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
                                      const FittedSystem& system, const lubrication::Fit& fit,
                                      lubrication::FittedShape shape);
@@ -209,7 +210,7 @@ void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
   }
 }
 
-/// The names of the table's failed rows, of many only the first ones.
+/// The names of the table's failed rows; if there are many, only the first ones.
 std::string names_of_failed_rows(const lubrication::MotionTable& table) {
   constexpr std::size_t kNamed = 5;
   std::vector<std::string> names;
@@ -340,7 +341,7 @@ void check_gaps(const lubrication::MotionTable& table, const FitSettings& settin
 
 /// The equations of the least-squares problem, with a row for each row of the table.
 struct Equations {
-  // The forces, scaled to the velocity of the first row.
+  // The forces [M L/T^2], scaled to the velocity of the first row.
   Eigen::VectorXd force;
   // The forces minus the fixed term.
   Eigen::VectorXd left;

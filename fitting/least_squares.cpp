@@ -1,6 +1,7 @@
 // Linear least squares in three steps: the columns are scaled by powers of two, Ceres solves the
-// problem, and the solution is refined in extended precision. A change must keep the digits that
-// least_squares.hpp names.
+// problem, and the solution is refined in extended precision. Numbers have any units. Dependent
+// columns are an Error(kNotConverged), entries that overflow an Error(kBadInput). A change must
+// keep the digits of the NIST problems in the tests. robust_least_squares.cpp calls it.
 #include "viscontact/fitting/least_squares.hpp"
 
 #include <ceres/ceres.h>
@@ -56,8 +57,8 @@ Eigen::VectorXd binary_scale(const Eigen::MatrixXd& matrix) {
 void refine(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side,
             Eigen::VectorXd& solution) {
   using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-  // Each step gains as many digits as the condition number leaves of double precision. After four
-  // steps, further steps change nothing.
+  // Each step gains about 16 digits less the logarithm of the condition number. After four steps,
+  // further steps change nothing.
   constexpr int kSteps = 4;
   const Eigen::Index columns = matrix.cols();
   const auto long_matrix = matrix.cast<long double>();

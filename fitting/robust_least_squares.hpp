@@ -1,6 +1,7 @@
 // Least squares that are insensitive to a few wrong rows: M-estimates (Huber 1981), with the loss
 // functions of Ceres. The residuals and the scale are in the unit of the right-hand side. Fits of
-// force tables use it, also without a robust loss.
+// force tables use it, also without a robust loss, and then the result must stay that of
+// least_squares.hpp.
 #pragma once
 
 #include "viscontact/common/stop_token.hpp"

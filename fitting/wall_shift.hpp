@@ -1,6 +1,7 @@
 // The shift of a rough wall: how far below its crests it acts like a smooth one (Lefebvre 2008,
 // "Rugosité"; Vinogradova & Yakubov 2006). R is the resistance (drag over velocity), q the gap.
-// Lengths, masses and times are in the units of the table. The command `shift` uses it.
+// Lengths, masses and times are in the units of the table. The command `shift` uses it. A change
+// must keep the sign: the shift is > 0 if the rough wall resists less.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,6 @@
-// The command line and the environment of FreeFEM processes (freefem_command.hpp).
+// The command line and the environment of FreeFEM processes (freefem_command.hpp). A missing script
+// folder is an Error(kExternalProgram). A change must keep that a user's folder and settings of
+// FreeFEM have no effect on a script.
 #include "viscontact/freefem/freefem_command.hpp"
 
 #include <fmt/format.h>

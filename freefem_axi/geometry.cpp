@@ -1,4 +1,6 @@
-// The registry of geometries. Lengths are in the units of the case.
+// The registry of geometries (geometry.hpp). Lengths are in any one unit, and q is the gap. An
+// unknown name or motion is an Error(kBadInput). A change must keep the names, which case files and
+// tables contain.
 #include "viscontact/freefem_axi/geometry.hpp"
 
 #include <fmt/format.h>

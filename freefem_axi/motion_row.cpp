@@ -1,5 +1,6 @@
-// Calls the script of a geometry with -motion and reads its lines "viscontact-action", in which
-// viscosity, radius and the velocity of the motion are 1.
+// Calls the script of a geometry with -motion and reads its lines "viscontact-action"
+// (scripts/row.idp), in which viscosity, radius and the velocity of the motion are 1. Lines that
+// are missing or contradict each other are an Error(kExternalProgram).
 #include "viscontact/freefem_axi/motion_row.hpp"
 
 #include <fmt/format.h>
@@ -24,14 +25,14 @@ using lubrication::MotionRow;
 
 constexpr double kForceUnit = 6 * std::numbers::pi, kTorqueUnit = 8 * std::numbers::pi;
 
-/// A line "viscontact-action": the numbers after solution and body.
+/// A line "viscontact-action": solution, body, and the numbers after them.
 struct ActionLine {
   std::size_t solution = 0, body = 0;
   /// Force, torque, their error estimates, observed order.
   std::array<double, 5> numbers{};
 };
 
-/// All these lines. Nothing if a number is missing or not finite.
+/// All lines "viscontact-action". Nothing if a number is missing or not finite.
 std::optional<std::vector<ActionLine>> read_action_lines(const std::string& output) {
   std::vector<ActionLine> actions;
   std::istringstream lines(output);
@@ -51,7 +52,7 @@ std::optional<std::vector<ActionLine>> read_action_lines(const std::string& outp
   return actions;
 }
 
-/// The factors and their errors.
+/// The factors of force and torque, and the estimates of their errors.
 Action action_of(const ActionLine& line) {
   // 0 - x is 0 where x is 0, while -x would be written as -0.
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();

@@ -1,6 +1,7 @@
 // The tables of the motions of one sphere as TablePlans. A row's point is { gap [L], velocity [L/T]
 // } in the approach and { gap } in the other motions, whose forces and torques are taken as
-// proportional to viscosity and velocity. Numbers are in the units of the case.
+// proportional to viscosity and velocity. Numbers are in the units of the case. The stage
+// `tabulate` uses it.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,6 @@
-// Reads the meshes and the flow that scripts/pictures.idp prints, and writes them for ParaView.
-// Lengths, masses and times are in the units of the case.
+// Reads the meshes and the flow that scripts/pictures.idp prints, and writes them for ParaView
+// (row_picture.hpp). Lengths, masses and times are in the units of the case. An incomplete mesh is
+// an Error(kExternalProgram). A change of the format must be made in both files.
 #include "viscontact/freefem_axi/row_picture.hpp"
 
 #include <fmt/format.h>

@@ -31,7 +31,7 @@ enum class Misfit {
   kUnknown
 };
 
-/// "basis", "data" or "unknown".
+/// The word for the cause in fit files: "basis", "data" or "unknown".
 std::string_view to_string(Misfit misfit);
 
 /// The inverse of to_string(). Throws Error(kBadInput) for another word.
@@ -130,7 +130,7 @@ Weights parse_weights(std::string_view word);
 /// (Holland & Welsch 1977).
 enum class Loss { kSquared, kHuber, kCauchy };
 
-/// "none", "huber" or "cauchy".
+/// The word for the loss in fit files: "none", "huber" or "cauchy".
 std::string_view to_string(Loss loss);
 
 /// The inverse of to_string(). Throws Error(kBadInput) for another word.
@@ -207,7 +207,7 @@ void fields_of(JsonFields& json, Fit& fit);
 /// line, the key and what is allowed.
 Fit read_fit(const std::filesystem::path& path);
 
-/// Does the same with the text of a fit file. `file` is its name in messages.
+/// As read_fit(), for the text of a fit file. `file` is its name in messages.
 Fit parse_fit(const std::string& text, const std::string& file);
 
 /// The text of the fit file (JSON), without provenance.

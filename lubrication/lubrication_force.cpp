@@ -1,6 +1,7 @@
 // Resistance, its derivative and its primitive, inside the fitted interval and in the limits
-// outside of it, and the inverse of the primitive. The equations are in lubrication_force.hpp.
-// Lengths, masses and times are in any one consistent system of units.
+// outside of it, and the inverse of the primitive. The equations, units and errors are in
+// lubrication_force.hpp. Lengths are in any unit. A change must keep R and Gamma continuous where a
+// formula replaces another one.
 #include "viscontact/lubrication/lubrication_force.hpp"
 
 #include <fmt/format.h>
@@ -207,8 +208,9 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   const double low = std::log(smallest / radius_);
   const double high = std::log(largest / radius_);
   if (exact_ && impulse_wanted > impulse(smallest) && impulse_wanted < impulse(largest)) {
-    // K is larger than 1/eps and larger than 1. So Gamma/k < ln eps for eps < 1, and Gamma/k
-    // is larger than both ln eps and eps - 1 for eps > 1.
+    // With eps = gap/radius and the drag factor K of a plane, which is larger than 1/eps and larger
+    // than 1: Gamma/k < ln eps for eps < 1, and Gamma/k is larger than both ln eps and eps - 1 for
+    // eps > 1.
     const double scaled = impulse_wanted / leading_;
     if (scaled < 0) return {std::max(scaled, low), 0.0};
     return {0.0, std::min(scaled, std::log1p(scaled))};

@@ -32,8 +32,7 @@ MotionKind parse_motion(std::string_view name);
 /// The names, separated by commas, as the head of a table lists the motions of its tabulation:
 /// "approach, slide". Empty without motions.
 std::string motions_in_words(const std::vector<MotionKind>& motions);
-/// The motions of a text that motions_in_words() made. Throws Error(kBadInput) as parse_motion()
-/// does.
+/// The motions of a text that motions_in_words() made. Throws the errors of parse_motion().
 std::vector<MotionKind> parse_motions_in_words(const std::string& words);
 
 }  // namespace viscontact::lubrication

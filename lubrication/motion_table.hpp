@@ -1,6 +1,7 @@
 // The table of force and torque on a sphere in one of its motions (approaching, sliding, rolling,
-// spinning), over a grid of gaps and velocities, which the tabulation writes and the fits read. A
-// change must keep the names of the columns, because published tables use them.
+// spinning), over a grid of gaps and velocities, which the tabulation writes and the fits read.
+// Lengths, masses and times are in any one consistent system of units. A change must keep the names
+// of the columns, because published tables use them.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +14,9 @@ namespace viscontact::lubrication {
 /// Force and torque of the fluid on a body. The factors are force and torque over those of the
 /// sphere alone but for the sign: force = -6 pi mu r u0 * force_factor if the sphere moves at u0
 /// [L/T], -6 pi mu r^2 w0 * force_factor if it turns at w0 [1/T]; torque = -8 pi mu r^2 u0 *
-/// torque_factor, or -8 pi mu r^3 w0 * torque_factor. r is always the radius of the first sphere.
-/// The errors of the factors are relative to the sphere's force factor if it moves, and to its
-/// torque factor if it turns.
+/// torque_factor, or -8 pi mu r^3 w0 * torque_factor. mu is the viscosity, r always the radius of
+/// the first sphere. The errors of the factors are relative to the sphere's force factor if it
+/// moves, and to its torque factor if it turns.
 struct Action {
   double force = 0;                    ///< [M L/T^2]
   double torque = 0;                   ///< [M L^2/T^2]
@@ -46,8 +47,8 @@ struct MotionRow : Action {
 /// A table of one of the motions.
 using MotionTable = Table<MotionRow>;
 
-/// The columns of a row: gap and velocity, the action on the sphere, what the row says of its
-/// computation, and the action on the neighbour if it is a sphere.
+/// The columns of a row: gap and velocity, the action on the sphere, how the row was computed, and
+/// the action on the neighbour if it is a sphere.
 std::vector<Column> columns_of(const TableHead& head, MotionRow& row);
 
 /// Adds a neighbour if tables of the motion may have one.
@@ -80,11 +81,11 @@ bool is_motion_table(const std::filesystem::path& path);
 
 /// Reads a table of any motion; one whose head names no motion is of the approach. The columns gap,
 /// reference_velocity and force are required, and torque if the motion is not the approach; the
-/// others may be absent in a table that Viscontact did not write. Throws as read_table()
-/// (table_codec.hpp) and check() do.
+/// others may be absent in a table that Viscontact did not write. Throws the errors of read_table()
+/// (table_codec.hpp) and check().
 MotionTable read_motion_table(const std::filesystem::path& path);
 
-/// Does the same, and throws Error(kBadInput) for another motion than the approach.
+/// As read_motion_table(), but throws Error(kBadInput) for another motion than the approach.
 MotionTable read_force_table(const std::filesystem::path& path);
 
 /// The text of the file.

@@ -1,4 +1,5 @@
-// The drag of a sphere in an unbounded fluid, the unit in which tables and limits give other drags.
+// The drag of a sphere in an unbounded fluid, the unit in which tables, fits and limits give other
+// drags. It checks nothing.
 #pragma once
 
 #include <numbers>

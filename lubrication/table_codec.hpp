@@ -1,5 +1,6 @@
-// The one codec of all tables (table.hpp, docs/file-formats.md). For a struct Row it needs, in the
-// namespace of the Row:
+// Reads and writes tables of all kinds (table.hpp, docs/file-formats.md), in the units of the
+// table. Tabulations write by it and fits read; a change must keep published tables readable. For a
+// struct Row it needs, in the namespace of the Row:
 //   static constexpr bool Row::kIsOfLine: if the head has the radii of several spheres;
 //   void prepare(const TableHead&, Row&): gives vectors the sizes of the table;
 //   std::vector<Column> columns_of(const TableHead&, Row&): in the order of the file; the first ones
@@ -21,7 +22,7 @@ namespace viscontact::lubrication {
 /// Reads the head in the text of a file. Throws Error(kBadInput), which names file and key.
 TableHead read_head(const std::string& text, const std::string& file, bool is_of_line);
 
-/// The lines of the head of a table with so many rows.
+/// The lines of the head of a table with `rows` rows.
 CsvComments lines_of(const TableHead& head, std::size_t rows);
 
 /// Sets the numbers of a row from its fields, of which some may be empty. Throws Error(kBadInput)

@@ -56,7 +56,7 @@ double sum_log_slopes(std::span<const double> weights, double gap);
 /// Sum of weight * antiderivative over all_terms(), as sum_values().
 double sum_antiderivatives(std::span<const double> weights, double gap);
 
-/// The index of the term in all_terms(). Throws Error(kBadInput) if no term has this name.
+/// The index, from 0, of the term in all_terms(). Throws Error(kBadInput) if no term has this name.
 std::size_t place_of(std::string_view term);
 
 /// A named list of terms.

@@ -1,4 +1,5 @@
-// The names, bases and values of the resistances of a pair.
+// The names, bases and values of the resistances of a pair (pair_fit.hpp). Values have the units of
+// the fit. An unknown name or a missing entry is an Error(kBadInput). A change must keep the names.
 #include "viscontact/motions/pair_fit.hpp"
 
 #include <fmt/format.h>

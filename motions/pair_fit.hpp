@@ -1,7 +1,7 @@
 // The fits of all resistances of a sphere beside its neighbour, as functions of the gap (physics.md
 // (2.12)), and their file. Lengths, masses and times are in the units of the tables.
-// fitting/fit_pair.hpp makes these fits, and reduced_model/rolling/ reads them. A change must keep
-// the names of entries, bases and keys, which files contain.
+// fit/fit_pair.hpp makes these fits, and rolling/ reads them. A change must keep the names of
+// entries, bases and keys, which files contain.
 #pragma once
 
 #include <array>

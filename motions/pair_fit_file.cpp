@@ -1,5 +1,6 @@
 // The fields of the file of a PairFit (docs/file-formats.md): one object per entry, each of which
-// has the keys of a fit file.
+// has the keys of a fit file. Numbers have the units of the fit. Every fault is an Error(kBadInput)
+// with line and key. A change must keep published files readable.
 #include <fmt/format.h>
 
 #include "viscontact/common/equal_up_to_rounding.hpp"

@@ -1,6 +1,6 @@
 // Reduces the number of rows of a trajectory, so that its file is easy to handle (key `rows` of
-// [motion]). A change must keep all rows that compare_trajectories() looks for, such as the one
-// with the smallest gap.
+// [motion]). The stage that simulates calls it. A change must keep all rows that
+// compare_trajectories() looks for, such as the one with the smallest gap.
 #pragma once
 
 #include <vector>

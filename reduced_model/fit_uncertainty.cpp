@@ -1,5 +1,7 @@
 // Random draws of the coefficients of a fit, the bound from the misfit, and the file
-// uncertainty.json. Lengths, masses and times are in the units of the case.
+// uncertainty.json (fit_uncertainty.hpp). Lengths, masses and times are in the units of the case.
+// If all draws were left out, the error is Error(kNotConverged). A change must keep the draws of
+// the fixed seed.
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 
 #include <fmt/format.h>

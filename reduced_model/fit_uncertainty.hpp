@@ -1,6 +1,6 @@
 // How the errors of a fit change the motion without inertia (physics.md (4.2) with m = 0), for
 // uncertainty.json and the report. q is the gap, q0 the initial one, R the resistance, Gamma its
-// primitive, f_ext the external force; the index fit marks what the fit gives. Lengths, masses and
+// primitive, f_ext the external force; the index `fit` marks values by the fit. Lengths, masses and
 // times are in the units of the case. A change must keep the draws equal for equal arguments.
 #pragma once
 

@@ -1,7 +1,7 @@
-// Parameters of models of motion: numbers of the case file that a model declares. A new parameter
-// is declared beside its model and in no other file; a parameter of several models is in
-// motion.hpp. Case files, their documentation, sweeps and the report learn of it from the table of
-// models. A change must keep the keys, which case files contain.
+// Parameters of models of motion: numbers of the case file that a model declares, in the units of
+// the case. A new parameter is declared beside its model and in no other file; a parameter of
+// several models is in motion.hpp. Case files, their documentation, sweeps and the report learn of
+// it from the table of models. A change must keep the keys, which case files contain.
 #pragma once
 
 #include <string_view>

@@ -2,7 +2,9 @@
 // change of the solid contact to the next: the sphere touches the roughness, its slip ends,
 // friction no longer prevents slip, or the sphere is lifted off. x is along the plane, z away from
 // it, y the axis of rotation; u, V are the velocities of sphere and plane along x, w is the angular
-// velocity. Lengths, masses and times are in any one consistent system of units.
+// velocity. s is ln(q/r) with the gap q and the radius r. Lengths, masses and times are in any one
+// consistent system of units. A start above the fit is an Error(kBadInput), a step that CVODE gives
+// up an Error(kNotConverged). A change must keep the slip exactly 0 while the sphere rolls.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +20,7 @@
 namespace viscontact::rolling {
 namespace {
 
-/// The components of the state: s, u - V, w, x and the angle.
+/// The components of the state: s [1], u - V [L/T], w [1/T], x [L] and the angle [rad].
 enum RollingState : std::size_t { kLogGap, kMove, kTurn, kPosition, kAngle, kStates };
 /// The state y of the sphere, in the order of RollingState.
 using RollingStateVector = std::array<double, kStates>;
@@ -85,7 +87,8 @@ reduced_model::Motion normal_motion(const RollingMotion& motion) {
           .external_force = reduced_model::ExternalForce({{motion.end_time, motion.normal_force}})};
 }
 
-/// The fluid, which throws if the sphere starts above the gaps of the fit.
+/// The fluid around the sphere. Throws Error(kBadInput) if the sphere starts above the gaps of the
+/// fit.
 RollingFluid fluid_around(const RollingMotion& motion, const motions::PairFit& fit) {
   const RollingFluid fluid(fit);
   (void)fluid.at(motion.initial_gap);

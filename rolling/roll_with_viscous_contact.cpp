@@ -1,5 +1,7 @@
 // The model `viscous_contact` of a sphere that moves along a plane and turns: time steps by
-// physics.md (4.5) and (4.10). Lengths, masses and times are in any one consistent system of units.
+// physics.md (4.5) and (4.10). gamma is minus the impulse that the film has absorbed, q0 the
+// initial gap. Lengths, masses and times are in any one consistent system of units. A fit that
+// lacks an entry is an Error(kBadInput). A change must keep the balance of contact_step.hpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,7 +31,7 @@ class ImplicitStep {
     return {(c_ * f.force - b_ * f.torque) / determinant,
             (a_ * f.torque - b_ * f.force) / determinant};
   }
-  /// Change of the slip at the end of the step by a unit of friction.
+  /// Change of the slip at the end of the step by a unit of friction [1/M times T].
   double compliance() const { return slip_of(solve({1, -radius_}), radius_); }
 
  private:

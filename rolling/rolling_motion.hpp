@@ -63,7 +63,7 @@ using RollingTrajectory = std::vector<RollingRow>;
 RollingTrajectory roll_smooth(const RollingMotion& motion, const motions::PairFit& fit);
 
 /// Lubrication, and solid contact with Coulomb's friction at the gap `roughness`, CVODE. The impact
-/// is without rebound. Throws as roll_smooth() does.
+/// is without rebound. Throws the errors of roll_smooth().
 RollingTrajectory roll_rough(const RollingMotion& motion, const motions::PairFit& fit);
 
 /// Viscous contact (physics.md (4.5)) along z with time steps: the film acts only by gamma, minus

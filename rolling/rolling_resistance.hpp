@@ -1,6 +1,7 @@
 // Forces on a sphere that moves along a plane and turns: the fluid's resistance (physics.md (2.12))
 // and dry friction. x is along the plane, y the axis of rotation, q the gap. Lengths, masses and
-// times are in any one consistent system of units. The models of rolling_motion.hpp use it.
+// times are in any one consistent system of units. The models of rolling_motion.hpp use it. A
+// change must keep the signs, by which the drag opposes the motion.
 #pragma once
 
 #include <vector>
@@ -29,7 +30,7 @@ struct RollingResistance {
   double slide_roll = 0;  ///< [M L/T]; the entries off the diagonal are -slide_roll
 };
 
-/// The resistances at a gap, and their derivatives by ln q.
+/// The resistances as functions of the gap, and their derivatives by ln q.
 class RollingFluid {
  public:
   /// `fit` must outlive the object. Throws Error(kBadInput) if the fit lacks squeeze, slide, roll

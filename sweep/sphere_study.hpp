@@ -1,6 +1,6 @@
 // The sweep of a case of one sphere: each row has the gaps, films and distances of several models
-// (docs/file-formats.md). Lengths, masses and times are in the units of the case. A change of the
-// columns must keep their names, because scripts of users read them.
+// (docs/file-formats.md). Lengths, masses and times are in the units of the case. `sweep` calls it.
+// A change must keep the names of the columns, because scripts of users read them.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +20,8 @@ struct SpherePlan {
   lubrication::OutsideInterval outside;  ///< drag outside the interval of the fit
   Points points;                         ///< at least one variation, no draws
   std::vector<std::string> models;       ///< at least one
-  /// The model with which the others are compared, one of `models`; empty:
-  /// reduced_model::reference_of.
+  /// The model with which the others are compared, one of `models`; empty: that of
+  /// reduced_model::reference_of().
   std::string reference;
 };
 

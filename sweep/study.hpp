@@ -1,8 +1,9 @@
 // What sweeps of all kinds of cases share: rows of named numbers at the points of a sweep, and the
 // CSV file in which they are kept (docs/file-formats.md). The file is written row by row, so that a
-// later call continues an interrupted sweep after its last row. A kind of case adds one function
-// that makes a Study: how a point becomes a case, and which numbers its row has. Numbers are in the
-// units of the case. A change must keep the form of the file, which scripts of users read.
+// later call continues an interrupted sweep after its last row. Each kind of case has a function
+// that makes a Study (sphere_study.hpp, rolling_study.hpp, swimmer_study.hpp, particles_study.hpp):
+// how a point becomes a case, and which numbers its row has. Numbers are in the units of the case.
+// A change must keep the form of the file, which scripts of users read.
 #pragma once
 
 #include <cstddef>
@@ -46,8 +47,8 @@ struct Study {
   /// Lines "# key: value" for the head of the file. Files with the same head and the same columns
   /// have the same rows.
   std::map<std::string, std::string> comments;
-  /// Computes the results of a row. It is called by several threads at once, and throws
-  /// Error(kInterrupted) if `stop` requests a stop. Another Error ends the whole sweep.
+  /// Computes the results of a row. Several threads call it at once. It throws Error(kInterrupted)
+  /// if `stop` requests a stop; any other Error that it throws ends the whole sweep.
   std::function<RowResults(std::uint64_t index, const StopToken& stop)> run;
 
   std::uint64_t size() const { return points.rows(); }  ///< number of rows, > 0

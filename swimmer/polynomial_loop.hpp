@@ -1,6 +1,7 @@
 // Closed loops of polynomials through a given shape, and the displacement and energy of these loops
 // as functions of their coefficients, for the optimal stroke (optimal_stroke.hpp). Lengths, masses
-// and times are in the units of the swimmer's fit.
+// and times are in the units of the swimmer's fit. A change must keep that gradients are those of
+// the sums to round-off.
 #pragma once
 
 #include <Eigen/Core>
@@ -51,7 +52,7 @@ class LoopFunctional {
   /// True if the table contains the loop at all points of the quadrature.
   bool contains(const PolynomialLoop& loop) const;
 
-  /// The displacement alone [L]. Throws as the function below does.
+  /// The displacement alone [L]. Throws Error(kBadInput) if the table does not contain the loop.
   double displacement(const PolynomialLoop& loop) const;
 
   /// Throws Error(kBadInput) if the table does not contain the loop.

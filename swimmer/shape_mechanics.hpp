@@ -1,6 +1,7 @@
 // A swimmer made of spheres on a line that changes its arms, in a fluid without inertia (Najafi &
 // Golestanian 2004, Phys. Rev. E 69, 062901; Alouges, DeSimone & Lefebvre 2008, J. Nonlinear Sci.
-// 18, 277; physics.md, section 7). Lengths, masses and times are in the units of the fit.
+// 18, 277; physics.md, section 7). Lengths, masses and times are in the units of the fit. Strokes
+// (swim.hpp) and their search use it.
 //
 // x_k is the distance between the centres of spheres k and k + 1. With the resistance matrix R(x),
 // the spheres move at U_i = V + sum_k B_ik dx_k/dt, where V is the velocity of the middle sphere.

@@ -1,4 +1,6 @@
-// Makes strokes from corners, samples and ellipses (stroke.hpp).
+// Makes strokes from corners, samples and ellipses (stroke.hpp), in the units of the case. Samples
+// that do not close the loop are an Error(kBadInput). A change must keep where legs meet, because
+// forces jump there.
 #include "viscontact/swimmer/stroke.hpp"
 
 #include <fmt/format.h>

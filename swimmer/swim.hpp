@@ -1,6 +1,6 @@
 // What a stroke does: displacement, energy, positions, forces and power, and how exact they are.
 // Lengths, masses and times are in the units of the fit and of the stroke. The commands `swimmer`
-// and `sweep` use it.
+// and `sweep` use it. A change must keep sums to round-off.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,7 +38,7 @@ struct SwimSums {
 SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke);
 
 /// The swimmer at about `intervals` + 1 times, or more: each leg has times at its beginning, at its
-/// end, and at equal distances between. Throws as swim_sums does.
+/// end, and at equal distances between. Throws Error(kBadInput) if the stroke leaves the table.
 std::vector<SwimRow> swim_rows(const Swimmer& swimmer, const Stroke& stroke, int intervals);
 
 /// Estimates of the errors of SwimSums, >= 0.
@@ -48,10 +48,10 @@ struct SwimErrors {
 };
 
 /// The errors of the sums of a stroke: for each fit of lower degree the change of the sums, plus
-/// twice the root mean square of their changes by the errors of the table
-/// (fitting/fit_resistance.hpp makes both kinds of fits). For the optimal stroke, `multiplier` is
-/// OptimalStroke::multiplier over the period, and the error of the energy is that of an optimum
-/// that has the asked displacement in the changed fit; for any other stroke `multiplier` is 0.
+/// twice the root mean square of their changes by the errors of the table (fit/fit_resistance.hpp
+/// makes both kinds of fits). For the optimal stroke, `multiplier` is OptimalStroke::multiplier
+/// over the period, and the error of the energy is that of an optimum that has the asked
+/// displacement in the changed fit; for any other stroke `multiplier` is 0.
 SwimErrors swim_errors(const SwimSums& sums, const Stroke& stroke,
                        const std::vector<ResistanceFit>& lower_degrees,
                        const std::vector<ResistanceFit>& table_errors, double multiplier = 0);

@@ -1,4 +1,5 @@
-// A file descriptor (POSIX) that is closed when its object is destroyed.
+// A file descriptor (POSIX) that is closed when its object is destroyed. Files, locks and child
+// processes use it. It throws nothing; who opens a file checks the descriptor.
 #pragma once
 
 #include <unistd.h>

@@ -1,6 +1,6 @@
-// Reads and writes files with POSIX calls (file.hpp). A change must keep the order write, fsync,
-// rename, fsync of the folder, because only in this order does a power cut leave either the old or
-// the new file.
+// Reads and writes files with POSIX calls (file.hpp). A failed call becomes an Error(kBadInput)
+// with the path. A change must keep the order write, fsync, rename, fsync of the folder, because
+// only in this order does a power cut leave either the old or the new file.
 #include "viscontact/common/files/file.hpp"
 
 #include <fcntl.h>
@@ -61,8 +61,8 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// Writes a new file beside `path`, flushes it to disk if `is_flushed`, and renames it. Returns its
-/// place.
+/// Writes a new file beside `path`, flushes it to disk if `is_flushed`, and renames it. Returns the
+/// path that it has then.
 std::filesystem::path replace_file(const std::filesystem::path& path, std::string_view content,
                                    bool is_flushed) {
   const std::filesystem::path place = check_output_file(path);

@@ -1,6 +1,7 @@
 // A text file to which lines are only ever added, as to a table with a row for each step. A process
 // that was killed continues the file from an earlier end of it: keep that end (FileEnd) in another
-// file, which is replaced after sync().
+// file, which is replaced after sync(). Logs of particle runs use it. A change must keep that what
+// sync() has written is never changed.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@ struct FileEnd {
   std::string last_line;    ///< the line that ends there, without its line break
 };
 
-/// Holds back up to 64 KiB of lines, so that it makes few writes. Lines that are not written when
-/// the object is destroyed are lost; end() and sync() say which are not.
+/// Holds back up to 64 KiB of lines, so that it makes few writes. Lines that sync() has not written
+/// when the object is destroyed are lost.
 class GrowingFile {
  public:
   /// A new file at `path` with the lines `head`. It is made, and replaces an earlier file, when the
@@ -31,7 +32,7 @@ class GrowingFile {
   void check(const FileEnd& end) const;
 
   /// Continues the file that an earlier process has written, and removes all that follows `end`.
-  /// Throws as check() does, and if the file cannot be written.
+  /// Throws the errors of check(), and Error(kBadInput) if the file cannot be written.
   void resume(const FileEnd& end);
 
   /// Adds whole lines, each with its line break. Throws Error(kBadInput), which names the path, if
@@ -41,7 +42,8 @@ class GrowingFile {
   /// The end with all lines that have been appended.
   const FileEnd& end() const { return end_; }
 
-  /// Writes all lines that have been appended; they are then on disk. Throws as append() does.
+  /// Writes all lines that have been appended; they are then on disk. Throws the errors of
+  /// append().
   void sync();
 
  private:

@@ -1,5 +1,6 @@
-// Opens, locks (flock) and appends with system calls (locks.hpp). The locks must remain flocks,
-// because freefem_axi/journal/row_record.cpp locks the same files with flock.
+// Opens, locks (flock) and appends with system calls (locks.hpp); a failed call becomes an
+// Error(kBadInput) with the path. The locks must remain flocks, because
+// freefem_axi/journal/row_record.cpp locks the same files with flock.
 #include "viscontact/common/files/locks.hpp"
 
 #include <fcntl.h>
@@ -19,8 +20,8 @@
 namespace viscontact {
 namespace {
 
-/// Throws Error(kBadInput), which says that `path` cannot be written. Used if the file could not be
-/// opened; the message then says nothing of finished rows, because none have been written.
+/// Throws Error(kBadInput), which says that `path` cannot be written. For a file that could not be
+/// opened: the message says nothing of finished rows, because none have been written.
 [[noreturn]] void throw_not_opened(const std::filesystem::path& path, int code) {
   throw_bad_input({path.string()}, fmt::format("cannot be written ({})", std::strerror(code)));
 }

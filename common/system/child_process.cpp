@@ -1,6 +1,6 @@
-// Talks with a child process by poll on its three streams at once (child_process.hpp). At most one
-// buffer is received ahead of what is read, so that a child that writes without end takes no
-// memory.
+// Talks with a child process by poll on its three streams at once (child_process.hpp). No failure
+// of the child is an error here; the state of a reading says what happened. At most one buffer is
+// received ahead of what is read, so that a child that writes without end takes no memory.
 #include "viscontact/common/system/child_process.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view kWhiteSpace = " \t\r\n\v\f";
 
-// The longest delay until a stop is noticed.
+// The longest delay until a stop is noticed [ms].
 constexpr int kLongestWait = 100;
 
 constexpr std::size_t kBufferSize = 1 << 16;
@@ -122,8 +122,8 @@ void ChildProcess::exchange(int milliseconds) {
   if (files[0].revents != 0) receive();
 }
 
-/// Waits for more output. `length`: bytes of the word or line that have come. The state is kRead if
-/// reading can continue.
+/// Waits for more output. `length` is the number of bytes of the word or line that have come. The
+/// state is kRead if reading can continue.
 ChildProcess::Reading ChildProcess::more_or(Clock::time_point deadline, std::size_t length) {
   if (length > kLongestText)
     return {State::kTooLong, std::string_view(output_).substr(at_, kLongestText)};

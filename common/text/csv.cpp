@@ -1,4 +1,5 @@
-// Reads CSV files by fast-cpp-csv-parser (csv.hpp).
+// Reads CSV files by fast-cpp-csv-parser (csv.hpp). Every fault of a file becomes an
+// Error(kBadInput) with file and line, in our words and not in those of the library.
 #include "viscontact/common/text/csv.hpp"
 
 #include <fmt/format.h>
@@ -42,8 +43,8 @@ std::string hint_of_separator(const std::string& text) {
   return "";
 }
 
-/// Removes the lines at the end of `text` that contain only spaces, tabs and commas, which editors
-/// and spreadsheets leave. Blank lines above the last row stay.
+/// Removes the lines at the end of `text` that contain only spaces, tabs and commas. Editors and
+/// spreadsheets leave such lines. Blank lines above the last row stay.
 void remove_trailing_blank_lines(std::string& text) {
   const auto last = text.find_last_not_of(" \t\r\n,");
   if (last == std::string::npos) return;
@@ -78,8 +79,8 @@ void check_not_truncated(const CsvComments& comments, std::size_t rows, const st
 
 using Fields = std::span<const std::optional<double>>;
 
-/// Number of columns that the library reads at once. It is one number, because each costs seconds
-/// to compile.
+/// Number of columns that the library reads at once. It is the same for all files, because each
+/// further number costs seconds to compile.
 constexpr std::size_t kColumnsAtOnce = 16;
 
 /// Calls `add_row` with the fields of each row and its line. There are at most kColumnsAtOnce

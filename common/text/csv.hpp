@@ -55,9 +55,9 @@ double csv_comment_number(const CsvComments& comments, const std::string& key,
 /// The text for a message: if it has more than 60 characters, the first 60 of them and "...".
 std::string shortened(const std::string& text);
 
-/// Does the work of read_csv, and throws its errors, for any number of columns of a file with this
-/// content, which messages call `file`: calls `add_row` with the fields of each row and its line in
-/// the file.
+/// As read_csv below, and with its errors, for a number of columns that is known at run time:
+/// `text` is the content of the file, `file` its name in messages. Calls `add_row` with the fields
+/// of each row and the number of its line.
 void read_csv_rows(
     std::string text, const std::string& file, std::span<const std::string> names,
     std::size_t required,

@@ -1,4 +1,5 @@
 // Reads a text twice (json.hpp): once for errors, lines and repeated keys, and once for the values.
+// Every fault of a text becomes an Error(kBadInput) with file, line and cause.
 #include "viscontact/common/text/json.hpp"
 
 #include <fmt/format.h>

@@ -6,8 +6,9 @@
 //     json("geometry", s.geometry, kLeftOutIfEmpty);
 //   }
 //
-// in the order of the file. Every error message names the file, the line, the key and what is
-// allowed there.
+// in the order of the file. Every error is an Error(kBadInput), which names the file, the line, the
+// key and what is allowed there. The fit files and comparisons use it; a change must keep published
+// files readable.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,16 +27,16 @@
 
 namespace viscontact {
 
-/// Whether a file may lack a key: it may not, it may, or it may and is written without it if the
-/// value is empty, nothing or 0.
+/// Whether a file may lack a key: kRefused: no; kAllowed: yes; kLeftOutIfEmpty: yes, and a file is
+/// written without the key if the value is empty, nothing or 0.
 enum class Absence { kRefused, kAllowed, kLeftOutIfEmpty };
 
-/// The fields of a JSON object: writes them, or reads them. An instance for reading must not
-/// outlive its document.
+/// Writes or reads the fields of a JSON object. An instance for reading must not outlive its
+/// document.
 class JsonFields {
  public:
-  /// The struct in the text of a file, which messages call `file`. Throws Error(kBadInput) with the
-  /// line, the key, what is allowed, and then `remedy`.
+  /// The struct that the text of a file describes; messages call the file `file`. Throws
+  /// Error(kBadInput) with the line, the key, what is allowed, and then `remedy`.
   template <class Struct>
   static Struct read(const std::string& text, const std::string& file,
                      const std::string& remedy = "") {
@@ -64,7 +65,7 @@ class JsonFields {
     return write(value).dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
   }
 
-  /// True if the fields are read now, so that fields_of() can check them.
+  /// True while the fields are read, not written; fields_of() may then check their values.
   bool reads() const { return json_ != nullptr; }
 
   /// Throws Error(kBadInput) with "FILE:LINE: KEY WHAT". An empty `key` stands for the object.
@@ -74,9 +75,9 @@ class JsonFields {
                     fmt::format("{} {}", where.empty() ? "the file" : where, what));
   }
 
-  /// A field. Its type is double (finite), bool, std::size_t, long, std::string, std::optional
-  /// (null: nothing, unless it is left out then), a map of texts, an array of two numbers, a struct
-  /// with fields_of(), or a vector of any of these.
+  /// A field. Its type is double (finite), bool, std::size_t, long, std::string, std::optional (an
+  /// empty one is written as null, or left out with kLeftOutIfEmpty), a map of texts, an array of
+  /// two numbers, a struct with fields_of(), or a vector of any of these.
   template <class Value>
   void operator()(const std::string& key, Value& value, Absence absence = Absence::kRefused) {
     if (!reads()) {
@@ -92,7 +93,7 @@ class JsonFields {
     }
   }
 
-  /// A number that is checked.
+  /// A number that must pass the test `allowed`.
   void operator()(const std::string& key, double& value, const Allowed& allowed) {
     (*this)(key, value);
     if (reads() && !allowed.test(value))
@@ -107,7 +108,8 @@ class JsonFields {
                             json_->at(key).dump()));
   }
 
-  /// An object that has `part(value)` of each value at the key `value.*name`.
+  /// A vector as a JSON object: each value has the key `value.*name`, at which `part(value)`
+  /// stands.
   template <class Value, class Part>
   void by_name(const std::string& key, std::vector<Value>& values, std::string Value::*name,
                const Part& part, Absence absence = Absence::kRefused) {
@@ -150,7 +152,8 @@ class JsonFields {
     if (found != text) fail(key, fmt::format("is '{}'; it must be '{}'", found, text));
   }
 
-  /// An object that is written and read elsewhere, and that a file may lack.
+  /// A key whose object another reader reads, and that a file may lack. Only its type is checked
+  /// here.
   void foreign_object(const std::string& key) {
     if (reads() && is_there(key, Absence::kAllowed))
       JsonFields(*document_, json_->at(key), path_of(key));
@@ -163,7 +166,7 @@ class JsonFields {
     if (!json.is_object()) fail("", fmt::format("is {}; it must be an object", shown(json)));
   }
 
-  /// Reads the fields, and refuses keys that are none.
+  /// Reads the fields, and refuses a key that fields_of() does not know.
   template <class Struct>
   void read_into(Struct& value) {
     fields_of(*this, value);

@@ -1,4 +1,5 @@
 // Turns a text of several lines into one line, for journals and messages that have one line each.
+// Other characters stay.
 #pragma once
 
 #include <algorithm>

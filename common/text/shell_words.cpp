@@ -1,4 +1,5 @@
-// Splits and quotes words (shell_words.hpp). Backslashes have no special meaning in split_words.
+// Splits and quotes words (shell_words.hpp). A change must keep that a POSIX shell reads each
+// quoted word as it was. In split_words() backslashes have no special meaning.
 #include "viscontact/common/text/shell_words.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // The flow of a fluid on a mesh of quadratic triangles in a plane. freefem_axi/ and freefem_flow/
-// make it, report/flow/ draws it and flow_vtk.hpp writes it. Lengths, masses and times are in the
-// units of the case.
+// make it, report/flow/ draws it and flow_vtk.hpp writes it. A change must keep the order of nodes,
+// which is that of VTK. Lengths, masses and times are in the units of the case.
 #pragma once
 
 #include <array>

@@ -1,5 +1,7 @@
-// The text of each target: the resistance R and its primitive Gamma, sums of terms by physics.md
-// (3.2) and (4.2), as code or numbers. Lengths, masses and times are in the units of the fit.
+// The text of each target (export_fit.hpp): the resistance R and its primitive Gamma, sums of terms
+// by physics.md (3.2) and (4.2), as code or numbers. Lengths, masses and times are in the units of
+// the fit. An impossible fit is an Error(kBadInput). A change must keep names, keys and the order
+// of sums.
 #include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +22,8 @@
 namespace viscontact::fitting {
 namespace {
 
-/// R = sum of weight * value, Gamma = sum of weight * antiderivative - offset.
+/// R(q) = sum of weight * value, Gamma(q) = sum of weight * antiderivative - offset [M L/T]. Value
+/// and antiderivative of a term are functions of the gap q.
 struct Sum {
   std::vector<WeightedTerm> terms;
   double offset = 0;

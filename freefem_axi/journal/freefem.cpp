@@ -1,5 +1,6 @@
 // Runs FreeFEM processes to their end and reads what they print (freefem.hpp). Times are in
-// seconds.
+// seconds. A FreeFEM that does not start is an Error(kExternalProgram); a script that fails is left
+// to the caller.
 #include "viscontact/freefem_axi/journal/freefem.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
-// Writes and reads the lines of a journal. A line is "HASH row POINT NUMBERS VERSION CHECKSUM" or
-// "HASH failed POINT REASON CHECKSUM".
+// Writes and reads the lines of a journal (journal_line.hpp). A line is "HASH row POINT NUMBERS
+// VERSION CHECKSUM" or "HASH failed POINT REASON CHECKSUM". A damaged line is no error; it is read
+// as nothing, and its row is computed again. A change must keep old journals readable.
 #include "viscontact/freefem_axi/journal/journal_line.hpp"
 
 #include <fmt/format.h>

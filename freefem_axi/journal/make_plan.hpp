@@ -1,5 +1,7 @@
 // Makes the TablePlan of any kind of table (lubrication/table.hpp) from what differs between kinds:
-// which rows there are, how FreeFEM solves them, and what the numbers depend on.
+// which rows there are, how FreeFEM solves them, and what the numbers depend on. Numbers have the
+// units of the table. motion_table_plan.cpp and swimmer/tabulation use it. A change must keep the
+// order of numbers, because journals and tables of earlier versions are read by it.
 #pragma once
 
 #include <fmt/format.h>
@@ -24,7 +26,7 @@ struct PlannedRow {
   std::filesystem::path path;  ///< of its table; not used for the first that is asked
 };
 
-/// What make_plan() needs to know.
+/// What make_plan() needs to know. Members that are said to be as in TablePlan are copied to it.
 template <class Row>
 struct PlanParts {
   /// Everything that the numbers depend on. Tables with another text are computed again.
@@ -55,8 +57,9 @@ std::vector<double*> stored_numbers(const lubrication::TableHead& head, Row& row
   return numbers;
 }
 
-/// The plan. A row in a journal is its point and the numbers of all `parts.rows`, one after the
-/// other.
+/// The plan, for at least one point. A row in a journal is its point and the numbers of all
+/// `parts.rows`, one after the other. The functions of the plan throw what `solve` throws; a file
+/// that is not the planned table counts as one without rows.
 template <class Row>
 TablePlan make_plan(PlanParts<Row> given) {
   const std::size_t size_of_point = given.points.front().size();

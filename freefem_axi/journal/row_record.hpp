@@ -15,7 +15,7 @@ namespace viscontact::freefem_axi {
 /// All rows of the plan in the journals and in the table.
 RowRecord read_row_record(const std::filesystem::path& table_path, const TablePlan& plan);
 
-/// Those of `points` that are not finished.
+/// Those of `points` that are not finished, in their order.
 std::vector<RowPoint> missing_points(const RowRecord& record, const std::vector<RowPoint>& points);
 
 /// The reasons of those of `points` that failed.

@@ -1,5 +1,7 @@
-// Distributes the rows over threads, each of which runs one FreeFEM process at a time and waits for
-// it.
+// Distributes the rows over threads (tabulate.hpp). Each thread runs one FreeFEM process at a time
+// and waits for it. A row that FreeFEM cannot solve is recorded as failed; every other error stops
+// all threads and is thrown. A change must keep that journal and report are used by one thread at a
+// time.
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // Writes the fit of a pair as one header, module or file, with a function for each entry. Lengths,
-// masses and times are in the units of the fit. A change must keep the names of the functions.
+// masses and times are in the units of the fit. The command `export` calls it. A change must keep
+// the names of the functions.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // Makes a table of each resistance of a pair from the tables of the motions, and fits it
-// (fit_pair.hpp). Lengths, masses and times are in the units of the tables.
+// (fit_pair.hpp). Lengths, masses and times are in the units of the tables. Tables that do not
+// belong together are an Error(kBadInput).
 #include "viscontact/motions/fit/fit_pair.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ struct EntryTable {
   std::optional<double> theory;
 };
 
-/// Refuses tables of different pairs. Returns one of them.
+/// Returns the first table. Throws Error(kBadInput) if the tables are of different pairs.
 const MotionTable& first_of_pair(const PairTables& tables) {
   if (tables.empty()) throw Error(ErrorKind::kBadInput, "there is no table to fit");
   const auto require_same = [](bool is_same, const char* what, const auto& one, const auto& other) {
@@ -73,7 +74,7 @@ void add_row(EntryTable& entry, double gap, double value, double scale, double e
   entry.scales.push_back(scale);
 }
 
-/// The resistance of a motion to itself.
+/// The resistance of a motion to itself: squeeze, slide, roll or spin.
 EntryTable diagonal_entry(const MotionTable& pair, const MotionTable& table) {
   EntryTable entry = empty_table(pair, table);
   if (table.motion == MotionKind::kApproach) {

@@ -1,5 +1,6 @@
 // Reads the tables of a pair, fits them, and prints the residuals (pair_fit_stage.hpp). Lengths,
-// masses and times are in the units of the tables.
+// masses and times are in the units of the tables. An incomplete folder is an Error(kBadInput) with
+// the remedy. A change must keep that a fit that did not change is not written again.
 #include "viscontact/motions/job/pair_fit_stage.hpp"
 
 #include <fmt/format.h>
@@ -37,8 +38,8 @@ fs::path table_of(const fs::path& folder, MotionKind motion) {
   return folder / fmt::format("{}.csv", to_string(motion));
 }
 
-/// True if the file is where the command that made it wrote it. Files without provenance, or whose
-/// provenance names no folder, count as such.
+/// True if the file is where the command that made it wrote it. A file whose provenance names no
+/// folder, or that has none, counts as one that is.
 bool is_where_made(const fs::path& file) {
   const auto provenance = results::read_provenance(file);
   if (!provenance || provenance->folder.empty()) return true;

@@ -1,6 +1,7 @@
 // The stage that fits all resistances of a pair to the tables of its motions (docs/motions.md).
 // Lengths, masses and times are in the units of the tables. The command `fit` and the stages of a
-// rolling sphere call it. If `stop` requests a stop, a stage throws Error(kInterrupted).
+// rolling sphere call it. Besides the errors below, stages throw those of read_motion_table() and
+// fit_pair(). If `stop` requests a stop, a stage throws Error(kInterrupted).
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 // The external force f_ext(t): every force on the sphere except those of the fluid and of contact,
 // such as gravity, a push or a measured signal. Lengths, masses and times are in any one consistent
-// system of units. A change must keep means and impulses exact, because the budgets are balanced to
-// round-off.
+// system of units. Every model of one sphere uses it. A change must keep means and impulses exact,
+// because the budgets are balanced to round-off.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Polynomials c0 + c1 tau + c2 tau^2 + ..., given by their coefficients; numbers have any
-// dimension. External forces and the states of CVODE within a step are such polynomials. A change
-// must keep the order of operations, because trajectories depend on these sums to the last digit.
+// dimension. External forces and the states of CVODE within a step are such polynomials. Nothing is
+// thrown. A change must keep the order of operations, because trajectories depend on these sums to
+// the last digit.
 #pragma once
 
 #include <algorithm>
@@ -22,12 +23,12 @@ double horner(std::span<const double> coefficients, double tau, std::size_t firs
   return sum;
 }
 
-/// The polynomial at tau.
+/// Value of the polynomial at tau.
 inline double value(std::span<const double> coefficients, double tau) {
   return horner(coefficients, tau, 0, [](double c, double) { return c; });
 }
 
-/// The derivative of the polynomial at tau.
+/// Value of the derivative at tau.
 inline double slope(std::span<const double> coefficients, double tau) {
   return horner(coefficients, tau, 1, [](double c, double k) { return k * c; });
 }

@@ -1,6 +1,8 @@
 // Drives CVODE through the equation of inertial_equation.hpp: it restarts where the force jumps,
-// and makes rows at the required times and where the velocity changes its sign. A change of its
-// results must raise kModelsRevision.
+// and makes rows at the required times and where the velocity changes its sign. q is the gap, P the
+// momentum with impulses, Gamma the primitive of the resistance R, m the mass; lengths, masses and
+// times are in any one system of units. Errors are those of inertial.hpp. A change of results must
+// raise kModelsRevision.
 #include "viscontact/reduced_model/models/inertial.hpp"
 
 #include <fmt/format.h>

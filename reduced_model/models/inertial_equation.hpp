@@ -38,7 +38,8 @@ class InertialEquation {
   double gap_of(double s) const;      ///< q = r e^s [L]
   double state_of(double gap) const;  ///< s = ln(q/r)
   double momentum(double t) const;    ///< P(t) [M L/T]
-  /// Adds an impulse [M L/T] to P: the velocity jumps, or a solid has carried the force.
+  /// Adds an impulse [M L/T] to P, at a jump of the velocity or after solids have carried the
+  /// force.
   void add_impulse(double impulse) { momentum_at_start_ += impulse; }
 
   /// Equation (S), its Jacobian and its tolerances, for CVODE. `step_begin` is the time at which
@@ -60,7 +61,8 @@ class InertialEquation {
   /// follows a jump of f_ext at once.
   double first_step(double t, double gap) const;
 
-  /// The state s in which the forces at time t are balanced as exactly as (I) allows.
+  /// The state s near that of `gap` [L] in which drag and force at time t are balanced, as exactly
+  /// as (I) allows.
   double balanced_state(double t, double gap) const;
 
   /// True if the rest of a fall takes less time than the rounding of t. `film` [L] is then set to

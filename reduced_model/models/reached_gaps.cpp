@@ -1,4 +1,5 @@
-// Runs a model and takes the extreme gaps from its trajectory (reached_gaps.hpp).
+// Runs a model and takes the extreme gaps [L] from its trajectory (reached_gaps.hpp). A motion that
+// cannot be computed gives nothing. A change must keep that a stop is still thrown.
 #include "viscontact/reduced_model/models/reached_gaps.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Reads the sections of a case of a rolling sphere, and applies the defaults. Lengths, masses and
-// times are in the units of the case. A change must keep the keys and their defaults, because users
-// have written cases with them.
+// Reads the sections of a case of a rolling sphere, and applies the defaults (rolling_case.hpp).
+// Lengths, masses and times are in the units of the case. A wrong value is an Error(kBadInput) with
+// its line. A change must keep keys and defaults, because users have written cases with them.
 #include "viscontact/rolling/case/rolling_case.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using lubrication::MotionKind;
 
-/// What is read before it becomes the force of the motion: two components of a force [M L/T^2], or
+/// The keys from which the force of the motion is computed: two components of a force [M L/T^2], or
 /// the weight less the buoyancy [M L/T^2] and the angle of the plane, which falls towards +x.
 struct WeightKeys {
   std::vector<double> force;

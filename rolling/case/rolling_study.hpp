@@ -1,6 +1,7 @@
 // The sweep of a sphere that moves along a plane and turns: the state of each model at the end of
 // the motion, from one fit of all motions of the pair. Lengths, masses and times are in the units
-// of the case. A change of the columns must keep their names, because scripts of users read them.
+// of the case. `sweep` calls it. A change must keep the names of the columns, because scripts of
+// users read them.
 #pragma once
 
 #include <filesystem>
@@ -27,8 +28,8 @@ RollingPlan planned_rolling(const RollingCase& c);
 
 /// The study of a plan. Its results are, for each model, MODEL.gap [L], MODEL.smallest_gap [L],
 /// MODEL.position [L], MODEL.angle [radians], MODEL.velocity [L/T], MODEL.angular_velocity [1/T],
-/// MODEL.slip [L/T], MODEL.contact and MODEL.contact_time [T], as RollingEnd has
-/// them. Those of a model that fails are empty. `version` is that of Viscontact.
+/// MODEL.slip [L/T], MODEL.contact and MODEL.contact_time [T]; RollingEnd defines them. Those of a
+/// model that fails are empty. `version` is that of Viscontact.
 ///
 /// Reads the case and the fit. Throws Error(kBadInput) if the first or the last point gives no
 /// valid case, or if the fit is not that of its radius above a plane. Throws Error(kWrongUsage) if

@@ -1,5 +1,6 @@
 // The report of a sphere that moves along a plane and turns: a page with pictures and tables.
-// Lengths, masses and times are in the units of the case.
+// Lengths, masses and times are in the units of the case. The stage of a rolling sphere calls it. A
+// change must keep the names of the pictures, so that those of earlier runs are replaced.
 #pragma once
 
 #include <filesystem>

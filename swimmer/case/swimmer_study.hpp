@@ -1,6 +1,7 @@
 // The sweep over the strokes of a swimmer: its displacement, energy and efficiency at each point,
 // from one fit of the resistance matrices. Lengths, masses and times are in the units of the case.
-// A change of the columns must keep their names, because scripts of users read them.
+// `sweep` calls it. A change must keep the names of the columns, because scripts of users read
+// them.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 // Fits the resistance matrices of a table by a function of the gaps (ResistanceFit), and makes
 // perturbed fits, from which the swimmer's results get their error estimates. Lengths, masses and
-// times are in the units of the table.
+// times are in the units of the table. The stage of a swimmer calls it. A change must keep that the
+// fit meets every row of the table.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
 // The report of a swimmer: a page with pictures and tables. Lengths, masses and times are in the
-// units of the case.
+// units of the case. The stage of a swimmer calls it. A change must keep the names of the pictures,
+// so that those of earlier runs are replaced.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 // The distances of two spheres at which a fit of their resistance (resistance_fit.hpp) needs
-// values. The case of a swimmer tabulates these; other distances make another table and fit.
+// values. The case of a swimmer tabulates these; a change of any bit makes another table and fit.
+// Nothing is thrown.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Calls the script collinear_spheres.edp and reads its answer. Lengths are in the unit of the case;
 // the script computes with viscosity 1, so that the matrix is multiplied by that of the case. A
-// change must agree with the script.
+// failure of FreeFEM is an Error(kExternalProgram). A change must agree with the script.
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // The loop over time of the contact models: the resolved drag in a step, the budget, and the
 // contact interval. The equations are those of contact_step.hpp. Lengths, masses and times are in
-// any one consistent system of units. A change of its results must raise kModelsRevision.
+// any one consistent system of units. Errors are those of the model and of motion.hpp. A change of
+// results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@
 namespace viscontact::reduced_model {
 namespace {
 
-/// A ResolvedDrag as a function of the distance D from contact, as contact_step() needs it.
+/// A ResolvedDrag as a function of the distance D [L] from contact, in the form of NoDrag.
 class DragAtDistance {
  public:
   static constexpr bool kResolved = true;

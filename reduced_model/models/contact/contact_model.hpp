@@ -54,7 +54,7 @@ struct ContactModel {
 /// step.
 Trajectory run_contact_model(const Motion& motion, ContactModel model);
 
-/// Makes a contact model and runs it.
+/// A function that makes a contact model for a motion and a force.
 using MakeContactModel = ContactModel (*)(const Motion&, const lubrication::LubricationForce&);
 /// Makes the contact model for `motion` and `force`, and runs it as above.
 inline Trajectory run_contact_model(MakeContactModel make, const Motion& motion,

@@ -1,8 +1,9 @@
 // One time step of viscous contact (physics.md (4.5) to (4.7)), which all contact models with a
 // time step share. m is the mass, u the velocity, D the gap minus that at contact, gamma minus the
 // impulse that the film has absorbed, f the external force, Gamma_res the primitive of the resolved
-// resistance. Lengths, masses and times are in any one consistent system of units. A change must
-// keep the balance m u + Gamma_res(D) + gamma = int f to round-off while no solid carries load.
+// resistance. Lengths, masses and times are in any one consistent system of units. Rolling uses it,
+// too, and nothing is thrown. A change must keep the balance m u + Gamma_res(D) + gamma = int f to
+// round-off while no solid carries load.
 #pragma once
 
 #include <algorithm>

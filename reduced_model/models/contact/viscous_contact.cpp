@@ -1,5 +1,6 @@
-// The models `viscous_contact` and `viscous_contact_leapfrog`: contact at q = 0 and no resolved drag.
-// A change of their results must raise kModelsRevision.
+// The models `viscous_contact` and `viscous_contact_leapfrog`: contact at the gap q = 0 and no
+// resolved drag (viscous_contact.hpp). A fit without a positive coefficient of 1/q is an
+// Error(kBadInput). A change of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
 #include <algorithm>
