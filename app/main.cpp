@@ -1,5 +1,6 @@
 // The program viscontact: reads the command line and calls the stages in pipeline/. Every Error is
-// caught in main(), which prints its message and returns its exit code (results/exit_code.hpp).
+// caught in main(), which prints its message and returns its exit code (results/exit_code.hpp). A
+// change must keep that no exception leaves main().
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,7 @@
 // Reads the case file of one sphere (case_file.hpp). Lengths, masses and times are in the units of
-// the case. A change must keep the keys and their defaults, because users have written cases with
-// them. A new parameter of a model needs no change here, because the registry of models names them.
+// the case. A wrong value is an Error(kBadInput) with its line. A change must keep the keys and
+// their defaults, because users have written cases with them. A new parameter of a model needs no
+// change here, because the registry of models names them.
 #include "viscontact/case_file/case_file.hpp"
 
 #include <cmath>
@@ -171,7 +172,7 @@ void read_forces(const TomlSection& section, std::string_view key, Motion& motio
   for (std::size_t i = 1; i < summands.size(); ++i) motion.external_force += summands[i];
 }
 
-/// Names of models.
+/// A list of names of models, each of which must exist.
 auto models(std::vector<std::string>& place) {
   return custom("a list of names", [&](const TomlSection& section, std::string_view key) {
     place = section.texts(key);
@@ -180,7 +181,7 @@ auto models(std::vector<std::string>& place) {
   });
 }
 
-/// `time_scale` is 1 if it is not given.
+/// The keys of [motion]. `time_scale` [1] is set to 1 if the case does not give it.
 void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
   keys.required("end_time", number(motion.end_time, kPositive),
                 {.meaning = "end of the motion", .example = "4.0"});

@@ -72,8 +72,8 @@ struct Case {
 /// value and what is allowed.
 Case read_case(const std::filesystem::path& path);
 
-/// The case of one sphere whose root table is `root` (case_template.hpp). Throws as read_case()
-/// does.
+/// The case of one sphere whose root table is `root` (case_template.hpp). Throws the errors of
+/// read_case().
 template <>
 Case case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
 

@@ -1,5 +1,6 @@
 // Estimates computing times [s] from finished rows, from a few rows that are computed now, or from
-// measured constants. Scripts of users read the keys of the JSON (docs/command-line.md).
+// measured constants. Errors are those of the rows that are computed. A change must keep the keys
+// of the JSON, which scripts of users read (docs/command-line.md).
 #include "viscontact/pipeline/dry_run.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // The output of --dry-run: how many rows a command would compute and about how long that takes, in
-// seconds of wall time. Nothing is written.
+// seconds of wall time. Nothing is written. `tabulate` and `sweep` print it. Errors are those of
+// the rows that are computed. A change must keep the keys of the JSON, which scripts read.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// Reads tables, calls the fits, and writes fits, shifts and pictures with their provenance. The
-// columns of the file of shifts are in docs/file-formats.md.
+// Reads tables, calls the fits, and writes fits, shifts and pictures with their provenance. Numbers
+// are in the units of the table; errors are those of fit_stages.hpp. A change must keep the columns
+// of the file of shifts (docs/file-formats.md).
 #include "viscontact/pipeline/fit_stages.hpp"
 
 #include <fmt/format.h>

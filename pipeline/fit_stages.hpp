@@ -1,6 +1,7 @@
 // The stages that fit: a table in one basis, a table in every basis, and the shift of a rough wall.
 // Lengths, masses and times are in the units of the table. If `stop` requests a stop, a stage
-// throws Error(kInterrupted); finished files are kept.
+// throws Error(kInterrupted); finished files are kept. The main job and the commands `fit` and
+// `shift` call them. A change must keep that a fit that did not change is not written again.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +13,8 @@
 namespace viscontact::pipeline {
 
 /// Fits the table in `table_path` and writes the fit to `fit_path`. If the file there differs in
-/// its provenance only, it is left as it is. Throws as read_force_table and fit_force_table do.
+/// its provenance only, it is left as it is. Throws the errors of read_force_table() and
+/// fit_force_table().
 void fit_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path,
                const fitting::FitSettings& settings, const results::Provenance& provenance,
                const StopToken& stop);

@@ -1,4 +1,6 @@
-// The stage of a sweep, whatever is swept: it computes the rows of a study and writes their file.
+// The stage of a sweep, whatever is swept: it computes the rows of a study and writes their file,
+// in the units of the case. `sweep` and particles/sweep call it. A change must keep that finished
+// rows are never computed again.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // Draws plots by gnuplot and writes the page around them (page.hpp). The scripts in report/page
-// read the plots as JSON, whose keys and names of kinds of points must agree with them. Every text
-// of the user must pass through escaped(), because it could contain markup.
+// read the plots as JSON, whose keys and names of kinds of points must agree with them. A gnuplot
+// that is missing is a warning, one that fails an Error(kExternalProgram). Every text of the user
+// must pass through escaped(), because it could contain markup.
 #include "viscontact/report/page.hpp"
 
 #include <fmt/format.h>
@@ -125,7 +126,7 @@ nlohmann::ordered_json json_of(const PlotCurve& curve) {
           {"y", std::move(y)}};
 }
 
-/// The plot as an SVG element by gnuplot. Throws as draw_svg does.
+/// The plot as an SVG element by gnuplot. Throws the errors of draw_svg().
 std::string svg_of(const Plot& plot, const StopToken& stop) {
   std::vector<Panel> panels;
   for (const auto& panel : plot.panels) {

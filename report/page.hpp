@@ -1,7 +1,8 @@
-// The writer of all reports: report.html, with plots that can be zoomed in a browser, and a still
-// picture plots/NAME.svg of each, for browsers without scripts and for printing. Pieces of HTML
-// that all pages share are here, too. Numbers in plots have no units here; the labels of their axes
-// name the units. A change must keep report/page/*.js, which read the plots as JSON, in step.
+// The writer of all reports (one sphere, rolling, swimmer, particles): report.html, with plots that
+// can be zoomed in a browser, and a still picture plots/NAME.svg of each, for browsers without
+// scripts and for printing. Pieces of HTML that all pages share are here, too. Numbers in plots
+// have no units here; the labels of their axes name the units. A change must keep report/page/*.js,
+// which read the plots as JSON, in step.
 #pragma once
 
 #include <exception>

@@ -1,6 +1,6 @@
 // Summaries of fits, shifts and comparisons: words and tables for the terminal, and pictures. Gaps
-// and times are in the units of the case. A change must keep the keys of the JSON, which scripts of
-// users read.
+// and times are in the units of the case. The stages of pipeline/ print them. A change must keep
+// the keys of the JSON, which scripts of users read.
 #pragma once
 
 #include <string>
@@ -25,7 +25,8 @@ std::string basis_table(const std::vector<fitting::BasisResult>& results);
 std::string basis_json(const std::vector<fitting::BasisResult>& results);
 
 /// A picture of the `kind` kSvg, kPdf or kPng: the relative residuals of every basis over the gap,
-/// beside the table's error estimates. Throws Error(kExternalProgram) as draw_picture does.
+/// beside the table's error estimates. Throws Error(kExternalProgram) if gnuplot is missing or
+/// fails.
 std::string plot_bases(const lubrication::MotionTable& table,
                        const std::vector<fitting::BasisResult>& results, TextKind kind,
                        const StopToken& stop = {});

@@ -1,5 +1,6 @@
-// Recognises files of Viscontact by the provenance in their first MiB (provenance.hpp). A change
-// must still recognise the files that earlier versions wrote.
+// Recognises files of Viscontact by the provenance in their first MiB (provenance.hpp). A file that
+// must not be replaced is an Error(kBadInput). A change must still recognise the files that earlier
+// versions wrote.
 #include "viscontact/results/foreign_files.hpp"
 
 #include <fmt/format.h>

@@ -13,8 +13,8 @@ namespace viscontact::results {
 /// Error(kBadInput) that names the path if the file cannot be read.
 std::string read_head(const std::filesystem::path& path);
 
-/// True if Viscontact wrote the file at `path`, which must exist. Only its head is read,
-/// because a restart file can be a gigabyte long. Throws as read_head does.
+/// True if Viscontact wrote the file at `path`, which must exist. Only its first MiB is read,
+/// because a restart file can be a gigabyte long. Throws the error of read_head().
 bool is_written_by_viscontact(const std::filesystem::path& path);
 
 /// Throws Error(kBadInput) if the file at `path` must not be replaced or deleted, because

@@ -1,4 +1,6 @@
-// The kinds of pictures that a user can ask for. The ending of a file's name says which one.
+// The kinds of pictures that a user can ask for. The ending of a file's name says which one. The
+// commands with --plot use them; a new kind needs a place for its provenance
+// (results/provenance.cpp).
 #pragma once
 
 #include <array>

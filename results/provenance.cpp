@@ -1,5 +1,6 @@
-// Writes the provenance line into each kind of file, and finds and reads it again. The beginning of
-// its JSON (kBegin) must not change, because earlier files are recognised by it.
+// Writes the provenance line into each kind of file, and finds and reads it again. A damaged line
+// is an Error(kBadInput). The beginning of its JSON (kBegin) must not change, because earlier files
+// are recognised by it.
 #include "viscontact/results/provenance.hpp"
 
 #include <ceres/version.h>

@@ -108,8 +108,8 @@ std::vector<std::filesystem::path> given_inputs(const std::filesystem::path& pat
 std::string output_text(const std::filesystem::path& path, TextKind kind, const std::string& text,
                         Provenance provenance);
 
-/// Writes `text` with the provenance and the current time to `path`. Throws as output_text and
-/// write_file do.
+/// Writes `text` with the provenance and the current time to `path`. Throws the errors of
+/// output_text() and write_file().
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
                   Provenance provenance);
 

@@ -1,5 +1,6 @@
-// The names of the files in the folder of a run (docs/file-formats.md). A change must keep them,
-// because users, scripts and later versions rely on them.
+// The names of the files in the folder of a run (docs/file-formats.md). The stages of pipeline/,
+// reports and particles/run use them. A change must keep them, because users, scripts and later
+// versions rely on them.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 // The options of commands whose rows can be computed by an array job on a Slurm cluster
-// (docs/cluster.md): --launcher, --tasks, --slurm-options, --gather and --task.
+// (docs/cluster.md): --launcher, --tasks, --slurm-options, --gather and --task. `tabulate` and
+// `sweep` have them. A change must keep their names, because submitted scripts contain them.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,6 @@
 // The command lines of `particles`, `rolling` and `swimmer` (docs/command-line.md), each of which
-// does a whole job from a case to a page. The work is done in particles/run/particles_stage.hpp,
+// does a whole job from a case to a page. Errors are those of the stages; a change must keep the
+// names of the options. The work is done in particles/run/particles_stage.hpp,
 // rolling/job/rolling_stage.hpp and swimmer/job/swimmer_stage.hpp.
 #include <memory>
 #include <string>

@@ -1,6 +1,8 @@
 // The commands of the program. Each function adds the command that it is named after, with its
 // options, to the command line `app`; the command runs while CLI11 parses the line, and throws
 // Error. docs/command-line.md describes the commands. pipeline/ and the libraries do the work.
+// main.cpp calls these functions; a change must keep the names of commands and options, which
+// scripts of users contain.
 #pragma once
 
 #include <CLI/CLI.hpp>

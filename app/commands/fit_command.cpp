@@ -1,7 +1,8 @@
 // The command lines of `fit` (fits a formula to a table, or compares bases), `shift` (finds the
 // shift of a rough wall) and `export` (writes a fit as code or numbers). docs/command-line.md
-// describes them, docs/theory.md the fit. The texts given to refuse_other_kind are parts of the
-// written files, by which a file of another kind is recognised; they must agree with the writers.
+// describes them, docs/theory.md the fit. Numbers are in the units of the table; a wrong option is
+// an Error(kWrongUsage). The texts given to refuse_other_kind are parts of the written files, by
+// which a file of another kind is recognised; they must agree with the writers.
 #include <fmt/format.h>
 
 #include <memory>

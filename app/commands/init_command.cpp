@@ -1,4 +1,6 @@
-// The command `init`: writes a commented case and prints the command that runs it.
+// The command `init`: writes a commented case and prints the command that runs it. The keys and
+// defaults come from the declarations of the case of one sphere. A file that exists is not replaced
+// (an Error). A change must keep that the case runs as it is written.
 #include <fmt/format.h>
 
 #include <filesystem>

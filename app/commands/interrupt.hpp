@@ -1,5 +1,5 @@
 // Turns Ctrl-C and similar signals into a request to stop, which the commands pass to the libraries
-// as a StopToken.
+// as a StopToken. Nothing is thrown here. A change must keep that the handler only sets a flag.
 #pragma once
 
 #include "viscontact/common/stop_token.hpp"

@@ -1,6 +1,7 @@
-// Repeats a recorded command. The record comes from a file that anybody may have written, so
-// check_command decides which commands and options are run; a change must keep this check before
-// execv.
+// The command `rerun` repeats a recorded command. A record that is missing, or names a command that
+// is not allowed, is an Error(kBadInput). The record comes from a file that anybody may have
+// written, so check_command decides which commands and options are run; a change must keep this
+// check before execv.
 #include <fmt/format.h>
 #include <unistd.h>
 

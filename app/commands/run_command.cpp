@@ -1,6 +1,7 @@
 // The command lines of `run` (the main job) and of its last stages, `simulate`, `compare` and
-// `report` (docs/command-line.md). pipeline/ and report/ do the work. A command that writes into a
-// folder must keep the folder locked until it ends (LockedFolder).
+// `report` (docs/command-line.md). pipeline/ and report/ do the work. Errors are those of the
+// stages. A command that writes into a folder must keep the folder locked until it ends
+// (LockedFolder).
 #include <filesystem>
 #include <memory>
 #include <optional>

@@ -1,6 +1,7 @@
 // The command line of `tabulate` (docs/command-line.md), and the choice of what to do: compute all
 // rows here, compute the rows of one task, submit a job to Slurm, or gather the rows of such a job.
-// pipeline/tabulate/ does the work.
+// pipeline/tabulate/ does the work. Gaps are in the unit of the case. A wrong option is an
+// Error(kWrongUsage). A change must keep the names of the tables, which scripts of users read.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -70,8 +71,8 @@ std::vector<std::string> motion_words(const TabulateOptions& o) {
 /// several motions it is a folder with a table MOTION.csv for each. For several cases it is a
 /// folder with CASE.csv or CASE/MOTION.csv, after the names of the case files. `motions`, unless it
 /// is empty, replaces the key `motion` of the cases (parse_motions). Throws Error(kWrongUsage) if
-/// two tables would have the same name, and Error(kBadInput) as read_case and read_swimmer_case do
-/// or if a case has neither [tabulation] nor [swimmer].
+/// two tables would have the same name, the errors of read_case() and read_swimmer_case(), and
+/// Error(kBadInput) if a case has neither [tabulation] nor [swimmer].
 std::vector<pipeline::CaseTable> read_case_tables(const std::vector<std::string>& case_files,
                                                   const std::filesystem::path& output,
                                                   const std::vector<std::string>& motions) {

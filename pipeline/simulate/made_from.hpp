@@ -1,5 +1,6 @@
 // The inputs from which a trajectory was made. `run` decides by this record whether a trajectory is
-// up to date, so the record must name everything that changes a trajectory.
+// up to date, so a change must keep that the record names everything that alters a trajectory.
+// Numbers are in the units of the case; a damaged file counts as out of date.
 #pragma once
 
 #include <string>

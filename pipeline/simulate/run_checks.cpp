@@ -1,6 +1,6 @@
 // Checks a case without a table: number of gaps, parameters of models, gaps of the motion. Gaps [L]
-// are in the unit of the case. The checks must be quick, because `run` makes them before each
-// tabulation.
+// are in the unit of the case. Faults are an Error(kBadInput), and gaps outside the table a
+// warning. The checks must be quick, because `run` makes them before each tabulation.
 #include "viscontact/pipeline/simulate/run_checks.hpp"
 
 #include <fmt/format.h>

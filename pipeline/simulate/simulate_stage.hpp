@@ -1,6 +1,7 @@
 // The stage simulate: runs the models of motion on a case with a fit, and writes trajectories and
 // the record of failed models into a run's folder. Lengths, masses and times are in the units of
-// the case. The main job and the command `simulate` call it.
+// the case. The main job and the commands `simulate` and `sweep` call it. A change must keep that
+// trajectories are written last, because `run` takes them as the sign that all is written.
 #pragma once
 
 #include <filesystem>
@@ -75,9 +76,9 @@ struct SimulateRequest {
 };
 
 /// Runs the models and writes their trajectories and the copies of case and fit into the run's
-/// folder. Before anything is written, throws as simulate_case does, Error(kWrongUsage) if there is
-/// no fit, and Error(kBadInput) if a file must not be replaced. If some models failed, the results
-/// of the others are written; then the error that results::error_of() makes is thrown.
+/// folder. Before anything is written, throws the errors of simulate_case(), Error(kWrongUsage) if
+/// there is no fit, and Error(kBadInput) if a file must not be replaced. If some models failed, the
+/// results of the others are written; then the error that results::error_of() makes is thrown.
 void simulate_stage(const case_file::Case& c, const SimulateRequest& request);
 
 }  // namespace viscontact::pipeline

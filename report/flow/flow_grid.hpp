@@ -1,5 +1,6 @@
 // A flow on a regular grid, from which pictures and pages draw it. Lengths, masses and times are in
-// the units of the case.
+// the units of the case. flow_plots.hpp, stream_lines.hpp and particles/picture use it. A change
+// must keep the order of points. Nothing is thrown.
 #pragma once
 
 #include <array>
@@ -58,12 +59,12 @@ struct FlowPeriods {
 /// `periods`, so that its triangles need not lie in the grid (docs/fluid-solver.md).
 FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPeriods& periods = {});
 
-/// Interpolates a field with these values at the nodes, as flow_on_grid() does without periods.
+/// Interpolates a field with these values at the nodes; NaN where the mesh has no triangle.
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
                                   const Grid& grid);
 
-/// Gives each point of a grid that is NaN the mean value of those of its up to eight neighbours
-/// that are not. The points are row by row, with `columns` in a row.
+/// Replaces each NaN by the mean of those of its up to eight neighbours on the grid that are no
+/// NaN. The points are row by row, with `columns` in a row.
 void fill_next_to_known(std::vector<double>& values, std::size_t columns);
 
 }  // namespace viscontact::report

@@ -1,5 +1,6 @@
 // The colours of curves, and scales of colours for gamma, speeds and pressures. gamma is minus the
-// impulse that a film has absorbed [M L/T], of discs in a fluid per length [M/T].
+// impulse that a film has absorbed [M L/T], of discs in a fluid per length [M/T]. All reports use
+// it. A change must keep colours that colour-blind readers can tell apart. Nothing is thrown.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// Writes gnuplot's commands and data, runs gnuplot and reads its SVG. Texts of the user must pass
+// Writes gnuplot's commands and data, runs gnuplot and reads its SVG. A gnuplot that is missing,
+// fails or hangs is an Error(kExternalProgram); sizes are in pixels. Texts of the user must pass
 // through quoted_for_gnuplot, because gnuplot can run commands of the shell.
 #include "viscontact/report/pictures/gnuplot.hpp"
 

@@ -1,5 +1,6 @@
-// Draws curves and colour fields with the program gnuplot. Values have no unit here; the
-// labels of the axes name the units.
+// Draws curves and colour fields with the program gnuplot. Values have no unit here; the labels of
+// the axes name the units. Pages, flows and sweeps draw by it. A change must keep that no text of a
+// user reaches gnuplot as a command.
 #pragma once
 
 #include <optional>

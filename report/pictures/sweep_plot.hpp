@@ -1,5 +1,5 @@
 // The picture of a sweep, from its CSV file. Values are in the units of the case. `sweep --plot`
-// makes it.
+// makes it. A change must keep that files larger than the memory can be drawn.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,7 @@
-// Evaluates R = mu (R_lub + l exp(S)) and its derivatives (resistance_fit.hpp). Lengths, masses and
-// times are in the units of the fit.
+// Evaluates R = mu (R_lub + l exp(S)) and its derivatives (resistance_fit.hpp). mu is the
+// viscosity, l the largest radius. Lengths, masses and times are in the units of the fit. Gaps
+// outside the table are an Error(kBadInput). A change must keep that slopes are the derivatives of
+// R to round-off.
 #include "viscontact/swimmer/resistance/fitted_resistance.hpp"
 
 #include <fmt/format.h>

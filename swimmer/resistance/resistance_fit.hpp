@@ -1,7 +1,7 @@
 // A fit of the resistance matrix of spheres on a line as a function of the gaps between them
 // (physics.md, section 7). Lengths, masses and times are in the units of the table.
-// fitting/fit_resistance.hpp makes it, and fitted_resistance.hpp evaluates it. A change must keep
-// the keys of the file, which other programs may read.
+// swimmer/fit/fit_resistance.hpp makes it, and fitted_resistance.hpp evaluates it. A change must
+// keep the keys of the file, which other programs may read.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,8 +35,7 @@ struct ResistanceFit {
   /// Largest |R_ij fitted / R_ij - 1| of the table's rows, >= 0. It is round-off, because the
   /// polynomials interpolate. A small entry counts as in ResistanceRow::relative_error_estimates.
   double largest_relative_residual = 0;
-  /// The same error of a row that is predicted from the rows that differ from it in one gap only,
-  /// >= 0.
+  /// That error of a row that is predicted from the rows that differ from it in one gap only, >= 0.
   double largest_left_one_out_error = 0,        ///< the largest
       rms_left_one_out_error = 0;               ///< the root mean square
   std::string table_sha256;                     ///< checksum of the table file; may be empty

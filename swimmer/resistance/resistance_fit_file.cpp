@@ -1,5 +1,6 @@
-// The fields of the file of a ResistanceFit (docs/file-formats.md). Lengths, masses and times
-// are in the units of the table. A change must keep earlier files readable.
+// The fields of the file of a ResistanceFit (docs/file-formats.md). Lengths, masses and times are
+// in the units of the table. Every fault is an Error(kBadInput) with line and key. A change must
+// keep earlier files readable.
 #include <fmt/format.h>
 
 #include <algorithm>

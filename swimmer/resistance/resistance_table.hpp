@@ -1,6 +1,7 @@
 // The table of resistance matrices of rigid spheres on a line, over the gaps between them
-// (physics.md, section 7). A change must keep the names of the columns, because published tables
-// use them.
+// (physics.md, section 7). Lengths, masses and times are in the units of the table. The tabulation
+// writes it and fit_resistance.hpp reads it. A change must keep the names of the columns, because
+// published tables use them.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,12 +44,11 @@ std::size_t entry_position(std::size_t i, std::size_t j, std::size_t spheres);
 /// The number of entries on and above the diagonal.
 inline std::size_t entry_count(std::size_t spheres) { return spheres * (spheres + 1) / 2; }
 
-/// The symmetric matrix R [M/T] of a row for so many spheres.
+/// The symmetric matrix R [M/T] of a row for `spheres` spheres.
 Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres);
 
 /// The columns of a row: gap12, gap23, ..., R11, R12, ..., R11_relative_error_estimate, ..., and
-/// what a row says of its computation. Two numbers of spheres are separated by "_" if one of them
-/// is 10.
+/// how the row was computed. Two numbers of spheres are separated by "_" if one of them is 10.
 std::vector<lubrication::Column> columns_of(const lubrication::TableHead& head, ResistanceRow& row);
 
 /// Gives the vectors the sizes for the radii of the head.
@@ -63,8 +63,8 @@ void check(const lubrication::TableHead& head, const ResistanceRow& row, const F
 /// The largest of the error estimates of the entries [1], 0 if there are none.
 double largest_estimate(const ResistanceRow& row);
 
-/// Reads a table, of which gaps and entries are required. Throws as read_table() (table_codec.hpp)
-/// and check() do.
+/// Reads a table, of which gaps and entries are required. Throws the errors of read_table()
+/// (table_codec.hpp) and check().
 ResistanceTable read_resistance_table(const std::filesystem::path& path);
 
 /// The text of the file.

@@ -1,4 +1,5 @@
-// Interpolates by the barycentric formula (tensor_polynomial.hpp).
+// Interpolates by the barycentric formula (tensor_polynomial.hpp). Numbers have any dimension;
+// nothing is checked or thrown. A change must keep that the values at the nodes are met exactly.
 #include "viscontact/swimmer/resistance/tensor_polynomial.hpp"
 
 #include <cmath>

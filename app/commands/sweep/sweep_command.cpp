@@ -1,4 +1,6 @@
-// The command `sweep` (docs/command-line.md): its command line, and what its picture shows.
+// The command `sweep` (docs/command-line.md): its command line, and what its picture shows. Numbers
+// have the units of the case. A wrong option is an Error(kWrongUsage). A change must keep that the
+// command line decides before the section [sweep] of the case.
 #include <fmt/format.h>
 
 #include <algorithm>

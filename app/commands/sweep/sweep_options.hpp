@@ -16,7 +16,7 @@
 
 namespace viscontact::app {
 
-/// The values of the options, which are named after them. An empty text or list, or the
+/// The values of the options. Each member has the name of its option. An empty text or list, or the
 /// number 0, means that the option was not given, and that the section [sweep] of the case decides.
 struct SweepOptions {
   std::string case_file,          ///< path of the case
