@@ -1,4 +1,5 @@
-// Contacts and overlaps of a state, in the units of the case (current_contacts.hpp).
+// Contacts and overlaps of a state (current_contacts.hpp), in the units of the case. Nothing is
+// thrown. A change must keep the order of contacts, which vtk_reader.cpp restores.
 #include "viscontact/particles/current_contacts.hpp"
 
 #include <algorithm>

@@ -32,8 +32,8 @@ struct CurrentContact {
   [[no_unique_address]] ShownMemory shown{};
 };
 
-/// Names of both bodies of a contact in files: the ids of two particles, or the id of a particle
-/// and -1, -2, ... for the first, second obstacle (domain.hpp).
+/// Ids of both bodies of a contact in files: the ids of two particles, or the id of a particle and
+/// -1, -2, ... for the first, second obstacle (domain.hpp).
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact);
 

@@ -1,7 +1,7 @@
 // The fluid around the particles, as a case describes it: sections [fluid] and [domain] of a case
 // file. Lengths, masses and times are in the units of the case; in two dimensions masses and forces
-// are per unit length of the third dimension. case_file/ checks the values; particles/fluid and
-// freefem_flow read them.
+// are per unit length of the third dimension. particles/case checks the values; particles/fluid and
+// freefem_flow read them. A change must keep the defaults, which cases rely on.
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@ enum class FlowStart {
 };
 
 /// Velocity of a wall: constant, or a parabola along the wall that is 0 at both ends, or not given.
-/// In a fluid with inertia it may depend on time.
+/// In a fluid with inertia the velocity may depend on time.
 struct WallVelocity {
   /// What is given on the wall.
   enum class Kind {
@@ -86,15 +86,15 @@ using SideVelocities = std::array<WallVelocity, 4>;
 struct Fluid {
   double viscosity = 0;  ///< mu [M/(L T)], > 0
   double density = 0;    ///< rho_f [M/L^3], >= 0; 0: Stokes flow
-  /// The rest is used by a fluid with a density only.
+  /// The next three members are used only if the density is > 0.
   Advection advection = Advection::kSemiImplicit;  ///< how velocities are carried along
   FlowStart start = FlowStart::kRest;              ///< the flow at time 0
   /// Uniform pressure gradient that drives the fluid, and acts on particles, too [M/(L^2 T^2)].
   std::array<double, 2> pressure_gradient{};
   /// How particles are kept rigid; kRigid needs the fitted mesh.
   RigidConstraint constraint = RigidConstraint::kPenalty;
-  /// > 0, docs/physics.md (6.1); used by kPenalty only. Velocities have an error proportional to
-  /// it, and rounding errors of about 1e-16/penalty (docs/fluid.md).
+  /// The penalty > 0 of docs/physics.md (6.1), without dimension; used by kPenalty only. Velocities
+  /// have an error proportional to it, and rounding errors of about 1e-16/penalty (docs/fluid.md).
   double penalty = 1e-7;
   FluidMesh mesh = FluidMesh::kFitted;  ///< whether it follows the particles
   /// Edges of the mesh on the circumference of the smallest particle, >= 6. With 24, velocities

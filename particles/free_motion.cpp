@@ -1,6 +1,7 @@
 // The motion of a step of length h without contacts: displacements h u* and turns h w* of
 // docs/physics.md (5.3) and (5.10), and the velocities at the present time. Lengths, masses and
-// times are in the units of the case.
+// times are in the units of the case. Nothing is thrown. A change must keep that bodies move as
+// simulation.cpp expects: displacements and turns of all members are set.
 #include "viscontact/particles/rotation.hpp"
 #include "viscontact/particles/simulation.hpp"
 
@@ -84,7 +85,7 @@ void Simulation::move_bodies_freely(double h, double next) {
 }
 
 /// For each particle 1 if in the last step only forces, gravity and torques changed its motion,
-/// else 0: it, or its rigid body, then has a link or a contact with an impulse.
+/// else 0. The particle, or its rigid body, then has a link or a contact with an impulse.
 std::vector<char> Simulation::free_particles() const {
   const auto& p = state_.particles;
   std::vector<char> is_free(p.count(), 1);

@@ -1,5 +1,6 @@
 // The outline of a particle in the plane: a circle or an ellipse. Lengths are in the unit of the
-// case, angles in radians, counter-clockwise.
+// case, angles in radians, counter-clockwise. Checks of a case, the fluid and its meshes use it.
+// Nothing is checked or thrown. A change must keep a circle exact.
 #pragma once
 
 #include <array>
@@ -22,8 +23,8 @@ struct Outline {
 
   /// True if it is a circle of the radius `radius`.
   bool is_circle() const { return semi_axes[0] == semi_axes[1]; }
-  /// The point centre + a cos(t) e_1 + b sin(t) e_2, e_1 and e_2 being the directions of the
-  /// semi-axes a and b [L]. t counts from the x axis on a circle.
+  /// The point centre + a cos(t) e_1 + b sin(t) e_2, with the directions e_1, e_2 of the semi-axes
+  /// a, b [L]. On a circle t is the angle from the x axis.
   std::array<double, 2> at(double t) const;
   /// Length of the derivative of at() [L].
   double speed_at(double t) const;

@@ -30,7 +30,7 @@ enum class Remembered : std::uint8_t {
 struct MemoryField {
   std::string_view name;  ///< in restart files and as a column
   bool is_impulse;        ///< of the last step: a step that is divided sums it over its parts
-  bool is_shown;          ///< whether tables of contacts and the frames have it
+  bool is_shown;          ///< whether contacts.csv and the frames have the number
 };
 
 /// All numbers that laws remember. Restart files store them by name.

@@ -1,6 +1,7 @@
 // The particles of a simulation: rigid discs or spheres. Lengths, masses and times are in any one
 // consistent system of units. The restart file stores these arrays as they are (io/restart.cpp), so
-// that a change of their layout needs a new version of that file.
+// that a change of their layout needs a new version of that file. All of particles/ uses them;
+// nothing is checked here.
 #pragma once
 
 #include <array>

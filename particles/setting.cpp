@@ -1,5 +1,6 @@
 // Obstacles and periodic cell of a setting (setting.hpp). Lengths and times are in the units of the
-// case. The order of the obstacles numbers them in files and must be kept.
+// case. Nothing is thrown. A change must keep the order of the obstacles, which numbers them in
+// files.
 #include "viscontact/particles/setting.hpp"
 
 namespace viscontact::particles {

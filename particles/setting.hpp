@@ -32,9 +32,9 @@ enum class Scheme {
   kLeapfrog,  ///< u^n is the velocity half a step before t^n; of second order away from impacts
 };
 
-/// What moves the particles, and how their motion is computed. case_file/ checks all values when it
-/// reads a case, and a simulation does not check them again. The keys of the maps must be numbers
-/// of existing particles.
+/// What moves the particles, and how their motion is computed. particles/case checks all values
+/// when it reads a case, and a simulation does not check them again. The keys of the maps must be
+/// numbers of existing particles.
 struct Setting {
   std::vector<Plane> planes;  ///< rigid planes, at rest or moving, that particles cannot cross
   /// Holds the particles, and the fluid if there is one. Its walls are obstacles.

@@ -1,7 +1,7 @@
 // Simulates many rigid discs or spheres with viscous contact: problem (5.2) and scheme (5.3) of
 // docs/physics.md (Maury 2006; Lefebvre 2009). Lengths, masses and times are in any one consistent
-// system of units. A change must keep the results independent of the number of threads, bit for
-// bit.
+// system of units. `particles` and its sweeps use it. A change must keep the results independent of
+// the number of threads, bit for bit.
 #pragma once
 
 #include <array>
@@ -64,8 +64,8 @@ class Simulation {
   /// converged are accepted; StepReport::converged is then false.
   StepReport step(double end);
 
-  /// The smallest part of a step is 2^-8 = 1/256 of it. It resolves the contact of equal particles
-  /// that move past each other by up to 256 radii in a step.
+  /// The smallest part of a step is 2^-8 = 1/256 of the step. Such a part resolves the contact of
+  /// equal particles that move past each other by up to 256 radii in a step.
   static constexpr int kMostHalvings = 8;
 
   const State& state() const { return state_; }        ///< after the last step
@@ -108,7 +108,8 @@ class Simulation {
       for (auto& pair : *pairs) visit(pair);
   }
   void examine(const ProjectionResult& projected, double next) const;
-  // Sets the displacements h u* of the free motion in a part of length h that ends at time `next`.
+  // Sets the displacements h u* [L] of the free motion, without contacts, in a part of length h
+  // that ends at time `next`.
   template <int D>
   void move_freely(double h, double next);
   void turn_freely(double h, double next);

@@ -1,4 +1,6 @@
-// When the projection of a time step has converged.
+// When the projection of a time step has converged: `[solver]` of a case of particles, whose values
+// particles/case checks. projection/, constraints/ and fluid/ use it. A change of a default changes
+// the results of every case that does not set it.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Vectors of the plane or of space, and access to flat arrays of them, of any dimension and in any
-// unit. Eigen::Vector3d is not used, because each source that includes this file would take a
-// second longer to compile, and because a default Eigen vector is not zero, as Vector{} is.
+// unit. All of particles/ uses them; nothing is checked or thrown. Eigen::Vector3d is not used,
+// because each source that includes this file would take a second longer to compile, and because a
+// default Eigen vector is not zero, as Vector{} is.
 #pragma once
 
 #include <array>

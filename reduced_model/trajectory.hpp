@@ -103,8 +103,9 @@ struct TrajectoryRow {
 
 /// An impact of the sphere on the solids, physics.md (4.12).
 struct Rebound {
-  double time = 0;               ///< [T]
-  double approach_velocity = 0;  ///< where gamma began, or of inertial_rough at the initial gap [L/T], < 0
+  double time = 0;  ///< [T]
+  double approach_velocity =
+      0;  ///< where gamma began, or of inertial_rough at the initial gap [L/T], < 0
   double solid_impulse = 0;  ///< that the solids took up, before they gave a part back [M L/T], > 0
   double velocity = 0;       ///< where the sphere leaves the film [L/T], >= 0; 0: it stays
   double coefficient = 0;    ///< of restitution, velocity/|approach_velocity| [1]

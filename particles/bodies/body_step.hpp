@@ -1,7 +1,8 @@
 // The motion of rigid bodies in a time step, docs/physics.md (5.11). Lengths, masses and times are
 // in the units of the case. `dimension` is 2 or 3; in the plane only the third component of turns,
-// torques and angular momenta is used. Without constraints, momentum and angular momentum must stay
-// constant to rounding errors where no force and torque acts.
+// torques and angular momenta is used. Simulation, constraints, blows and links use it. Without
+// constraints, momentum and angular momentum must stay constant to rounding errors where no force
+// and torque acts.
 #pragma once
 
 #include <vector>

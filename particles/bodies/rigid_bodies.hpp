@@ -1,6 +1,7 @@
 // Rigid bodies of several discs or spheres, which keep their places in the body. Lengths, masses
 // and times are in one consistent system of units. The restart file stores the motion of the bodies
-// (io/restart.cpp); the case gives all else.
+// (io/restart.cpp); the case gives all else. Nothing is checked or thrown here; particles/case
+// checks the bodies.
 #pragma once
 
 #include <array>
@@ -86,8 +87,7 @@ struct RigidBodyRequest {
 /// distances between neighbours, and the body does not reach across the largest one. It must be
 /// smaller than the cell (diameter()). If two distances are the largest (ambiguous_images()), the
 /// images depend on the order of the particles. The velocities are those of the images. The
-/// particles must turn (add_rotation), unless their dimension is 1, and belong to no other body. No
-/// argument is checked.
+/// particles must turn (add_rotation), unless their dimension is 1, and belong to no other body.
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request);
 
 /// An axis of a periodic cell along which members do not determine which images make the body.

@@ -1,7 +1,8 @@
 // Contact of a pair: its gap and normal, docs/physics.md (5.1), and whether given displacements
 // close the gap. Lengths, masses and times are in any one consistent system of units. The
 // projection, the fluid and the blows share these functions; D is the number of dimensions, 1
-// (spheres on an axis), 2 (discs) or 3 (spheres).
+// (spheres on an axis), 2 (discs) or 3 (spheres). Nothing is checked or thrown. A change must keep
+// that a gap of rounding errors counts as 0.
 #pragma once
 
 #include <algorithm>
@@ -110,8 +111,8 @@ double gap_after(const Contact<D>& contact, std::span<const double> displacement
   return sum;
 }
 
-/// Returns a contact that contact_of made, with its gap changed to the one that the step is to
-/// close.
+/// The contact with the gap that the step has to close, which may differ from the gap that
+/// contact_of() gives.
 ///
 /// The gap is set to 0 if it is no larger than the rounding errors of the positions and radii that
 /// it is computed from. Otherwise these errors would cause impulses m D/h, which exceed any load if

@@ -2,7 +2,8 @@
 // what they remember after it. A new law is a class of its own (film_law.hpp, friction_law.hpp,
 // restitution_law.hpp), a member here, and, if it remembers something, a row in pair_memory.hpp.
 // Lengths, masses and times are in any one consistent system of units; gamma and impulses of discs
-// in a fluid are per length [M/T], all others [M L/T].
+// in a fluid are per length [M/T], all others [M L/T]. The projection, the fluid and the blows ask
+// them; nothing is thrown.
 #pragma once
 
 #include <limits>

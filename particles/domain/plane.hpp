@@ -1,5 +1,6 @@
 // Planes (lines, for discs) and circles that bound the space of the particles. A plane is at rest,
-// moves or turns. Lengths and times are in any one consistent system of units.
+// moves or turns. Lengths and times are in any one consistent system of units. All contacts use
+// them; particles/case checks the values. A change must keep normals at length 1.
 #pragma once
 
 #include <vector>

@@ -1,8 +1,8 @@
 // The blows of a step between solids that rebound, at their times within the step: docs/physics.md
 // (5.15) and (5.16). The projection of the step (projection/) follows with the motions that the
-// blows leave. A blow is an impact with all its contacts. Lengths, masses and times are in
-// any one consistent system of units. Results must depend on the order of the particles by rounding
-// errors only.
+// blows leave. A blow is an impact with all its contacts. simulation.cpp and projection/ use it.
+// Lengths, masses and times are in any one consistent system of units. Results must depend on the
+// order of the particles by rounding errors only.
 #pragma once
 
 #include <array>

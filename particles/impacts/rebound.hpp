@@ -1,5 +1,6 @@
 // A blow between solids that rebound, for rebounds.csv. Lengths, masses and times are in the units
-// of the case.
+// of the case. impacts/ and fluid/ make it, particles/io writes it. A change must keep the columns
+// of the file.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// The frames of a simulation, kept in memory for pages and pictures (report/particles). Lengths,
-// masses and times are in the units of the case.
+// The frames of a simulation, kept in memory for pages and pictures (particles/picture). Lengths,
+// masses and times are in the units of the case. run/particles_pages.cpp reads them. A change must
+// keep the memory of a frame small, because a run may have thousands.
 #pragma once
 
 #include <array>

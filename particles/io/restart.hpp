@@ -1,6 +1,6 @@
 // Writes and reads the state of a simulation, bit for bit, so that a run can be continued. Numbers
-// are stored without conversion, in the units of the case. Files of all earlier versions must stay
-// readable.
+// are stored without conversion, in the units of the case. The stage of particles uses it. A change
+// must keep files of all earlier versions readable.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Writes the frames of a simulation as VTK files (vtk.hpp). vtk_reader.cpp reads this layout and
-// must be changed with it.
+// Writes the frames of a simulation as VTK files (vtk.hpp). Numbers are in the units of the case;
+// nothing is thrown. A change must keep this layout in step with vtk_reader.cpp, which reads it.
 #include "viscontact/particles/io/vtk.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Frames of a simulation as VTK files for ParaView. Lengths, masses and times are in the units of
-// the case. A run that continues reads its own frames again, so that a change must keep the names
-// of the arrays.
+// the case. A run that continues, and pages, read the frames of a run again, so that a change must
+// keep the names of the arrays.
 #pragma once
 
 #include <filesystem>

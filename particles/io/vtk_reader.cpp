@@ -1,6 +1,7 @@
 // Reads the files that vtk.cpp writes, so that pages can be made from them. Lengths, masses and
-// times are in the units of the case. The reader understands only that layout, not VTK's
-// formats in general.
+// times are in the units of the case. The reader understands only that layout, not VTK's formats in
+// general; another file is an Error(kBadInput). A change must keep the frames of earlier versions
+// readable.
 #include <cstdint>
 #include <optional>
 #include <span>

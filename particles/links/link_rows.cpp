@@ -1,5 +1,6 @@
 // Makes the equations of links (link_rows.hpp). Lengths, masses and times are in the units of the
-// case.
+// case. Nothing is checked or thrown. A change must keep that rows and values_after() agree to
+// first order in the motion.
 #include "viscontact/particles/links/link_rows.hpp"
 
 #include <fmt/format.h>
@@ -39,7 +40,7 @@ double unit_angle(const Particles& p, std::int32_t particle) {
   return body < 0 ? p.angles[index_of(particle)] : p.bodies.bodies[index_of(body)].angle[2];
 }
 
-/// Angular velocity of the unit of a disc.
+/// Angular velocity of the unit of a disc [1/T].
 double unit_spin(const Particles& p, std::int32_t particle) {
   return p.angular_velocities[index_of(particle)];
 }
@@ -131,7 +132,7 @@ LinkEquations arm_equations(const Arm& arm, const Particles& p, const LinkTimes&
   return equations;
 }
 
-/// Displacement of the point of a part.
+/// Displacement of the point of a part [L].
 Vector moved(const LinkPart& part, const UnitMotion& motion, int dimension) {
   return displacement_at(motion.displacement, motion.turn, part.arm, dimension);
 }

@@ -2,6 +2,7 @@
 // Lengths, masses and times are in the units of the case. Equations of displacements [L] have
 // impulses [M L/T], equations of turns [rad] moments of impulses [M L^2/T]; where a member has two
 // dimensions, the first is that of displacements. constraints/ and fluid/ solve the equations.
+// Nothing is thrown. A change must keep the order of forces in State::link_forces.
 #pragma once
 
 #include <cstddef>

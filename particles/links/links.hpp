@@ -1,6 +1,6 @@
 // Hinges, springs and arms that hold particles and rigid bodies. Lengths, masses and times are in
-// the units of the case. case_file/ checks the values. A change must keep the order of the forces
-// in State::link_forces, which restart files contain.
+// the units of the case. particles/case checks the values; link_rows.hpp makes the equations. A
+// change must keep the order of the forces in State::link_forces, which restart files contain.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // Finds close pairs across the sides of a periodic cell by copies of the particles near them
-// (close_pairs.hpp). Lengths are in one unit. A change must keep the order of the pairs.
+// (close_pairs.hpp). Lengths are in one unit; nothing is checked or thrown. A change must keep the
+// order of the pairs.
 #include <algorithm>
 #include <array>
 #include <tuple>

@@ -1,6 +1,6 @@
 // The neighbour list: pairs of particles that may touch soon, which are kept over many steps, and
-// the particles near planes. Lengths are in the unit of the case. A change must keep the order of
-// the pairs, on which the results of a simulation depend.
+// the particles near planes. Lengths are in the unit of the case. Both simulations use it. A change
+// must keep the order of the pairs, on which the results of a simulation depend.
 #pragma once
 
 #include <span>

@@ -1,6 +1,7 @@
 // The pairs of a state as a graph of particles. When some gaps close, it serves to find which
 // further gaps may close in turn. It holds numbers of pairs and particles only. The projection, the
-// fluid and the blows use it.
+// fluid and the blows use it. Nothing is thrown. A change must keep the order of pairs, on which
+// results depend.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // Draws the particles of a frame with planes, contacts, marks of rotation, rigid bodies and links
 // as SVG (frame_picture.hpp). Motions in space must be drawn from the back to the front, because
-// SVG has no depth. The scripts in particles/picture/page draw the same.
+// SVG has no depth. Lengths are in the unit of the case, sizes in page units; nothing is thrown.
+// The scripts in particles/picture/page draw the same, and a change must keep both alike.
 #include "viscontact/particles/picture/frame_picture.hpp"
 
 #include <fmt/format.h>

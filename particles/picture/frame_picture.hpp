@@ -1,6 +1,6 @@
 // One frame of a motion as SVG: particles, planes and contacts in a panel of the still picture.
 // Lengths [L] are in the unit of the case. particles_picture.cpp calls it; the scripts in
-// report/particles/page draw the same, and a change must keep both alike.
+// particles/picture/page draw the same, and a change must keep both alike.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// A web page that plays a motion of particles by the scripts in particles/picture/page. The layout
-// of its data must be changed here and in those scripts together.
+// A web page that plays a motion of particles by the scripts in particles/picture/page.
+// run/particles_pages.cpp calls it. A change of the layout of its data must be made in those
+// scripts, too.
 #pragma once
 
 #include <string>
@@ -12,7 +13,7 @@ namespace viscontact::particles {
 /// discs in a fluid [M/T]) are in the units of the case. The size of the page is limited to about
 /// 24 MB. If a motion is too long for that, only every 2nd, 4th, ... frame is shown, and always the
 /// first and the last one. If there are too many particles, only every n-th particle is shown. The
-/// page says what it leaves out.
+/// page says what it leaves out. Throws the errors of read_flow().
 std::string particles_page(const Playback& original, const std::string& title);
 
 }  // namespace viscontact::particles

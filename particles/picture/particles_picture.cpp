@@ -1,6 +1,7 @@
 // Arranges frames of a motion side by side in an SVG, with the scale of gamma below
 // (particles_picture.hpp). Sizes are in units of the page, lengths of the motion in those of the
-// case.
+// case. A flow that cannot be read is an Error(kBadInput). A change must keep one scale for all
+// panels.
 #include "viscontact/particles/picture/particles_picture.hpp"
 
 #include <fmt/format.h>

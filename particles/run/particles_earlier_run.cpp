@@ -1,5 +1,7 @@
 // Finds out by the provenance of restart.bin whether an earlier run has the inputs and the version
-// of this call, and reads its state and record. Times [T] are in the unit of the case.
+// of this call, and reads its state and record. Times [T] are in the unit of the case. A folder
+// that cannot be continued is no error but a message; a restart file of the user that does not fit
+// is an Error(kBadInput). A change must keep that runs of other inputs are never continued.
 #include "viscontact/particles/run/particles_earlier_run.hpp"
 
 #include <fmt/format.h>

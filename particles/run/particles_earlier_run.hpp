@@ -1,6 +1,6 @@
 // The run that an earlier call of `particles` left in its folder: whether it can be continued, and
-// from which state. Lengths, masses and times are in the units of the case. A continued run must
-// give the same files as a run that was never interrupted.
+// from which state. Lengths, masses and times are in the units of the case. The stages of runs and
+// sweeps call it. A continued run must give the same files as a run that was never interrupted.
 #pragma once
 
 #include <filesystem>

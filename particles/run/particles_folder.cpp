@@ -1,5 +1,6 @@
 // Recognises the files of frames by their names, and files that Viscontact wrote by their
-// provenance.
+// provenance (particles_folder.hpp). Numbers of frames count from 0. A file of the user in the way
+// is an Error(kBadInput). A change must keep that only files of Viscontact are removed.
 #include "viscontact/particles/run/particles_folder.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,6 @@
-// The page and the picture of a run of many particles, which are made from the files of the run.
+// The page and the picture of a run of many particles, which are made from the files of the run, in
+// the units of the case. The commands `particles` and `report` call it. A change must keep that
+// frames of earlier versions can be drawn.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +17,8 @@ namespace viscontact::particles {
 void write_pages(const ParticlesCase& c, const std::filesystem::path& folder,
                  const results::Provenance& provenance);
 
-/// Does the same for a run that has ended or was interrupted, of which `folder` has the frames and
-/// says where the case is. The case and its file of particles must not have changed since. Throws
+/// As write_pages(), for a run that has ended or was interrupted. `folder` has its frames and says
+/// where the case is. The case and its file of particles must not have changed since. Throws
 /// Error(kBadInput) if a file is missing or damaged.
 void report_particles(const std::filesystem::path& folder);
 

@@ -1,5 +1,6 @@
 // The command `particles`: simulates many particles from a case and writes the files of the run, in
-// the units of the case. Sweeps of particles call run_particles(), too.
+// the units of the case. Sweeps of particles call run_particles(), too. A change must keep that a
+// run that is killed at any time continues to the same files.
 #pragma once
 
 #include <filesystem>

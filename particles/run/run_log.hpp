@@ -1,5 +1,6 @@
 // What a run of many particles writes while it computes: frames, the lists of their files, and
 // tables. Nothing of it stays in memory. Lengths, masses and times are in the units of the case.
+// particles_stage.cpp writes by it. A change must keep that a record continues its files exactly.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,8 @@ class RunLog {
   /// it had this record is missing or has been changed.
   void check(const RunRecord& record) const;
 
-  /// Continues that run: removes what it wrote after it had this record. Throws as check() does.
+  /// Continues the run that had this record: removes what it wrote later. Throws the errors of
+  /// check().
   void resume(const RunRecord& record);
 
   /// Adds the last step, which ended in this state and had these blows, to the sums, to steps.csv

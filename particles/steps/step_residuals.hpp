@@ -1,7 +1,8 @@
 // How far the solution of a step misses its conditions, and whether the step is accepted: the same
 // for particles with masses (projection/) and in a fluid (fluid/). A residual is how far a gap or a
 // length is from what its condition asks, [L]; docs/particles.md, "The projection", says what is
-// allowed. Lengths, masses and times are in the units of the case.
+// allowed. Lengths, masses and times are in the units of the case. A change of a limit changes
+// which steps are accepted.
 #pragma once
 
 #include <functional>

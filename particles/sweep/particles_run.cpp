@@ -1,5 +1,7 @@
 // Runs the case of a row and keeps its results (particles_run.hpp). result.json is written last and
-// records of which case and version it is, so that a process may be killed at any time.
+// records of which case and version it is, so that a process may be killed at any time; a change
+// must keep that. A run that fails is no error here: its row says why. Numbers are in the units of
+// the case.
 #include "viscontact/particles/sweep/particles_run.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // A run of a sweep of particles, in a folder of its own: the case of the row, the run itself and
-// its results, in the units of the case. A row that is finished is not computed again.
+// its results, in the units of the case. particles_sweep_stage.cpp uses it. A change must keep that
+// a row that is finished is not computed again.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // The stages of sweeps of particles. Their rows are runs with folders of their own, which this
 // process computes, or each task of a job on a cluster computes a share of them; then gather_sweep
-// puts the tables together.
+// puts the tables together. `sweep` calls it. Numbers are in the units of the case. A change must
+// keep finished runs.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +33,7 @@ struct ParticlesSweepRequest {
 void sweep_particles(const ParticlesSweep& sweep, const ParticlesSweepRequest& request);
 
 /// Computes the rows of a task, those whose number modulo `share.count` is `share.number`, into
-/// their folders, and writes no table. Throws as sweep_particles does.
+/// their folders, and writes no table. Throws the errors of sweep_particles().
 void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
                     const pipeline::Share& share);
 
