@@ -14,9 +14,10 @@ namespace {
 using Point = std::array<double, 2>;
 
 /// Distance of the point (x, y), x >= 0 and y >= 0, from an ellipse with the semi-axes a >= b along
-/// the axes; < 0 inside. The nearest point of the ellipse is (a^2 x/(s + a^2), b^2 y/(s + b^2)) with
-/// the largest root s of (a x/(s + a^2))^2 + (b y/(s + b^2))^2 = 1. In units of b^2 the left side is
-/// convex and falls for s > -1, so that Newton's method from the left of the root increases to it.
+/// the axes; < 0 inside. The nearest point of the ellipse is (a^2 x/(s + a^2), b^2 y/(s + b^2))
+/// with the largest root s of (a x/(s + a^2))^2 + (b y/(s + b^2))^2 = 1. In units of b^2 the left
+/// side is convex and falls for s > -1, so that Newton's method from the left of the root increases
+/// to it.
 double distance_to_ellipse(double a, double b, double x, double y) {
   const double square = (a / b) * (a / b);
   const double u = x / a, v = y / b;

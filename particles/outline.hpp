@@ -36,16 +36,16 @@ struct Outline {
 /// Distance of a point from the outline [L]; < 0 inside.
 double distance_to(const Outline& outline, const std::array<double, 2>& x);
 
-/// Distance between two outlines of which neither is in the other [L]; <= 0 if they overlap, and then
-/// it is the depth of the deepest point of `first` in `second`.
+/// Distance between two outlines of which neither is in the other [L]; <= 0 if they overlap, and
+/// then it is the depth of the deepest point of `first` in `second`.
 double gap(const Outline& first, const Outline& second);
 
 /// Distance of the outline from an obstacle [L]; < 0 if a part of it is behind the obstacle.
 double gap(const PlanePosition& obstacle, const Outline& outline);
 
 /// Outline of particle k in the plane, or of a sphere on the axis, which is at (0, z). `angles`: of
-/// all particles [rad]; used for ellipses only. With `shift` [L] the outline is that of an image of the
-/// particle.
+/// all particles [rad]; used for ellipses only. With `shift` [L] the outline is that of an image of
+/// the particle.
 Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<const double> angles,
                    std::size_t k, const Vector& shift = {});
 

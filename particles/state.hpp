@@ -77,8 +77,8 @@ struct State {
   double earlier_step = 0;  ///< length of the step before [T]; 0 if there was none
   /// In a fluid with inertia: length of the step before that one [T]; 0 if there was none.
   double step_before = 0;
-  /// In a fluid with inertia the flow of the steps before, FluidSolver::saved_flow(). It is set only
-  /// in a state that is to be written, and empty otherwise.
+  /// In a fluid with inertia the flow of the steps before, FluidSolver::saved_flow(). It is set
+  /// only in a state that is to be written, and empty otherwise.
   std::vector<char> flow;
 };
 

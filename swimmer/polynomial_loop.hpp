@@ -74,10 +74,9 @@ PolynomialLoop project_loop(const std::function<Eigen::VectorXd(double s)>& shap
                             Eigen::Index polynomials);
 
 /// The residual of Euler and Lagrange's equation of the problem "least energy at a given
-/// displacement" (physics.md (7.7)): the root mean square along the loop of
-/// d/ds (2 Phi v - eta A) - grad_x (v.Phi v - eta A.v), with v = dx/ds and A, Phi of
-/// shape_mechanics.hpp, over that of 2 Phi dv/ds [1]. `eta` is the multiplier of the displacement
-/// [M L/T^2] (OptimalStroke).
+/// displacement" (physics.md (7.7)): the root mean square along the loop of d/ds (2 Phi v - eta A)
+/// - grad_x (v.Phi v - eta A.v), with v = dx/ds and A, Phi of shape_mechanics.hpp, over that of 2
+/// Phi dv/ds [1]. `eta` is the multiplier of the displacement [M L/T^2] (OptimalStroke).
 double euler_lagrange_residual(const Swimmer& swimmer, const PolynomialLoop& loop, double eta);
 
 }  // namespace viscontact::swimmer

@@ -1,6 +1,6 @@
-// Options that several commands have, and checks of what a command line names. help/self_description.cpp
-// recognises by the type names below whether to offer files, folders or models as the value of an
-// option; a change of the names must be made there, too.
+// Options that several commands have, and checks of what a command line names.
+// help/self_description.cpp recognises by the type names below whether to offer files, folders or
+// models as the value of an option; a change of the names must be made there, too.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -44,8 +44,8 @@ struct DrawnLinks {
 struct Playback {
   int dimension = 2;         ///< of space: 1, 2 or 3
   std::vector<float> radii;  ///< [L]
-  /// Semi-axes of each particle in a fluid in the plane, the first one along its angle [L]; empty if
-  /// all are discs.
+  /// Semi-axes of each particle in a fluid in the plane, the first one along its angle [L]; empty
+  /// if all are discs.
   std::vector<std::array<double, 2>> semi_axes{};
   std::vector<Frame> frames;        ///< in order of time, from the start on
   std::vector<std::int32_t> ids{};  ///< as in Particles

@@ -20,8 +20,8 @@ namespace viscontact::particles {
 namespace {
 
 // Version 7 differs from version 6 by memories that version 6 has no array for. It is written only
-// where a pair has such a memory. Version 8 has the flow of a fluid with inertia, and is written only
-// where there is one.
+// where a pair has such a memory. Version 8 has the flow of a fluid with inertia, and is written
+// only where there is one.
 constexpr int kVersion = 8;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";

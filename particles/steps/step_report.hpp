@@ -25,8 +25,8 @@ struct FluidStepReport {
   double kinetic_energy = 0;   ///< of the fluid [M L^2/T^2], in two dimensions per unit length
   double reynolds_number = 0;  ///< largest rho_f |V| 2 r/mu of a particle
   double courant_number = 0;   ///< FlowQuantities::courant_number
-  /// Sum of the forces of the fluid on the particles whose motion is given [M L/T^2]; on an axis the
-  /// first is that along z.
+  /// Sum of the forces of the fluid on the particles whose motion is given [M L/T^2]; on an axis
+  /// the first is that along z.
   std::array<double, 2> given_force{};
   double seconds = 0;  ///< wall time of the step: mesh, fluid solver and contacts [s]
   /// Errors of the velocities of the particles; < 0 if they were not estimated in this step.
