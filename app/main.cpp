@@ -33,8 +33,7 @@ std::string version_text() {
                      results::freefem_version_or_not_found(interrupt_token()), text);
 }
 
-/// Adds the commands `completion` and `man`, whose texts are generated from the declared commands
-/// and options.
+/// Adds the commands `completion` and `man`, whose texts are made from the declared commands.
 void add_self_description(CLI::App& app) {
   auto* completion = app.add_subcommand(
       "completion", "print the completion for a shell: source <(viscontact completion bash)");

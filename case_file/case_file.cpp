@@ -309,8 +309,7 @@ void sweep_keys(Keys& keys, SweepRequest& sweep) {
   points_and_plot_keys(keys, sweep);
 }
 
-/// Checks that nothing uses the exact drag near a plane if the tabulation is that of another
-/// geometry.
+/// Checks that nothing uses the exact drag near a plane if the geometry is another one.
 void check_exact_drag(const TomlSection& root, const Case& c) {
   if (!c.tabulation || freefem_axi::find_geometry(c.tabulation->geometry).has_exact_drag) return;
   if (c.fit)

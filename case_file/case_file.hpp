@@ -1,7 +1,7 @@
 // A case file (TOML, docs/case-file.md): one sphere in a fluid, and what is to be computed for it.
-// Lengths, masses and times are in any one consistent system of units. Keys are declared in
-// case_file.cpp (keys.hpp). The stages of the main job (pipeline/) and sweeps read it. A change
-// must keep accepting the cases that users have written.
+// Lengths, masses and times are in any consistent units. Keys are declared in case_file.cpp
+// (keys.hpp). The stages of the main job (pipeline/) and sweeps read it. A change must keep
+// accepting the cases that users have written.
 #pragma once
 
 #include <cstdint>
@@ -72,8 +72,7 @@ struct Case {
 /// value and what is allowed.
 Case read_case(const std::filesystem::path& path);
 
-/// The case of one sphere whose root table is `root` (case_template.hpp). Throws the errors of
-/// read_case().
+/// The case of one sphere whose root table is `root` (case_template.hpp). Errors as read_case().
 template <>
 Case case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
 

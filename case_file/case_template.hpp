@@ -34,8 +34,8 @@ struct SweepRequest {
 template <class CaseType>
 CaseType case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
 
-/// A case with the text, the path and the title of its file. The title may be missing unless
-/// `needs_title`.
+/// A case with the text, the path and the title of its file. Only with `needs_title` it must have a
+/// title.
 template <class CaseType>
 CaseType titled_case(const TomlSection& root, std::string text, const std::filesystem::path& path,
                      bool needs_title = false) {

@@ -150,11 +150,9 @@ inline constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "
 /// A number as text for the tables, such as "1e-6".
 std::string number_in_words(double number);
 
-// Values of keys. They refer to their arguments, which must live until the declaration of the key
-// is done.
+// Values of keys. They refer to their arguments, which must live until the key is declared.
 
-/// A value with a reader and words of its own. `read` is called with the section, the key and the
-/// places.
+/// A value with a reader and words of its own. `read` gets the section, the key and the places.
 template <class Read, class... Places>
 KeyValue custom(std::string_view words, Read read, Places&... places) {
   return {[read, &places...](const TomlSection& section, std::string_view key) {

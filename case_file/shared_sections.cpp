@@ -110,8 +110,7 @@ void read_container(const TomlSection& section, std::string_view key, Tabulation
                 "neighbour need",
                 container.height, space.container_height);
   // In larger containers FreeFEM's mesh generator cannot make edges that are short enough for the
-  // gap (boundary_edges.idp). The drag in a container of this size is nearly that in unbounded
-  // fluid.
+  // gap (boundary_edges.idp). The drag there is nearly that in unbounded fluid.
   constexpr double kLargestLength = 2e5;
   for (const auto& [name, length] :
        {std::pair("radius", container.radius), std::pair("height", container.height)})
@@ -138,8 +137,7 @@ void check_gaps(const TomlSection& section, const Tabulation& tabulation) {
                          .required_space(tabulation.radius, widest, tabulation.geometry_parameters);
   section.require(space.largest_gap > 0, "geometry",
                   "leaves no room for the sphere; give it a larger radius");
-  // largest_gap is the difference of two lengths. A gap that equals it up to rounding errors is
-  // allowed.
+  // largest_gap is the difference of two lengths. A gap may exceed it by rounding errors.
   section.require(widest <= space.largest_gap * (1 + 1e-12), "gaps",
                   "goes up to {}; in this {} a gap must be at most {}", widest, tabulation.geometry,
                   space.largest_gap);

@@ -1,7 +1,6 @@
 // Sections that cases of one sphere and of a rolling one share (docs/case-file.md): [tabulation],
 // and what both have in [sweep]. Lengths, masses and times are in the units of the case.
-// case_file.cpp and rolling_case.cpp call it. A change must keep accepting the cases that users
-// have written.
+// case_file.cpp and rolling_case.cpp call it. A change must keep accepting users' cases.
 #pragma once
 
 #include <vector>

@@ -42,8 +42,8 @@ std::optional<double> allowed_number(const toml::node& node, const Allowed& allo
   return value && std::isfinite(*value) && allowed.test(*value) ? value : std::nullopt;
 }
 
-/// Position after the string whose opening quote is at `at`; the end of the text if the string is
-/// not closed.
+/// Position after the string whose opening quote is at `at`; the end of the text if there is no
+/// closing quote.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string three(3, quote);

@@ -32,16 +32,14 @@ class TomlSection {
   /// A copy of this root table with other numbers, each at a path such as
   /// "motion.external_force[0].value". Only the last key of a path need not exist yet. A number
   /// without a fraction is stored as an integer, unless it replaces a decimal number. Throws
-  /// Error(kBadInput) if another part of a path does not exist, or if the value at a path is not a
-  /// number.
+  /// Error(kBadInput) if another part of a path does not exist, or is no number.
   TomlSection with_numbers(std::span<const std::pair<std::string, double>> numbers) const;
 
   /// A copy of this root table with other texts, each at a path. There must be a text at each path.
   TomlSection with_texts(std::span<const std::pair<std::string, std::string>> texts) const;
 
   /// This root table as TOML, without the comments of the file and with its keys in alphabetical
-  /// order. Tables with equal keys and values give equal texts. Numbers read back to the same
-  /// value.
+  /// order. Tables with equal keys and values give equal texts. Numbers read back exactly.
   std::string as_toml() const;
 
   /// True if the key exists. The key then counts as asked for (finish).
@@ -70,8 +68,8 @@ class TomlSection {
   /// An array of at least one table.
   std::vector<TomlSection> sections(std::string_view key) const;
 
-  /// Throws Error(kBadInput) if this table has a key for which none of the functions above has been
-  /// called.
+  /// Throws Error(kBadInput) if this table has a key that none of the functions above was asked
+  /// for.
   void finish() const;
 
   int line() const;                               ///< line of this table in the file

@@ -19,8 +19,8 @@ double bisect_first_true(double from, double to, const Condition& holds) {
   return to;
 }
 
-/// Whether Newton's method may step onto an end of the bracket. If not, such a step is replaced by
-/// bisection.
+/// Whether Newton's method may step onto an end of the bracket. If not, bisection replaces the
+/// step.
 enum class Bracket { kOpen, kClosed };
 
 /// The root in [low, high] of an increasing function, by Newton's method from x. A step that leaves
@@ -30,8 +30,7 @@ enum class Bracket { kOpen, kClosed };
 template <class ExcessAndSlope, class Settled>
 double bracketed_newton(double x, double low, double high, Bracket bracket,
                         const ExcessAndSlope& excess_and_slope, const Settled& settled) {
-  // A limit that is never reached. Bisection alone takes about 60 steps to shorten the bracket by a
-  // factor of 1e18.
+  // A limit that is never reached. Bisection alone takes 60 steps to shorten the bracket by 1e18.
   constexpr int kMaxSteps = 200;
   for (int step = 0; step < kMaxSteps; ++step) {
     const auto [excess, slope] = excess_and_slope(x);

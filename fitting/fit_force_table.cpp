@@ -64,8 +64,7 @@ double chi_squared_quantile(double degrees_of_freedom) {
   return boost::math::quantile(chi_squared, 0.99);
 }
 
-/// True for a residual of more than 5 times the scale. Of Gaussian residuals, one in two million is
-/// as large.
+/// True for a residual above 5 times the scale; of Gaussian residuals one in two million is.
 bool is_far(double scaled_residual) { return std::abs(scaled_residual) > 5; }
 
 /// True for a row that a robust loss sets aside.
@@ -184,8 +183,8 @@ std::vector<lubrication::Outlier> outliers(const lubrication::MotionTable& table
   return found;
 }
 
-/// Warns if the fitted resistance is not positive or does not decrease with the gap, as far as its
-/// shape demands it.
+/// Warns if the fitted resistance is not positive or not decreasing, as far as its shape demands
+/// it.
 void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
                    std::vector<std::string>& warnings) {
   bool positive = shape != lubrication::FittedShape::kAny,
@@ -240,8 +239,7 @@ void warn_of_coefficients(const lubrication::Fit& fit, const FittedSystem& syste
     const double theory = -*fit.leading_coefficient * fit.reference_velocity;
     const double departure = term.coefficient - theory;
     // Two standard errors, because random errors exceed them in only one fit of twenty. The error
-    // estimates of the table count, too, because they limit how well the fit can know the
-    // coefficient.
+    // estimates of the table count, too, because they limit what the fit can know.
     const double error =
         std::max(2 * term.standard_error, d.largest_error_estimate * std::abs(theory));
     if (d.degrees_of_freedom > 0 && std::abs(departure) > error)

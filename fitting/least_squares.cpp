@@ -51,9 +51,8 @@ Eigen::VectorXd binary_scale(const Eigen::MatrixXd& matrix) {
       [](double norm) { return norm > 0 ? std::exp2(std::floor(std::log2(norm))) : 1.0; });
 }
 
-/// Iterative refinement of solution and residual together (Bjorck 1967): solves r + A x = b,
-/// A^T r = 0 with sums in extended precision. Refinement of x alone does not help if the residual
-/// is large.
+/// Iterative refinement of solution and residual together (Bjorck 1967): solves r + A x = b, A^T r
+/// = 0 with sums in extended precision. Refinement of x alone fails if the residual is large.
 void refine(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side,
             Eigen::VectorXd& solution) {
   using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
@@ -144,8 +143,7 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   options.max_trust_region_radius = 1e32;
   options.min_lm_diagonal = 1e-32;
   options.jacobi_scaling = false;
-  // Round-off may let a further step raise the cost. Ceres drops such a step, and this is not a
-  // failure.
+  // Round-off may let a further step raise the cost. Ceres drops such a step, which is no failure.
   options.max_num_iterations = 4;
   options.max_num_consecutive_invalid_steps = 20;
   options.function_tolerance = 1e-16;

@@ -112,9 +112,8 @@ RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
   solution.scale =
       scale_of(matrix * solution.least_squares.coefficients - right_hand_side, matrix.cols());
   if (loss == lubrication::Loss::kSquared) return solution;
-  // The sum of Huber's losses has one minimum, that of Cauchy's losses may have several. The
-  // iteration with Cauchy's loss starts from Huber's solution to find the minimum that most rows
-  // agree on.
+  // The sum of Huber's losses has one minimum, that of Cauchy's losses may have several. With
+  // Cauchy's loss the iteration starts from Huber's solution, near which most rows agree.
   const auto function = make_loss(loss);
   const auto plain = solution.least_squares;
   iterate(matrix, right_hand_side, *make_loss(lubrication::Loss::kHuber), stop, solution);

@@ -1,5 +1,5 @@
 // The registry of geometries (geometry.hpp). Lengths are in any one unit, and q is the gap. An
-// unknown name or motion is an Error(kBadInput). A change must keep the names, which case files and
+// unknown name or motion is an Error(kBadInput). A change must keep the names, which cases and
 // tables contain.
 #include "viscontact/freefem_axi/geometry.hpp"
 

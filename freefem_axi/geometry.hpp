@@ -1,8 +1,7 @@
 // The registry of geometries: what the sphere approaches. q is the gap, r the radius of the sphere,
 // mu the viscosity, R the resistance. Lengths are in any one unit. A new geometry needs a script
 // and a row in geometry.cpp; docs/extending.md shows how. Case files and tabulation.hpp use the
-// registry. A change must keep names and keys, which case files contain, and flags, which scripts
-// read.
+// registry. A change must keep names, keys (of case files) and flags (of scripts).
 #pragma once
 
 #include <array>
@@ -43,8 +42,7 @@ inline constexpr std::array kApproachAlone = {lubrication::MotionKind::kApproach
 struct Geometry {
   /// The name, which is `kind` in the case file.
   std::string_view name;
-  /// The script in the folder scripts/. docs/extending.md says which arguments it gets and what it
-  /// prints.
+  /// The script in the folder scripts/. docs/extending.md says what it gets and prints.
   std::string_view script;
   /// The parameters, in the order of all spans of parameters below.
   std::span<const GeometryParameter> parameters;

@@ -1,7 +1,7 @@
 // The tabulation of the lubrication force F_lub(q, u0) (physics.md, section 2): its inputs, and the
 // solution of one row, at the gap q and the velocity u0 of the sphere. Case files,
 // motion_table_plan.hpp, row_picture.hpp and `doctor` use it. Lengths, masses and times are in any
-// one consistent system of units.
+// consistent units.
 #pragma once
 
 #include <optional>

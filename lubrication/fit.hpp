@@ -59,8 +59,7 @@ struct WorstToEstimate {
 
 /// Diagnostics of a fit. Relative residuals are fit/table - 1. Every row counts as a separate
 /// measurement. Rows of one gap at several velocities are therefore counted several times, although
-/// a linear solver makes them equal; standard errors and leave-one-out residuals are then too
-/// small.
+/// a linear solver makes them equal; standard errors and leave-one-out residuals are too small.
 struct FitDiagnostics {
   /// Number of rows of the table, outliers included.
   std::size_t rows = 0;
@@ -185,8 +184,7 @@ struct Fit {
 };
 
 /// The name that stands in place of a basis for the exact drag of a sphere near a plane in a
-/// half-space (plane_drag.hpp). A fit with this name has no terms, and its force is known for every
-/// gap > 0.
+/// half-space (plane_drag.hpp). A fit with this name has no terms, and a force at every gap > 0.
 inline constexpr std::string_view kExactPlane = "exact_plane";
 
 /// A fit without terms and residuals that stands for the exact drag of a plane. Its interval is the

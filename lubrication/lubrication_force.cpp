@@ -21,8 +21,7 @@
 namespace viscontact::lubrication {
 namespace {
 
-// Range of gap/radius in which the exact drag and its integral are normal doubles of full
-// precision.
+// Range of gap/radius in which the exact drag and its integral are doubles of full precision.
 constexpr std::array kExactRange = {1e-300, 1e300};
 
 }  // namespace
@@ -209,8 +208,7 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   const double high = std::log(largest / radius_);
   if (exact_ && impulse_wanted > impulse(smallest) && impulse_wanted < impulse(largest)) {
     // With eps = gap/radius and the drag factor K of a plane, which is larger than 1/eps and larger
-    // than 1: Gamma/k < ln eps for eps < 1, and Gamma/k is larger than both ln eps and eps - 1 for
-    // eps > 1.
+    // than 1: Gamma/k < ln eps for eps < 1, and Gamma/k > ln eps and > eps - 1 for eps > 1.
     const double scaled = impulse_wanted / leading_;
     if (scaled < 0) return {std::max(scaled, low), 0.0};
     return {0.0, std::min(scaled, std::log1p(scaled))};

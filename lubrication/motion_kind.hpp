@@ -10,8 +10,7 @@
 namespace viscontact::lubrication {
 
 /// The z axis goes from the neighbour through the centre of the sphere. A sphere approaches or
-/// leaves along z, slides along x, rolls (turns about its centre and the y axis), or spins (turns
-/// about z).
+/// leaves along z, slides along x, rolls (turns about y), or spins (turns about z).
 enum class MotionKind { kApproach, kSlide, kRoll, kSpin };
 
 /// A motion and its name.

@@ -1,7 +1,6 @@
 // The functions of the gap q that a fit may combine, and the named bases (physics.md (3.2)). q is a
 // number > 0 in the table's unit of length. fitting/ and lubrication_force.hpp use them. A change
-// must keep the names and the formulas, because fit files name their terms and exports print the
-// formulas.
+// must keep names and formulas, which fit files and exports contain.
 #pragma once
 
 #include <cmath>
@@ -16,8 +15,8 @@ namespace viscontact::lubrication {
 /// terms computes it once.
 struct Formula {
   /// The expression in q and l, with + - * / ( ) and numbers. C, Fortran and Python must compute
-  /// the same from it. The numbers must therefore be exact in single precision, because Fortran
-  /// reads them so.
+  /// the same from it. The numbers must therefore be exact in single precision, as Fortran reads
+  /// them.
   std::string_view text;
   double (*at)(double gap, double log_gap);  ///< the value at q = gap > 0 and l = log_gap
 

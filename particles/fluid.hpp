@@ -66,8 +66,8 @@ struct WallVelocity {
 
   /// True if the velocity depends on time.
   bool depends_on_time() const { return !pieces.pieces.empty() || period > 0; }
-  /// The velocity, as in `value`, at `time` [T]. If `to` > `from`, pieces are averaged between
-  /// these times.
+  /// The velocity, as in `value`, at `time` [T]; if `to` > `from`, pieces are averaged between
+  /// both.
   std::array<double, 2> at(double time, double from = 0, double to = 0) const;
 };
 
@@ -116,8 +116,7 @@ struct Fluid {
   bool is_ellipse(std::size_t k) const {
     return !semi_axes.empty() && semi_axes[k][0] != semi_axes[k][1];
   }
-  /// Area of particle k, or volume of a sphere on the axis [L^2, L^3], if its radius is `radius`
-  /// [L].
+  /// Area of particle k [L^2], or volume of a sphere on the axis [L^3], of this radius [L].
   double size_of(int dimension, std::size_t k, double radius) const;
   /// Moment of inertia of particle k in the plane [M L^2] if it is homogeneous and has this mass
   /// [M] and radius [L].

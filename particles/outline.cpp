@@ -1,6 +1,5 @@
 // Distances to circles and ellipses (outline.hpp). Lengths are in the unit of the case. Nothing is
-// checked or thrown. A change must keep distances to the rounding errors that the comments below
-// state.
+// checked or thrown. A change must keep distances to rounding errors.
 #include "viscontact/particles/outline.hpp"
 
 #include <algorithm>

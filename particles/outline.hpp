@@ -44,8 +44,7 @@ double gap(const Outline& first, const Outline& second);
 double gap(const PlanePosition& obstacle, const Outline& outline);
 
 /// Outline of particle k in the plane, or of a sphere on the axis, which is at (0, z). `angles`: of
-/// all particles [rad]; used for ellipses only. With `shift` [L] the outline is that of an image of
-/// the particle.
+/// all particles [rad]; used for ellipses only. `shift` [L] moves it to an image.
 Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<const double> angles,
                    std::size_t k, const Vector& shift = {});
 

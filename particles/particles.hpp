@@ -1,7 +1,7 @@
-// The particles of a simulation: rigid discs or spheres. Lengths, masses and times are in any one
-// consistent system of units. The restart file stores these arrays as they are (io/restart.cpp), so
-// that a change of their layout needs a new version of that file. All of particles/ uses them;
-// nothing is checked here.
+// The particles of a simulation: rigid discs or spheres. Lengths, masses and times are in any
+// consistent units. The restart file stores these arrays as they are (io/restart.cpp), so that a
+// change of their layout needs a new version of that file. All of particles/ uses them; nothing is
+// checked here.
 #pragma once
 
 #include <array>
@@ -27,8 +27,7 @@ struct Particles {
   std::vector<double> velocities;  ///< [L/T]
   std::vector<double> radii;       ///< [L], > 0
   std::vector<double> masses;      ///< [M], > 0; >= 0 in a fluid
-  /// Name of each particle in files, >= 0; no two names are equal. Empty: particle k has the name
-  /// k.
+  /// Name of each particle in files, >= 0; no two are equal. Empty: k is named k.
   std::vector<std::int32_t> ids{};
   // Rotation. Empty if nothing in the case makes rotation matter (docs/particles.md), and on an
   // axis.

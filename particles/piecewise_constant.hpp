@@ -1,7 +1,7 @@
 // A vector that is constant between given times, such as a force [M L/T^2] or the velocity of a
 // plane [L/T]. Times [T] are in the unit of the case. Forces, planes and driven particles use it.
-// No function checks the order of the pieces, which particles/case checks. A change must keep
-// integrals exact.
+// No function checks the order of the pieces, which particles/case checks. Integrals must stay
+// exact.
 #pragma once
 
 #include <vector>

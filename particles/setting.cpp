@@ -1,6 +1,5 @@
 // Obstacles and periodic cell of a setting (setting.hpp). Lengths and times are in the units of the
-// case. Nothing is thrown. A change must keep the order of the obstacles, which numbers them in
-// files.
+// case. Nothing is thrown. A change must keep the order of obstacles, their number in files.
 #include "viscontact/particles/setting.hpp"
 
 namespace viscontact::particles {

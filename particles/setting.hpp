@@ -1,6 +1,6 @@
 // What moves the particles of a simulation, and how their motion is computed: the content of a case
 // file. Both simulations (simulation.hpp, fluid/fluid_simulation.hpp) and the output of their
-// states read it. Lengths, masses and times are in any one consistent system of units.
+// states read it. Lengths, masses and times are in any consistent units.
 #pragma once
 
 #include <cstdint>
@@ -58,12 +58,10 @@ struct Setting {
   std::map<std::int32_t, GivenMotion> given_motions;
 };
 
-/// The cell of the domain with the mean velocity gradient of the fluid; the gradient is 0 without a
-/// fluid.
+/// The cell of the domain with the mean velocity gradient of the fluid, 0 without a fluid.
 PeriodicCell cell_of(const Setting& setting);
 
 /// All obstacles of a case: the walls of its domain, then its planes. Files number them -1, -2, ...
-/// in this order.
 std::vector<Plane> obstacles_of(const Setting& setting);
 
 }  // namespace viscontact::particles

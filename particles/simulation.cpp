@@ -45,8 +45,7 @@ std::array<std::int32_t, 3> key_of(const Pair& pair) {
   return {pair.first, pair.second, pair.image};
 }
 
-/// Calls `change` for each number that `memory` keeps of the impulses of a step, with that of
-/// `other`.
+/// Calls `change` for each number that `memory` keeps of impulses of a step, and that of `other`.
 template <class Change>
 void for_impulses(PairMemory& memory, const PairMemory& other, const Change& change) {
   for (std::size_t f = 0; f < kMemoryFields.size(); ++f)
@@ -77,8 +76,7 @@ void Simulation::scale_impulses(double factor) {
   });
 }
 
-/// Copies the impulses of the step before, and what pairs remember, so that they can be restored if
-/// the step throws.
+/// Copies impulses of the step before, and what pairs remember, to restore them if the step throws.
 void Simulation::save_impulses() {
   if (!saved_impulses_.empty() || before_division_) return;
   for_pairs([&](const Pair& pair) {
@@ -96,8 +94,7 @@ void Simulation::take_impulses(const ProjectionResult& projected) {
   }
 }
 
-/// Updates what the laws remember of each pair in the projection. Returns the number of glued
-/// pairs.
+/// Updates what laws remember of each pair in the projection. Returns the number of glued pairs.
 std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
   std::size_t glued = 0;
   for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
@@ -294,8 +291,7 @@ void Simulation::examine(const ProjectionResult& projected, double next) const {
                                 moving);
   });
   // A link that is off by more than a thousandth of the mean radius after all iterations is taken
-  // to contradict others. Smaller residuals may be slow convergence; they are reported and not an
-  // error.
+  // to contradict others. Smaller residuals may be slow convergence; they are reported.
   constexpr double kBroken = 1e-3;
   if (residuals.converged || projected.unsolved_links.empty() ||
       std::max(projected.link_residual, -residuals.smallest_gap) <= kBroken * mean_radius_)
@@ -326,8 +322,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     scale_impulses(0.5);
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
-    // The caller may continue with a part of twice the length, for which the impulses are the first
-    // guess.
+    // The caller may go on with a part of twice the length, for which the impulses are the guess.
     if (halvings > 0) scale_impulses(2);
     return;
   }
@@ -342,8 +337,8 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     });
 }
 
-/// Computes a step, divided if necessary. If it or one of its parts throws, the state is again that
-/// before the step.
+/// Computes a step, divided if necessary. If a part throws, the state is again that before the
+/// step.
 template <int D>
 void Simulation::advance_whole(double h, double next, StepReport& report) {
   try {

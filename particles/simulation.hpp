@@ -1,7 +1,7 @@
 // Simulates many rigid discs or spheres with viscous contact: problem (5.2) and scheme (5.3) of
-// docs/physics.md (Maury 2006; Lefebvre 2009). Lengths, masses and times are in any one consistent
-// system of units. `particles` and its sweeps use it. A change must keep the results independent of
-// the number of threads, bit for bit.
+// docs/physics.md (Maury 2006; Lefebvre 2009). Lengths, masses and times are in any consistent
+// units. `particles` and its sweeps use it. A change must keep the results independent of the
+// number of threads, bit for bit.
 #pragma once
 
 #include <array>
@@ -54,8 +54,7 @@ class Simulation {
   /// Without this millionth, rounding errors of the times would cause tiny steps.
   ///
   /// A step in which touching particles turn about each other by more than kLargestTurn is halved,
-  /// up to kMostHalvings times. The contacts and glued pairs in the report are then those of the
-  /// last part.
+  /// up to kMostHalvings times. The report then has contacts and glued pairs of the last part.
   ///
   /// Throws Error(kNotConverged) if a position or displacement exceeds largest_resolved_distance(),
   /// if the projection has not converged and leaves an overlap of more than the mean radius (for
@@ -71,8 +70,7 @@ class Simulation {
   const State& state() const { return state_; }        ///< after the last step
   const Setting& setting() const { return setting_; }  ///< as the constructor was given it
 
-  /// The blows of the last step in which solids touched, in order of time; empty without
-  /// restitution.
+  /// The blows of solids in the last step, in order of time; empty without restitution.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
 
   /// The particles with their velocities at the present time. With kLeapfrog, velocities of the

@@ -1,6 +1,6 @@
 // State of a simulation: everything, besides the case, that its future depends on. Lengths, masses
-// and times are in one consistent system of units. The restart file (io/restart.cpp) stores these
-// fields bit for bit; a change of Pair or State must keep old restart files readable.
+// and times are in any consistent units. The restart file (io/restart.cpp) stores these fields bit
+// for bit; a change of Pair or State must keep old restart files readable.
 #pragma once
 
 #include <cstddef>

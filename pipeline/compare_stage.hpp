@@ -1,7 +1,6 @@
 // The stage compare: how far the trajectories of a folder are from that of the reference
 // (docs/file-formats.md, "Comparison"). Numbers are in the units of the trajectories. The main job
-// and the command `compare` call it. A change must keep the order of the models, which is that of
-// the file.
+// and the command `compare` call it. A change must keep the order of the models in the file.
 #pragma once
 
 #include <filesystem>

@@ -27,8 +27,7 @@ struct DryRun {
 /// magnitude on a similar machine.
 DryRun dry_run(const CaseTable& one);
 
-/// The estimate for a sweep into the file `output`. Up to three of its rows are computed to measure
-/// their time.
+/// The estimate for a sweep into the file `output`. Up to three of its rows are computed and timed.
 DryRun dry_run(const sweep::Study& study, const std::string& output, const StopToken& stop);
 
 /// A line for each output, then the time that all of them take if `jobs` rows are computed at once.

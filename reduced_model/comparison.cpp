@@ -26,8 +26,7 @@ class Interpolation {
     double gap, velocity;
   };
 
-  /// Gap and velocity at `time`, which must be within the trajectory and not before that of the
-  /// last call.
+  /// Gap and velocity at `time`, which must be in the trajectory, not before the last call's.
   Value at(double time) {
     while (next_ + 1 < rows_.size() && rows_[next_].time < time) ++next_;
     const auto& b = rows_[next_];

@@ -37,8 +37,7 @@ std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, in
   std::size_t row = 0;
   for (std::size_t n = 0; n < wanted; ++n) {
     const double w = static_cast<double>(n) / static_cast<double>(wanted - 1);
-    // The factor makes the time slightly earlier, so that rounding cannot skip the row at this
-    // time.
+    // The factor makes the time slightly earlier, so that rounding cannot skip its row.
     const double time = from + w * (to - from) * (1 - 1e-12);
     while (row + 1 < rows.size() && rows[row].time < time) ++row;
     kept[row] = 1;

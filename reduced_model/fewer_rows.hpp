@@ -13,8 +13,7 @@ namespace viscontact::reduced_model {
 /// `count` equidistant times, and the rows that a comparison needs: the first, the last, the first
 /// with the smallest gap, with the largest gap and with the lowest gamma, and the two rows around
 /// each instant at which contact or solid contact begins or ends. If there are more than `count`
-/// such instants, only the first and the last of them count. If there are at most `count` rows, all
-/// are returned.
+/// such instants, only the first and the last of them count. At most `count` rows are all returned.
 std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, int count);
 
 }  // namespace viscontact::reduced_model

@@ -41,8 +41,8 @@ struct FitUncertainty {
   std::vector<UncertainGap> gaps;  ///< at equidistant times
 };
 
-/// Default number of draws. The ends of the interval of 95 % then have a random error of about 1 %
-/// of its width.
+/// Default number of draws. The ends of the interval of 95 % then have an error of about 1 % of its
+/// width.
 inline constexpr std::size_t kDraws = 10000;
 
 /// Propagates the errors of a fit to the motion without inertia, Gamma(q(t)) = Gamma(q0) + int

@@ -1,6 +1,6 @@
 // What every model of motion is given: the sphere, its start, the external force, and the values of
-// the models' parameters. Lengths, masses and times are in any one consistent system of units. Case
-// files set these members; a change must keep the keys.
+// the models' parameters. Lengths, masses and times are in any consistent units. Case files set
+// these members; a change must keep the keys.
 #pragma once
 
 #include <array>
@@ -43,8 +43,7 @@ struct Motion {
 
   /// The value of a parameter. Throws Error(kBadInput) if it has no value.
   double parameter(const ModelParameter& which) const;
-  /// Coefficient of restitution e_d of the solids, 0 to 1 [1]; 0 if the motion has no value of
-  /// kRestitution.
+  /// Coefficient of restitution e_d of the solids, 0 to 1 [1]; 0 without a value of kRestitution.
   double restitution() const;
   /// Sets a parameter. The value must be one that `which` allows, which is not checked here.
   void set(const ModelParameter& which, double value) { parameters[which.key] = value; }

@@ -75,8 +75,7 @@ std::string escaped(std::string_view text);
 std::string section(std::string_view heading, const std::string& body);
 
 /// A link from the report to a file of the run. `file` is relative to the run's folder; `words` is
-/// the text of the link, by default the file's name. If there is no such file, returns the text
-/// without a link.
+/// the text of the link, by default the file's name. Without such a file it is no link.
 std::string link_to(const results::RunFolder& run, const std::string& file,
                     std::string_view words = {});
 

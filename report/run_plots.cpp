@@ -1,7 +1,6 @@
 // The plots of a run's report: trajectories, their comparison, the fit, and the effect of its
 // errors (run_plots.hpp). Gaps [L], times [T], gamma [M L/T] and forces [M L/T^2] are in the units
-// of the case. Nothing is thrown. A change must keep the names of the plots, which are names of
-// files.
+// of the case. Nothing is thrown. The names of the plots, names of files, must stay.
 #include "viscontact/report/run_plots.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Summaries of fits, shifts and comparisons: words and tables for the terminal, and pictures. Gaps
 // and times are in the units of the case. The stages of pipeline/ print them. A change must keep
-// the keys of the JSON, which scripts of users read.
+// the keys of the JSON, which users' scripts read.
 #pragma once
 
 #include <string>

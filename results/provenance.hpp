@@ -33,8 +33,7 @@ struct Provenance {
   std::map<std::string, std::string> versions;
   /// The file that was written, as the command names it.
   std::string output;
-  /// Time at which the file was made: UTC, ISO 8601 to the second. If SOURCE_DATE_EPOCH is set, it
-  /// is that time.
+  /// Time at which the file was made: UTC, ISO 8601 to the second. SOURCE_DATE_EPOCH replaces it.
   std::string made;
 };
 

@@ -2,9 +2,9 @@
 // change of the solid contact to the next: the sphere touches the roughness, its slip ends,
 // friction no longer prevents slip, or the sphere is lifted off. x is along the plane, z away from
 // it, y the axis of rotation; u, V are the velocities of sphere and plane along x, w is the angular
-// velocity. s is ln(q/r) with the gap q and the radius r. Lengths, masses and times are in any one
-// consistent system of units. A start above the fit is an Error(kBadInput), a step that CVODE gives
-// up an Error(kNotConverged). A change must keep the slip exactly 0 while the sphere rolls.
+// velocity. s is ln(q/r) with the gap q and the radius r. Lengths, masses and times are in any
+// consistent units. A start above the fit is an Error(kBadInput), a step that CVODE gives up an
+// Error(kNotConverged). A change must keep the slip exactly 0 while the sphere rolls.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,8 +49,8 @@ class RollingEquation {
   double contact_force() const;                            ///< of the solids along z, >= 0
   double friction_force(std::span<const double> y) const;  ///< of the solids along x
   double slip(std::span<const double> y) const;            ///< of the lowest point [L/T]
-  /// 1/m + r^2/I [1/M], with the moment of inertia I: the acceleration of the lowest point by a
-  /// unit of friction.
+  /// 1/m + r^2/I [1/M], with the moment of inertia I: acceleration of the lowest point per
+  /// friction.
   double compliance() const;
   /// True if Coulomb's friction can keep the slip at 0. If not, sets the direction of sliding.
   bool can_roll(std::span<const double> y);
@@ -87,8 +87,7 @@ reduced_model::Motion normal_motion(const RollingMotion& motion) {
           .external_force = reduced_model::ExternalForce({{motion.end_time, motion.normal_force}})};
 }
 
-/// The fluid around the sphere. Throws Error(kBadInput) if the sphere starts above the gaps of the
-/// fit.
+/// The fluid around the sphere. Throws Error(kBadInput) if it starts above the gaps of the fit.
 RollingFluid fluid_around(const RollingMotion& motion, const motions::PairFit& fit) {
   const RollingFluid fluid(fit);
   (void)fluid.at(motion.initial_gap);
@@ -328,8 +327,7 @@ class LubricatedRun {
     if (motion_.normal_force > 0) lift_off_ = {now_, state};
   }
 
-  /// Sets the slip to 0 exactly. The sphere then rolls if friction can prevent slip, else it
-  /// slides.
+  /// Sets the slip to 0 exactly. Then the sphere rolls if friction can prevent slip, else slides.
   void stick(RollingStateVector& state) {
     push(state, -equation_.slip(state) / equation_.compliance());
     equation_.solids.contact =

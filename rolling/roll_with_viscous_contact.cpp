@@ -1,7 +1,7 @@
 // The model `viscous_contact` of a sphere that moves along a plane and turns: time steps by
 // physics.md (4.5) and (4.10). gamma is minus the impulse that the film has absorbed, q0 the
-// initial gap. Lengths, masses and times are in any one consistent system of units. A fit that
-// lacks an entry is an Error(kBadInput). A change must keep the balance of contact_step.hpp.
+// initial gap. Lengths, masses and times are in any consistent units. A fit that lacks an entry is
+// an Error(kBadInput). A change must keep the balance of contact_step.hpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>

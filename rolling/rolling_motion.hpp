@@ -1,7 +1,7 @@
 // A sphere near a plane that moves in two directions and turns (physics.md (4.8) to (4.11)): x
 // along the plane, z away from it, y the axis of rotation; q is the gap. Lengths, masses and times
-// are in any one consistent system of units. The command `rolling` and its sweeps use these models;
-// a change must keep their names, which case files contain.
+// are in any consistent units. The command `rolling` and its sweeps use these models; a change must
+// keep their names, which case files contain.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,7 @@
 namespace viscontact::rolling {
 
 /// The sphere, its start, the forces that do not depend on its motion, and the surfaces. The fluid
-/// is at rest where the plane is at rest; it is carried along by a plane that moves at a constant
-/// velocity.
+/// is at rest where the plane is at rest; a plane with a constant velocity carries it along.
 struct RollingMotion {
   double mass = 0;                   ///< m [M], > 0
   double moment_of_inertia = 0;      ///< I [M L^2], > 0

@@ -1,6 +1,6 @@
 // The sweep of a case of one sphere: each row has the gaps, films and distances of several models
 // (docs/file-formats.md). Lengths, masses and times are in the units of the case. `sweep` calls it.
-// A change must keep the names of the columns, because scripts of users read them.
+// A change must keep the names of the columns, which users' scripts read.
 #pragma once
 
 #include <filesystem>

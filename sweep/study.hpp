@@ -3,7 +3,7 @@
 // later call continues an interrupted sweep after its last row. Each kind of case has a function
 // that makes a Study (sphere_study.hpp, rolling_study.hpp, swimmer_study.hpp, particles_study.hpp):
 // how a point becomes a case, and which numbers its row has. Numbers are in the units of the case.
-// A change must keep the form of the file, which scripts of users read.
+// A change must keep the form of the file, which users' scripts read.
 #pragma once
 
 #include <cstddef>
@@ -84,8 +84,7 @@ auto at_point(const Points& points, std::uint64_t index, const Make& make) {
   }
 }
 
-/// Makes the cases of the first and the last row, so that wrong ranges are refused before rows are
-/// computed.
+/// Makes the cases of the first and the last row, so that wrong ranges are refused at once.
 template <class Make>
 void check_ends(const Points& points, const Make& make) {
   for (const std::uint64_t index : {std::uint64_t{0}, points.rows() - 1})

@@ -57,8 +57,7 @@ struct Points {
   std::vector<Variation> variations;  ///< the varied keys
   std::uint64_t samples = 0;          ///< number of random points; 0: the whole grid
   std::uint64_t seed = 1;             ///< seed of the random points
-  /// Number of random arrangements of particles at each point; 0: the arrangement of the case
-  /// alone.
+  /// Number of random arrangements of particles at each point; 0: that of the case alone.
   std::uint64_t draws = 0;
   /// arrangement.seed of the first draw; the next draws have the following numbers.
   std::uint64_t first_draw = 1;

@@ -34,8 +34,7 @@ struct OptimalStrokeStep {
 struct OptimalStroke {
   /// The shapes of the stroke.
   PolynomialLoop loop;
-  /// Multiplier of the displacement at a period of 1 [M L/T^2]: derivative of the least energy by
-  /// the displacement.
+  /// Derivative of the least energy by the displacement at a period of 1 [M L/T^2].
   double multiplier = 0;
   /// The results with rising numbers of polynomials; the last one is that of `loop`.
   std::vector<OptimalStrokeStep> convergence;

@@ -42,8 +42,7 @@ struct LoopSums {
       displacement_gradient;        ///< [1]
 };
 
-/// Computes LoopSums by a quadrature that is exact for polynomials of four times the degree of the
-/// loop.
+/// Computes LoopSums by a quadrature that is exact up to four times the degree of the loop.
 class LoopFunctional {
  public:
   /// For loops with `polynomials` polynomials of each arm. `swimmer` must outlive the object.
@@ -68,8 +67,7 @@ class LoopFunctional {
   Eigen::MatrixXd values_, slopes_;  ///< a column for each point
 };
 
-/// The coefficients of the polynomials that are nearest to a given loop `shape(s)` through
-/// shape(0).
+/// The polynomials that are nearest to a given loop `shape(s)` through shape(0).
 PolynomialLoop project_loop(const std::function<Eigen::VectorXd(double s)>& shape,
                             Eigen::Index polynomials);
 

@@ -45,8 +45,7 @@ bool Swimmer::contains(const Eigen::VectorXd& arms) const {
 ShapeMechanics Swimmer::at(const Eigen::VectorXd& arms, bool with_slopes) const {
   for (Index k = 0; k < arms.size(); ++k) {
     const auto [from, to] = arm_interval(k);
-    // The gaps decide, as in the table, because the sum of a gap and two radii has a rounding
-    // error.
+    // The gaps decide, as in the table, because a gap plus two radii is rounded.
     if (!contains(arms) && !(arms[k] >= from && arms[k] <= to))
       throw Error(ErrorKind::kBadInput,
                   fmt::format("arm x{} is {:.9g}; the table has arms from {:.9g} to {:.9g}", k + 1,

@@ -61,8 +61,8 @@ Stroke elliptic_stroke(const Eigen::VectorXd& centre, const Eigen::VectorXd& sem
     return ArmState{centre.array() + semi_axes.array() * angle.cos(),
                     -frequency * semi_axes.array() * angle.sin()};
   };
-  // The legs meet where the first arm turns. If all arms turn there, the square root of the power
-  // has a kink.
+  // The legs meet where the first arm turns. If all arms turn there, the root of the power has a
+  // kink.
   const double first_turn = -phases[0] / pi - std::floor(-phases[0] / pi);
   Stroke stroke{period, {}};
   double start = 0;

@@ -1,7 +1,6 @@
 // Strokes: closed paths of a swimmer's arms, with their time law. An arm is the distance between
 // the centres of neighbouring spheres. Lengths and times are in the units of the case. Cases make
-// strokes, and swim.hpp integrates them. A change must keep that legs follow each other without a
-// gap.
+// strokes, and swim.hpp integrates them. Legs must follow each other without a gap.
 #pragma once
 
 #include <Eigen/Core>

@@ -115,7 +115,7 @@ SwimErrors swim_errors(const SwimSums& sums, const Stroke& stroke,
     const auto changed = swim_sums(Swimmer(fit), stroke);
     const double displacement = changed.displacement - sums.displacement;
     // Because the loop is stationary, the least energy at the wanted displacement changes, to first
-    // order, by the change of the loop's energy minus the multiplier times the change of its
+    // order, by the change of the loop's energy minus the multiplier times that of its
     // displacement.
     return {displacement, changed.energy - sums.energy - multiplier * displacement};
   };

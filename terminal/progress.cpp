@@ -50,8 +50,7 @@ std::string time_left(double seconds, double done) {
 
 void clear_progress() { show_progress(""); }
 
-// Errors of fputs are ignored: if standard error is closed or full, the message is lost, but the
-// work continues.
+// Errors of fputs are ignored: if standard error is closed or full, only the message is lost.
 void say(const std::string& text) {
   if (quiet_objects == 0) std::fputs((text + "\n").c_str(), stderr);
 }

@@ -16,8 +16,8 @@ void show_progress(const std::string& text);
 /// Limits how often a progress line is shown.
 class ProgressTimer {
  public:
-  /// True if a tenth of a second has passed since this function last returned true, or since the
-  /// timer was made.
+  /// True if a tenth of a second has passed since it last returned true, or since the timer was
+  /// made.
   bool is_due();
 
  private:

@@ -1,6 +1,5 @@
 // Adds and checks the options of array jobs (array_options.hpp). A wrong option is an
-// Error(kWrongUsage). A change must keep the names of the options, because submitted scripts
-// contain them.
+// Error(kWrongUsage). A change must keep the names of the options, which submitted scripts contain.
 #include "viscontact/app/commands/array_options.hpp"
 
 #include <fmt/format.h>

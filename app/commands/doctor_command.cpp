@@ -82,8 +82,7 @@ void print_line(const Finding& finding) {
   fmt::print("{} {}\n", word, finding.what);
 }
 
-/// Prints the findings to standard output, one line each or as JSON. True if nothing is missing or
-/// wrong.
+/// Prints the findings, one line each or as JSON. True if nothing is missing or wrong.
 bool examine(bool json) {
   std::vector<Finding> findings;
   const Report report = [&](const Finding& finding) {

@@ -27,8 +27,7 @@ namespace {
 
 /// Reads the value of --fix, which fixes the coefficient of 1/q in the force at the table's first
 /// velocity [M L^2/T^2]. No value, "1/q" or "theory" fixes it at the value that lubrication theory
-/// gives (docs/theory.md); "1/q=56.5" fixes it at 56.5. Throws Error(kWrongUsage) for any other
-/// value.
+/// gives (docs/theory.md); "1/q=56.5" fixes it at 56.5. Other values throw Error(kWrongUsage).
 void read_fix(const std::string& word, fitting::FitSettings& settings) {
   settings.fix_leading = true;
   if (word.empty() || word == lubrication::kLeadingTerm || word == "theory") return;

@@ -51,8 +51,8 @@ void check_command(const std::string& file, const std::vector<std::string>& comm
     throw_bad_input({file}, "its line 'provenance' contains a command that 'rerun' does not run");
 }
 
-/// The place of an option's value in a command: index of a word, and position in this word at which
-/// the value begins.
+/// The place of an option's value in a command: index of a word, and position in it at which the
+/// value begins.
 struct ValuePlace {
   std::size_t word = 0, begin = 0;
 };
@@ -133,8 +133,7 @@ std::vector<std::string> with_output(const RerunOptions& o, const results::Prove
 }
 
 /// Changes the provenance for files that have moved to the folder `to`. Absolute paths below the
-/// folder in which the command ran become paths below `to`, so that nothing is read or written in
-/// the old folder.
+/// folder in which the command ran become paths below `to`, so that the old folder is not used.
 void move_to(results::Provenance& provenance, const fs::path& to) {
   const std::string from = provenance.folder + "/";
   // A provenance without a folder has no absolute paths either (without_folders).

@@ -1,7 +1,6 @@
 // The command lines of `run` (the main job) and of its last stages, `simulate`, `compare` and
 // `report` (docs/command-line.md). pipeline/ and report/ do the work. Errors are those of the
-// stages. A command that writes into a folder must keep the folder locked until it ends
-// (LockedFolder).
+// stages. A command must keep the folder into which it writes locked until it ends.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -130,8 +129,7 @@ void add_compare(CLI::App& app) {
 
 namespace {
 
-/// Writes the page and the pictures of a folder again. The results in the folder tell which command
-/// wrote them.
+/// Writes the page and the pictures of a folder again. Its results tell which command wrote them.
 void report_again(const std::filesystem::path& folder) {
   const auto has = [&](const char* name) {
     return std::filesystem::is_regular_file(folder / name);

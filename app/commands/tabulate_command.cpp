@@ -1,7 +1,7 @@
 // The command line of `tabulate` (docs/command-line.md), and the choice of what to do: compute all
 // rows here, compute the rows of one task, submit a job to Slurm, or gather the rows of such a job.
 // pipeline/tabulate/ does the work. Gaps are in the unit of the case. A wrong option is an
-// Error(kWrongUsage). A change must keep the names of the tables, which scripts of users read.
+// Error(kWrongUsage). A change must keep the names of the tables, which users' scripts read.
 #include <fmt/format.h>
 
 #include <algorithm>

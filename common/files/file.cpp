@@ -49,8 +49,7 @@ void remove_left_behind(const std::filesystem::path& folder, const std::string& 
     const auto number = std::from_chars(begin, std::max(begin, end), process);
     if (number.ec != std::errc() || number.ptr != end || process <= 0) continue;
     if (::kill(process, 0) == 0 || errno != ESRCH) continue;
-    // On a shared disk the file may belong to a process on another machine. That process has locked
-    // it.
+    // On a shared disk the file may belong to a process on another machine, which has locked it.
     const Descriptor file(::open(entry.path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
     if (file.get() >= 0 && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0)
       ::unlink(entry.path().c_str());

@@ -38,8 +38,7 @@ std::filesystem::path check_output_file(const std::filesystem::path& path);
 /// Makes a folder and its parents. Throws Error(kBadInput) if it cannot be made.
 void make_folder(const std::filesystem::path& path);
 
-/// Removes a file if it exists. Throws Error(kBadInput), which names the path, if it cannot be
-/// removed.
+/// Removes a file if it exists. Throws Error(kBadInput), which names the path, if that fails.
 void remove_file(const std::filesystem::path& path);
 
 /// Flushes the folder of `path` to disk, so that a new or renamed file is still in it after a power

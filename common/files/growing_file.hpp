@@ -42,8 +42,7 @@ class GrowingFile {
   /// The end with all lines that have been appended.
   const FileEnd& end() const { return end_; }
 
-  /// Writes all lines that have been appended; they are then on disk. Throws the errors of
-  /// append().
+  /// Writes all lines that have been appended; they are then on disk. Errors are those of append().
   void sync();
 
  private:

@@ -75,8 +75,7 @@ LockedFolder::LockedFolder(std::filesystem::path path, const std::string& messag
   make_folder(path_);
   lock_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // A folder that cannot be opened or locked (on a file system without locks, for example) is not
-  // an error here. If no file can be written into it, the error comes when the first file is
-  // written.
+  // an error here. The error comes when the first file is written.
   if (lock_.get() >= 0 && ::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     throw_bad_input({path_.string()}, message);
 }

@@ -1,5 +1,4 @@
-// Computes SHA-256 with OpenSSL (sha256.hpp). A change must keep the digits, which published files
-// contain.
+// Computes SHA-256 with OpenSSL (sha256.hpp). A change must keep the digits, which files contain.
 #include "viscontact/common/hash/sha256.hpp"
 
 #include <fmt/format.h>

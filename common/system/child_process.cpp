@@ -71,8 +71,7 @@ ChildProcess::ChildProcess(const ProcessCommand& command, const StopToken& stop)
 
 ChildProcess::~ChildProcess() {
   if (child_.id < 0) return;
-  // finish() was not called, so that the number of the child's group cannot belong to another
-  // group.
+  // finish() was not called, so that no other group can have the number of the child's group.
   ::kill(-child_.id, SIGKILL);
   while (::waitpid(child_.id, nullptr, 0) < 0 && errno == EINTR) {
   }
@@ -88,8 +87,7 @@ void ChildProcess::send_some() {
   const ssize_t count = ::send(child_.to_child.get(), to_send_.data() + sent_,
                                to_send_.size() - sent_, MSG_NOSIGNAL | MSG_DONTWAIT);
   if (count > 0) sent_ += static_cast<std::size_t>(count);
-  // A child that does not read any more may still answer. If it does not, read_word returns kClosed
-  // or kTimedOut.
+  // A child that no longer reads may still answer. If not, read_word returns kClosed or kTimedOut.
   if (count < 0 && errno != EAGAIN && errno != EINTR) child_.to_child.close();
 }
 

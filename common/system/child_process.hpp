@@ -1,7 +1,7 @@
 // A child process that is asked over and over, such as a fluid solver (freefem_flow/process/): text
 // goes to its standard input, and words come from its standard output (Linux). A change must keep
-// that neither a full pipe nor a child that ends or is silent can stop this process for longer than
-// the deadline.
+// that neither a full pipe nor a child that ends or is silent can stop this process beyond the
+// deadline.
 #pragma once
 
 #include <array>
@@ -72,8 +72,7 @@ class ChildProcess {
     State state = State::kRead;  ///< how reading ended
     std::string_view text{};     ///< the word or line, or what there is of it
   };
-  /// Bytes of the longest word or line. It only bounds the memory: answers are numbers and
-  /// messages.
+  /// Bytes of the longest word or line, to bound the memory: answers are numbers and messages.
   static constexpr std::size_t kLongestText = 4096;
 
   /// The next word of the output, which white space precedes and follows.
@@ -99,8 +98,7 @@ class ChildProcess {
   /// Closes the standard input of the child, waits for the end of the child until `grace` has
   /// passed, and then kills its process group. All output that was not read is added to
   /// last_lines(). Returns how the child ended: "ended with status 3", "ended by signal 11
-  /// (Segmentation fault)", or "had to be stopped". A stop request ends the waiting without an
-  /// error.
+  /// (Segmentation fault)", or "had to be stopped". A stop request only ends the waiting.
   std::string finish(std::chrono::milliseconds grace);
 
   /// The last lines of the standard error, and of the output that keep() or finish() added.

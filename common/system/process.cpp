@@ -61,8 +61,7 @@ struct ChildEnd {
 };
 
 /// Waits until the child has ended. Kills its process group first if a stop is requested or
-/// `deadline` passes. Both are checked here, too, because a child can close its output and continue
-/// to run.
+/// `deadline` passes. A child can close its output and continue to run.
 ChildEnd wait_for_end(pid_t child, Clock::time_point deadline, const StopToken& stop) {
   constexpr int kFirstPause = 1, kLongestPause = 20;  // milliseconds between two checks
   ChildEnd end;

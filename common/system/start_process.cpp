@@ -89,8 +89,8 @@ StartedProcess start_process(const ProcessCommand& command, ErrorStream errors) 
   const auto argument_pointers = pointers(command.arguments);
   const auto variable_pointers = pointers(variables);
   const pid_t self = ::getpid();
-  // posix_spawn cannot make the child end when this process ends (PR_SET_PDEATHSIG), so fork is
-  // used.
+  // fork is used, because posix_spawn cannot make the child end with this process
+  // (PR_SET_PDEATHSIG).
   const pid_t child = ::fork();
   if (child == 0)
     become(argument_pointers.data(), variable_pointers.data(), command.folder.c_str(),

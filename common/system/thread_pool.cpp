@@ -59,8 +59,7 @@ ThreadPool::ThreadPool(int threads) {
     for (int i = 1; i < threads; ++i)
       workers_->threads.emplace_back([workers = workers_.get()] { workers->serve(); });
   } catch (const std::system_error&) {
-    // The system cannot start more threads. The threads that exist do the work, with the same
-    // result.
+    // The system cannot start more threads. Those that exist do the work, with the same result.
   }
 }
 

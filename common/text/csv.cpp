@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-// The library copies names by strncpy on purpose and terminates them in the next line; GCC 12 warns
-// nevertheless.
+// The library copies names by strncpy on purpose and terminates them in the next line; GCC 12
+// warns.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wstringop-truncation"
 #include <libfccp/csv.h>
@@ -97,8 +97,7 @@ void read_columns(const std::string& text, const std::string& file,
   using Reader = io::CSVReader<kColumnsAtOnce, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>,
                                io::throw_on_overflow, io::single_line_comment<'#'>>;
   try {
-    // The reader gets no file name, because it would cut off a long one. The errors below name the
-    // file.
+    // The reader gets no file name, because it would cut off a long one; the errors below name it.
     Reader reader("", stream);
     std::apply(
         [&](const auto&... name) {

@@ -39,8 +39,7 @@ struct CsvFile {
 };
 
 /// Reads the lines "# key: value" of `text`, without the commas at their end that spreadsheets add.
-/// If a key occurs twice, the last value counts; if the values differ, the key is added to
-/// `contradictions`.
+/// If a key occurs twice, the last value counts; if values differ, `contradictions` gets the key.
 CsvComments read_csv_comments(const std::string& text,
                               std::set<std::string>* contradictions = nullptr);
 

@@ -93,8 +93,7 @@ class LineRecorder {
     return fmt::format("{}{}{}", level.path, level.path.empty() ? "" : ".", level.key);
   }
 
-  /// The path under which a value is recorded. Values below the eighth level would cost too much
-  /// memory.
+  /// The path under which a value is recorded. Deeper than eight levels costs too much memory.
   std::string recorded_path() const {
     constexpr std::size_t kDeepest = 8;
     return levels_.size() > kDeepest ? std::string() : path_of_member();

@@ -7,8 +7,7 @@
 //   }
 //
 // in the order of the file. Every error is an Error(kBadInput), which names the file, the line, the
-// key and what is allowed there. The fit files and comparisons use it; a change must keep published
-// files readable.
+// key and what is allowed there. Fits and comparisons use it; published files must stay readable.
 #pragma once
 
 #include <fmt/format.h>
@@ -31,8 +30,7 @@ namespace viscontact {
 /// written without the key if the value is empty, nothing or 0.
 enum class Absence { kRefused, kAllowed, kLeftOutIfEmpty };
 
-/// Writes or reads the fields of a JSON object. An instance for reading must not outlive its
-/// document.
+/// Writes or reads the fields of a JSON object. A reader must not outlive its document.
 class JsonFields {
  public:
   /// The struct that the text of a file describes; messages call the file `file`. Throws
@@ -108,8 +106,8 @@ class JsonFields {
                             json_->at(key).dump()));
   }
 
-  /// A vector as a JSON object: each value has the key `value.*name`, at which `part(value)`
-  /// stands.
+  /// A vector as a JSON object: each value has the key `value.*name` and is written as
+  /// `part(value)`.
   template <class Value, class Part>
   void by_name(const std::string& key, std::vector<Value>& values, std::string Value::*name,
                const Part& part, Absence absence = Absence::kRefused) {
@@ -127,8 +125,7 @@ class JsonFields {
   }
 
   /// A word for a value that to_string() and `parse` translate. `parse` throws Error("...; what is
-  /// allowed") for other words; the part of that text from the semicolon on is added to the
-  /// message.
+  /// allowed") for other words; the message ends with that text from the semicolon on.
   template <class Value, class Parse>
   void word(const std::string& key, Value& value, const Parse& parse,
             Absence absence = Absence::kRefused) {
@@ -152,8 +149,7 @@ class JsonFields {
     if (found != text) fail(key, fmt::format("is '{}'; it must be '{}'", found, text));
   }
 
-  /// A key whose object another reader reads, and that a file may lack. Only its type is checked
-  /// here.
+  /// A key whose object another reader reads, and that a file may lack. Only its type is checked.
   void foreign_object(const std::string& key) {
     if (reads() && is_there(key, Absence::kAllowed))
       JsonFields(*document_, json_->at(key), path_of(key));

@@ -13,8 +13,7 @@ namespace viscontact {
 std::string format_number(double value);
 
 /// The double nearest to a decimal text, which blanks may surround. Returns nothing if the text is
-/// not one finite number in the range of a double; "nan", "inf", "1e400", "1e-400" and "1.5x" are
-/// not.
+/// not one finite number in the range of a double; so for "nan", "inf", "1e400" and "1.5x".
 std::optional<double> parse_number(std::string_view text);
 
 }  // namespace viscontact

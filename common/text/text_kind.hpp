@@ -1,6 +1,5 @@
 // The kinds of files that Viscontact writes. The kind says where a file has its line of provenance
-// (results/provenance.hpp); a new kind needs such a place there. Pages, exports and pictures use
-// it.
+// (results/provenance.hpp); a new kind needs such a place there. All writers use it.
 #pragma once
 
 namespace viscontact {

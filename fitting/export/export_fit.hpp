@@ -17,8 +17,7 @@ struct ExportTarget {
   std::string_view name;         ///< as users type it
   std::string_view description;  ///< a line for --help
   TextKind kind;                 ///< kind of the written text
-  /// Makes the text for a fit. `source` is the name of the fit's file, which the text states; it
-  /// may be empty.
+  /// Makes the text for a fit. `source`, which may be empty, is the name of the fit's file.
   std::string (*write)(const lubrication::Fit& fit, std::string_view source);
 };
 

@@ -47,16 +47,14 @@ ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
 /// that is asked of each force, in (0, 1), and the numbers of cells of the meshes.
 void append_mesh_arguments(std::vector<std::string>& arguments, double relative_accuracy);
 
-/// The part of an error message that says that FreeFEM was killed at its time limit, and the
-/// remedy.
+/// The part of a message that says that FreeFEM was killed at its time limit, and the remedy.
 std::string timed_out_in_words(std::chrono::seconds time_limit);
 
 /// Why a script failed, for an error message: its time limit, the error that it printed, or the
 /// last lines of its output.
 std::string failure_in_words(const ProcessResult& result, std::chrono::seconds time_limit);
 
-/// The rest of the first line of `output` that starts with `prefix` and a space; empty if no line
-/// does.
+/// The rest of the first line of `output` that starts with `prefix` and a space; else empty.
 std::string line_after(const std::string& output, std::string_view prefix);
 
 /// The version of FreeFEM by which others can find the same program: "4.11+dfsg1-3 (Debian package

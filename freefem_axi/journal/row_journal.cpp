@@ -1,6 +1,5 @@
 // Opens, locks and appends to a journal (row_journal.hpp). A journal that cannot be written is an
-// Error(kBadInput). A change must keep that a line is appended in one piece and is on disk when
-// append() returns.
+// Error(kBadInput). A change must keep lines in one piece, and on disk when append() returns.
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 #include <fcntl.h>

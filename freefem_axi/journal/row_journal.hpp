@@ -2,8 +2,7 @@
 // computed twice. Beside TABLE.csv there is TABLE.csv.rows for the tabulation on this machine, and
 // a TABLE.csv.rows.WRITER for each process of a cluster. Each file has one writer, because some
 // file systems do not support locks. tabulate.hpp writes journals, and row_record.hpp reads all of
-// them together. A change must keep that a journal is only appended to, so that earlier rows are
-// safe.
+// them together. A change must only append to a journal, so that rows are safe.
 #pragma once
 
 #include <cstddef>

@@ -68,8 +68,7 @@ RowRecord read_row_record(const fs::path& table_path, const TablePlan& plan) {
       else if (const auto* failed = std::get_if<FailedRow>(&*entry))
         record.failed[failed->point] = failed->reason;
     });
-  // The table must be read after the journals, because its writer removes the journals after
-  // writing it.
+  // The table must be read after the journals, because its writer then removes the journals.
   auto in_table = plan.read(table_path);
   record.finished.merge(in_table.finished);
   record.failed.merge(in_table.failed);

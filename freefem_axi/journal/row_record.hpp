@@ -1,7 +1,6 @@
 // The finished and failed rows of a table, collected from the table and from the journals of all
 // processes that work on it. A change must keep that the journals are read before the table,
-// because the process that writes the table then removes the journals. Numbers have the units of
-// the plan.
+// because the process that writes the table then removes the journals. Units: those of the plan.
 #pragma once
 
 #include <filesystem>

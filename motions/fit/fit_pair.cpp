@@ -98,8 +98,7 @@ EntryTable diagonal_entry(const MotionTable& pair, const MotionTable& table) {
   return entry;
 }
 
-/// slide_roll from the table of one motion, the torque of sliding or the force of rolling, with its
-/// error.
+/// slide_roll from one table, as the torque of sliding or the force of rolling, with its error.
 struct Coupling {
   double value = 0, error = 0, diagonal = 0;
 };

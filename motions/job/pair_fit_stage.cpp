@@ -47,8 +47,7 @@ bool is_where_made(const fs::path& file) {
          fs::weakly_canonical(file);
 }
 
-/// For a message: why a table of the tabulation that made `file` may be missing, and what completes
-/// the folder.
+/// For a message: why a table of the tabulation that made `file` may be missing, and the remedy.
 std::string reason_and_remedy(const fs::path& folder, const fs::path& file,
                               const std::string& motions) {
   const auto name = file.filename().string();

@@ -43,8 +43,7 @@ std::size_t count_of(double fraction, double radius, const Domain& domain);
 ///    (Metropolis et al. 1953).
 ///
 /// In a periodic box with gaps of 0.05 r, area fractions of 0.6 need less than a second for 1000
-/// discs. The result depends on the arguments alone, bit for bit, on each machine with arithmetic
-/// of IEEE 754.
+/// discs. The result depends on the arguments alone, bit for bit, with arithmetic of IEEE 754.
 ///
 /// Throws Error(kBadInput) if the discs do not fit or no arrangement is found. The message has no
 /// place; it names the number of discs and their area fraction.

@@ -1,8 +1,7 @@
 // The motion of rigid bodies in a time step, docs/physics.md (5.11). Lengths, masses and times are
 // in the units of the case. `dimension` is 2 or 3; in the plane only the third component of turns,
 // torques and angular momenta is used. Simulation, constraints, blows and links use it. Without
-// constraints, momentum and angular momentum must stay constant to rounding errors where no force
-// and torque acts.
+// force, torque and constraints, momentum and angular momentum must stay constant to rounding.
 #pragma once
 
 #include <vector>
@@ -27,8 +26,7 @@ struct BodyStep {
   /// Velocity of the centre at the end of the step less displacement/h [L/T]. It is 0 unless blows
   /// (impacts/) changed the velocity within the step.
   Vector late_velocity{};
-  /// In the plane: angular momentum at the end of the step less I turn/h [M L^2/T]; 0 without
-  /// blows.
+  /// In the plane: angular momentum at the end less I turn/h [M L^2/T]; 0 without blows.
   Vector late_momentum{};
   double mobility = 0;              ///< h/m [T/M]
   Matrix3 turn_mobility{};          ///< h I^-1 [T/(M L^2)]; discs use only the last entry

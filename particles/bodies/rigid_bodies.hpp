@@ -1,5 +1,5 @@
 // Rigid bodies of several discs or spheres, which keep their places in the body. Lengths, masses
-// and times are in one consistent system of units. The restart file stores the motion of the bodies
+// and times are in any consistent units. The restart file stores the motion of the bodies
 // (io/restart.cpp); the case gives all else. Nothing is checked or thrown here; particles/case
 // checks the bodies.
 #pragma once
@@ -104,8 +104,7 @@ std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
 /// Diameter of the circle or sphere about the centre of a body that contains its members [L].
 double diameter(const RigidBody& body, const Particles& particles);
 
-/// Numbers of periods from the present place of member number `m` to its image at the place in the
-/// body.
+/// Numbers of periods from the present place of member number `m` to its image in the body.
 Periods periods_of_member(const RigidBody& body, std::size_t m, const Particles& particles);
 
 /// Vector from the centre of a body to the centre of its member number `m` [L].
@@ -120,8 +119,8 @@ Vector offset_in_body(const Particles& particles, std::int32_t particle);
 /// The vector `at_start`, which is fixed to the body, in the present orientation of the body.
 Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension);
 
-/// The present moment of inertia about the centre in the axes of space [M L^2]; discs use only the
-/// last entry.
+/// The present moment of inertia about the centre in the axes of space [M L^2]; of discs the last
+/// entry.
 Matrix3 present_inertia(const RigidBody& body, int dimension);
 
 /// Sets the angular velocity from the angular momentum. A body without inertia keeps it.

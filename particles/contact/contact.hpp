@@ -1,8 +1,8 @@
 // Contact of a pair: its gap and normal, docs/physics.md (5.1), and whether given displacements
-// close the gap. Lengths, masses and times are in any one consistent system of units. The
-// projection, the fluid and the blows share these functions; D is the number of dimensions, 1
-// (spheres on an axis), 2 (discs) or 3 (spheres). Nothing is checked or thrown. A change must keep
-// that a gap of rounding errors counts as 0.
+// close the gap. Lengths, masses and times are in any consistent units. The projection, the fluid
+// and the blows share these functions; D is the number of dimensions, 1 (spheres on an axis), 2
+// (discs) or 3 (spheres). Nothing is checked or thrown. A change must keep that a gap of rounding
+// errors counts as 0.
 #pragma once
 
 #include <algorithm>
@@ -49,8 +49,7 @@ inline double contact_residual(double gap_after, double slack) {
   return std::abs(std::min(gap_after, slack));
 }
 
-/// Vector from the centre of particle `first` to that of the image `image` of particle `second`
-/// [L].
+/// Vector from the centre of particle `first` to that of image `image` of particle `second` [L].
 template <int D>
 std::array<double, D> separation(const Particles& p, std::int32_t first, std::int32_t second,
                                  std::int32_t image) {

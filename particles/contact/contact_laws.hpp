@@ -1,9 +1,9 @@
 // The laws that all contacts of a case obey, together: what they make of a pair before a step, and
 // what they remember after it. A new law is a class of its own (film_law.hpp, friction_law.hpp,
 // restitution_law.hpp), a member here, and, if it remembers something, a row in pair_memory.hpp.
-// Lengths, masses and times are in any one consistent system of units; gamma and impulses of discs
-// in a fluid are per length [M/T], all others [M L/T]. The projection, the fluid and the blows ask
-// them; nothing is thrown.
+// Lengths, masses and times are in any consistent units; gamma and impulses of discs in a fluid are
+// per length [M/T], all others [M L/T]. The projection, the fluid and the blows ask them; nothing
+// is thrown.
 #pragma once
 
 #include <limits>
@@ -21,8 +21,7 @@ namespace viscontact::particles {
 
 /// Radii of both surfaces of a pair [L].
 struct PairRadii {
-  /// Radius of the first surface: infinite for a plane, and minus the radius of a circle around the
-  /// particle.
+  /// Radius of the first surface: infinite for a plane, minus the radius for a circle around it.
   double first = std::numeric_limits<double>::infinity();
   double second = 0;  ///< of a particle, > 0
 };

@@ -1,6 +1,6 @@
 // Coulomb's friction of solids that touch through a film, docs/physics.md (5.7) and (5.9). Lengths,
-// masses and times are in any one consistent system of units. constraints/ and impacts/ solve it.
-// Nothing is checked or thrown. A change must keep that the film carries no friction.
+// masses and times are in any consistent units. constraints/ and impacts/ solve it. Nothing is
+// checked or thrown. A change must keep that the film carries no friction.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // The domain that holds the particles and, if there is one, the fluid: a disc, a box that may be
 // periodic, or a cylinder with the particles on its axis. Lengths [L] are in the unit of the case.
-// particles/case checks the values. A change must keep the numbers of the obstacles, which files
-// have.
+// particles/case checks the values. A change must keep the numbers of obstacles in files.
 #pragma once
 
 #include <array>

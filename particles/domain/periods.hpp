@@ -40,8 +40,8 @@ inline PeriodicCell cell_of(const Domain& domain) {
 }
 
 /// Number of the image that is shifted by `x` periods along x and `y` periods along y, each of them
-/// -1, 0 or 1: (x + 1) + 3 (y + 1) - 4. It is 0 without a shift, and the opposite shift has the
-/// opposite number.
+/// -1, 0 or 1: (x + 1) + 3 (y + 1) - 4. It is 0 without a shift; opposite shifts have opposite
+/// numbers.
 constexpr std::int32_t image_number(int x, int y) { return x + 3 * y; }
 
 /// Periods along x and y by which the image with number `image`, -4 to 4, is shifted.

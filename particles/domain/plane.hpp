@@ -1,6 +1,6 @@
 // Planes (lines, for discs) and circles that bound the space of the particles. A plane is at rest,
-// moves or turns. Lengths and times are in any one consistent system of units. All contacts use
-// them; particles/case checks the values. A change must keep normals at length 1.
+// moves or turns. Lengths and times are in any consistent units. All contacts use them;
+// particles/case checks the values. A change must keep normals at length 1.
 #pragma once
 
 #include <vector>
@@ -51,8 +51,7 @@ inline double gap(const PlanePosition& plane, const Vector& centre, double radiu
 }
 
 /// Unit normal, into the free side, at the point of the plane or circle that is nearest to
-/// `centre`. In the centre of a circle, where all its points are nearest, the normal is the first
-/// axis.
+/// `centre`. In the centre of a circle the normal is the first axis.
 inline Vector normal_at(const PlanePosition& plane, const Vector& centre) {
   if (!plane.is_curved()) return plane.normal;
   const Vector inward = plane.point - centre;

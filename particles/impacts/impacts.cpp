@@ -146,8 +146,7 @@ double Impacts<D>::gap_of(const Approach& approach, double t) const {
              : norm(x) - approach.sum;
 }
 
-/// Velocity of the surface of an obstacle at the point next to the second particle; 0 if there is
-/// none.
+/// Velocity of an obstacle's surface at the point next to the second particle; 0 if there is none.
 template <int D>
 Vector Impacts<D>::surface_of(const Approach& approach, double t) const {
   if (approach.obstacle == nullptr) return {};
@@ -163,8 +162,8 @@ Vector Impacts<D>::velocity_of(const Approach& approach, double t) const {
 }
 
 /// Second derivative of the gap at an obstacle, or of the distance of two particles that do not
-/// move around each other [L/T^2]. In a circle, or at a plane that turns, it is not 0 without
-/// forces either.
+/// move around each other [L/T^2]. In a circle, or at a plane that turns, a part of it needs no
+/// force.
 template <int D>
 double Impacts<D>::acceleration_of_gap(const Approach& approach, double t) const {
   const Vector n = normal_of(approach, t);
@@ -278,8 +277,7 @@ void Impacts<D>::expect(std::size_t k, double from) {
     if (hits_of_[k] >= (of.impulse == 0 ? kMostHits : kMostUnderLoad)) return;
   }
   const auto approach = approach_of(k);
-  // Each pass looks from `begin` to the next jump of the velocity of the obstacle, or to the end of
-  // the step.
+  // Each pass looks from `begin` to the next jump of the obstacle's velocity, or to the step's end.
   for (double begin = from, end = 0; begin < step_.h; begin = end) {
     constexpr double kBeyondRounding = 1e-12;
     // Blows at the end of the step that differ by rounding errors are one.

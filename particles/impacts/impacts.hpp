@@ -1,8 +1,8 @@
 // The blows of a step between solids that rebound, at their times within the step: docs/physics.md
 // (5.15) and (5.16). The projection of the step (projection/) follows with the motions that the
 // blows leave. A blow is an impact with all its contacts. simulation.cpp and projection/ use it.
-// Lengths, masses and times are in any one consistent system of units. Results must depend on the
-// order of the particles by rounding errors only.
+// Lengths, masses and times are in any consistent units. Results must depend on the order of the
+// particles by rounding errors only.
 #pragma once
 
 #include <array>
@@ -88,8 +88,7 @@ class Impacts {
 
  private:
   // What blows change in the motion of a particle: the sum of the changes of its velocity [L/T],
-  // and in `late` the sum of the changes times the times of the blows [L]; for turns [1/T] and
-  // [rad].
+  // and in `late` the sum of the changes times the times of the blows [L]; turns: [1/T], [rad].
   struct Flight {
     Vector change{}, late{}, turn_change{}, late_turn{};
     Vector displacement{};  // in the step, with all blows [L]
@@ -105,8 +104,7 @@ class Impacts {
     }
   };
   // The flight of the second particle of a pair: c + a t + b t^2 at the time t of the step is the
-  // vector from the centre of the first particle, or the place of the centre if the first is an
-  // obstacle.
+  // vector from the centre of the first particle, or, at an obstacle, the centre itself.
   struct Approach {
     Vector c{}, a{}, b{};
     double sum = 0;  // of the radii; of the second particle alone at an obstacle [L]

@@ -1,6 +1,6 @@
 // A blow between solids that rebound, for rebounds.csv. Lengths, masses and times are in the units
-// of the case. impacts/ and fluid/ make it, particles/io writes it. A change must keep the columns
-// of the file.
+// of the case. impacts/ and fluid/ make it, particles/io writes it. The columns of the file must
+// stay.
 #pragma once
 
 #include <cstdint>

@@ -16,8 +16,7 @@
 
 namespace viscontact::particles {
 
-/// Vector from the centre of its body to a member at the time `t` of the step [L]; 0 without a
-/// body.
+/// Vector from the centre of its body to a member at time `t` of the step [L]; 0 without a body.
 template <int D>
 Vector Impacts<D>::offset_at(std::int32_t k, double t) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);

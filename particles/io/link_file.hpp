@@ -1,6 +1,6 @@
 // The motion of rigid bodies, and the forces of links, as CSV tables over time, and the links at
 // one time as a VTK file. Lengths, masses and times are in the units of the case. run/run_log.hpp
-// writes them. A change must keep the names of the columns, which scripts of users read.
+// writes them. A change must keep the names of the columns, which users' scripts read.
 #pragma once
 
 #include <span>

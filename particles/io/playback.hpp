@@ -17,8 +17,7 @@ namespace viscontact::particles {
 /// Particles, planes and contacts at one time.
 struct Frame {
   double time = 0;  ///< [T]
-  /// Flat array [L], `dimension` numbers for each particle; single precision is enough for a
-  /// picture.
+  /// Flat array [L], `dimension` numbers for each particle; single precision suffices.
   std::vector<float> positions;
   std::vector<PlanePosition> planes;     ///< all obstacles, in the order of domain.hpp
   std::vector<CurrentContact> contacts;  ///< glued (gamma < 0) or touching
@@ -44,8 +43,8 @@ struct DrawnLinks {
 struct Playback {
   int dimension = 2;         ///< of space: 1, 2 or 3
   std::vector<float> radii;  ///< [L]
-  /// Semi-axes of each particle in a fluid in the plane, the first one along its angle [L]; empty
-  /// if all are discs.
+  /// Semi-axes of each particle in the plane, the first one along its angle [L]; empty: all are
+  /// discs.
   std::vector<std::array<double, 2>> semi_axes{};
   std::vector<Frame> frames;        ///< in order of time, from the start on
   std::vector<std::int32_t> ids{};  ///< as in Particles

@@ -49,14 +49,13 @@ struct StoredArrays {
   std::vector<double> carried;       ///< as `frictions`
   std::vector<StoredBody> bodies;
   /// The further memories of pairs and walls that are not 0: their names, each with a line break,
-  /// and their numbers one after the other. Each memory has as many numbers as there are pairs and
-  /// walls.
+  /// and their numbers one after the other. Each has a number for each pair and wall.
   std::vector<char> names;
   std::vector<double> memories;
 };
 
-/// Calls `field` for each stored field, in the order of a file of version `version`, for writing
-/// and for reading.
+/// Calls `field` for each stored field, in the order of a file of this version, to write and to
+/// read.
 template <class State, class Arrays, class Field>
 void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   auto& p = state.particles;

@@ -12,8 +12,7 @@ namespace viscontact::particles {
 
 /// Content of a restart file: a line of text that names the format and the byte order, a line with
 /// the SHA-256 of the rest, and the rest in binary, in the byte order of this machine. The ids of
-/// the particles, and which particles form rigid bodies, are not stored, because the case gives
-/// them.
+/// the particles, and which particles form rigid bodies, come from the case.
 std::string write_restart(const State& state);
 
 /// Reads a restart file of version 1 to 8. Of rigid bodies only the motion is set. Throws

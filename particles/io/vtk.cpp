@@ -22,8 +22,8 @@ void append(std::vector<double>& values, const Vector& x, int dimension) {
     values.insert(values.end(), x.begin(), x.end());
 }
 
-/// The cells of a frame: a vertex for each contact with an obstacle, then a line for each contact
-/// of two particles.
+/// The cells of a frame: a vertex for each contact with an obstacle, then a line for each other
+/// contact.
 struct ContactCells {
   std::vector<double> gaps, gammas;
   std::vector<std::int32_t> firsts, seconds, images, frictions;

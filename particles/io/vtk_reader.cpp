@@ -1,7 +1,6 @@
 // Reads the files that vtk.cpp writes, so that pages can be made from them. Lengths, masses and
 // times are in the units of the case. The reader understands only that layout, not VTK's formats in
-// general; another file is an Error(kBadInput). A change must keep the frames of earlier versions
-// readable.
+// general; another file is an Error(kBadInput). Frames of earlier versions must stay readable.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -54,8 +53,7 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
   const auto frictions = numbers_or_zeros(reader, "friction", gaps.size());
   const auto memories = read_memories(reader, gaps.size());
   // Entries are places in the list of points, the numbers of particles in State, and not their ids.
-  // A contact with a plane has one vertex; a contact of two particles has one line with two
-  // entries.
+  // A contact with a plane has one vertex; one of two particles has a line with two entries.
   const auto vertices = reader.array<std::int64_t>("Verts", "connectivity");
   const auto lines = reader.array<std::int64_t>("Lines", "connectivity");
   const auto walls = vertices.size(), pairs = lines.size() / 2;

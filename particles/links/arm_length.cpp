@@ -13,8 +13,7 @@
 namespace viscontact::particles {
 namespace {
 
-// Bounds the time of the checks of a case. A periodic length is checked at about its first 10000
-// times.
+// Bounds the time of the checks of a case. A periodic length is checked at 10000 times.
 constexpr std::size_t kMostTimes = 10000;
 
 /// The linear piece that holds at a time, between two points (time, length).

@@ -34,8 +34,7 @@ using ArmLength = std::variant<PiecewiseLinearLength, SinusoidalLength>;
 /// Length at time `t` >= 0 [T].
 double length_at(const ArmLength& length, double t);
 
-/// Rate at which the length grows at time `t` >= 0 [L/T]; at a point that of the piece that begins
-/// there.
+/// Rate at which the length grows at time `t` >= 0 [L/T]; at a point that of the next piece.
 double rate_at(const ArmLength& length, double t);
 
 /// Least length at times from 0 to `end` >= 0 [T].

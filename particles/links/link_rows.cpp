@@ -74,8 +74,7 @@ LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
 
 /// Sets the row of a spring by Newmark's method. With the extension e before the step and its rate,
 /// the impulse is -kick stiffness (e + beta (change of e in this step - change in the step
-/// before)). In the first step, the change in the step before is taken as 2 h rate - change in this
-/// step.
+/// before)). In the first step, the change before is taken as 2 h rate - change in this step.
 void make_spring(LinkRow& row, double extension, double rate, double stiffness,
                  const LinkTimes& times) {
   const double beta = times.is_first ? 2 * kBeta : kBeta;

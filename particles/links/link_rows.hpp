@@ -40,8 +40,8 @@ struct LinkRow {
   double stiffness = 0;  ///< [M/T^2, M L^2/T^2]
 };
 
-/// The equations of one link, and what they are called. All have parts of the same units in the
-/// same order.
+/// The equations of one link, and what they are called. All have parts of the same units in one
+/// order.
 struct LinkEquations {
   /// The kind of link; kTorsion is the torsion spring of a hinge.
   enum class Kind { kHinge, kTorsion, kSpring, kArm };
@@ -90,8 +90,7 @@ struct UnitMotion {
 /// Value of a part for the motion of its unit, to first order in the turn [L, rad].
 double value_of(const LinkPart& part, const UnitMotion& motion);
 
-/// The equations with the directions and arms that they have after these motions. Nothing else
-/// changes.
+/// The equations with the directions and arms after these motions; nothing else changes.
 LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
                                const Particles& particles, std::span<const UnitMotion> motions);
 

@@ -36,8 +36,7 @@ void sort_by_cell(std::vector<Entry>& entries, std::uint64_t most) {
   }
 }
 
-/// Cells of one size that cover all particles, numbered row by row, and the chosen particles in
-/// them.
+/// Cells of one size that cover all particles, numbered row by row, and particles in them.
 template <int D>
 class Grid {
  public:

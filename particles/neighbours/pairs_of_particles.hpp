@@ -1,7 +1,6 @@
 // The pairs of a state as a graph of particles. When some gaps close, it serves to find which
 // further gaps may close in turn. It holds numbers of pairs and particles only. The projection, the
-// fluid and the blows use it. Nothing is thrown. A change must keep the order of pairs, on which
-// results depend.
+// fluid and the blows use it. Nothing is thrown. Results depend on the order of pairs.
 #pragma once
 
 #include <cstddef>

@@ -371,8 +371,7 @@ std::string discs(const PanelSettings& d, const Frame& frame, const std::string&
     if (!is_in_body(d.scene.playback, k)) text += disc(d, frame, k, centre);
   });
   text += "</g>\n" + body_discs(d, frame) + angle_marks(d, frame) + plane_2d_lines(d, frame);
-  // All contacts of one colour make one path. Its width is the mean of the widths of these
-  // contacts.
+  // All contacts of one colour make one path. Its width is the mean of their widths.
   std::array<ContactLine, kSlidingClass + 1> lines;
   std::array<int, kSlidingClass + 1> counts{};
   for (const auto& contact : frame.contacts) {

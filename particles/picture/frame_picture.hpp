@@ -11,8 +11,7 @@
 
 namespace viscontact::particles {
 
-/// Projects points to page coordinates (y downwards) of a panel whose upper left corner is the
-/// origin.
+/// Projects points to page coordinates (y downwards) from the upper left corner of a panel.
 struct Projection {
   /// Unit vectors; `toward` points to the reader.
   Vector right{1, 0, 0}, up{0, 1, 0}, toward{0, 0, 1};

@@ -1,6 +1,5 @@
 // A web page that plays a motion of particles by the scripts in particles/picture/page.
-// run/particles_pages.cpp calls it. A change of the layout of its data must be made in those
-// scripts, too.
+// run/particles_pages.cpp calls it. A change of the data's layout must be made there, too.
 #pragma once
 
 #include <string>

@@ -1,7 +1,6 @@
 // Arranges frames of a motion side by side in an SVG, with the scale of gamma below
 // (particles_picture.hpp). Sizes are in units of the page, lengths of the motion in those of the
-// case. A flow that cannot be read is an Error(kBadInput). A change must keep one scale for all
-// panels.
+// case. A flow that cannot be read is an Error(kBadInput). All panels must have one scale.
 #include "viscontact/particles/picture/particles_picture.hpp"
 
 #include <fmt/format.h>
@@ -41,8 +40,7 @@ std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
   return chosen;
 }
 
-/// The number of columns of panels with which the picture has about the proportions of a slide and
-/// few empty places.
+/// The number of columns with which the picture is about as wide as a slide, with few empty places.
 int columns_for(int panels, double width_over_height) {
   constexpr double kSlide = 2.2;  // width over height of the picture
   int best = 1;
@@ -109,8 +107,7 @@ report::LinearField closed_field(const report::Grid& grid, const FlowFrame& fram
   return field;
 }
 
-/// Appends a line as a path of SVG, without points less than half a page unit away from the one
-/// before.
+/// Appends a line as a path of SVG, without points less than half a page unit from the one before.
 void append_path(std::string& path, const report::Polyline& line, const Projection& view) {
   constexpr double kNear = 0.5;
   double last_x = 0, last_y = 0;
@@ -181,8 +178,7 @@ std::string flow_behind(const FlowFrames& flows, std::size_t f, const Projection
   return flow == flows.frames.end() ? "" : flow_picture(flows, *flow, view);
 }
 
-/// Returns the size of the projected box [L], and puts its upper left corner into that of the
-/// panel.
+/// Returns the size of the projected box [L], and moves its upper left corner to the panel's.
 std::pair<double, double> show_box(Projection& view, const ViewBox& box) {
   Interval x, y;
   for (int corner = 0; corner < 8; ++corner) {

@@ -14,8 +14,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// The extent of the particles of a frame along an axis, without the `cut` outermost particles at
-/// either end.
+/// The extent of the particles of a frame along an axis, without the `cut` outermost at either end.
 Interval reach_of(const Playback& playback, const Frame& frame, std::size_t axis, std::size_t cut) {
   std::vector<double> lows, highs;
   for (std::size_t k = 0; k < playback.radii.size(); ++k) {
@@ -240,8 +239,7 @@ report::Window common_part(const report::Window& extent, const ViewBox& view) {
           std::max(extent.bottom, view.low[1]), std::min(extent.top, view.high[1])};
 }
 
-/// Reads the flows of the given frames one after the other, because all of them may be too large
-/// for the memory.
+/// Reads the flows of the frames one after the other, because the memory may not hold all of them.
 FlowFrames read_flows(const Playback& in_plane, bool has_axis, const report::Window& window,
                       const std::vector<std::size_t>& frames, std::size_t points) {
   constexpr int kLines = 18;  // streamlines in a picture, about

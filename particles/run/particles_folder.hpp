@@ -1,6 +1,6 @@
 // The files in the folder of a run of many particles: their names, which of them a run may replace,
 // and removing those of an earlier run. Runs, logs and pages use it. A change must keep the names,
-// which scripts of users read.
+// which users' scripts read.
 #pragma once
 
 #include <array>

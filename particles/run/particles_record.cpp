@@ -1,6 +1,6 @@
 // Writes the rows of steps.csv, the record of restart.bin as JSON, and run.json
 // (particles_record.hpp). Times are in the unit of the case, computing times in seconds. A damaged
-// record is an Error(kBadInput). A change must keep columns and keys, which scripts of users read.
+// record is an Error(kBadInput). A change must keep columns and keys, which users' scripts read.
 #include "viscontact/particles/run/particles_record.hpp"
 
 #include <fmt/format.h>

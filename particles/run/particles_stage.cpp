@@ -44,8 +44,7 @@ double tiny_time(const ParticlesCase& c) { return 1e-6 * c.setting.time_step; }
 /// A run with its state and its files, which can be saved after any step.
 class Run {
  public:
-  /// `log` is that of a new run, or of the interrupted run that this one continues; it must outlive
-  /// this object.
+  /// `log`, of a new run or of the interrupted one that this continues, must outlive this object.
   Run(const ParticlesCase& c, ParticleSimulation& simulation, fs::path folder,
       const results::Provenance& provenance, RunLog& log, const StopToken& stop)
       : case_(c),

@@ -34,8 +34,7 @@ class RunLog {
   /// it had this record is missing or has been changed.
   void check(const RunRecord& record) const;
 
-  /// Continues the run that had this record: removes what it wrote later. Throws the errors of
-  /// check().
+  /// Continues the run that had this record: removes what it wrote later. Errors as check().
   void resume(const RunRecord& record);
 
   /// Adds the last step, which ended in this state and had these blows, to the sums, to steps.csv

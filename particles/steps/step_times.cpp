@@ -43,8 +43,7 @@ double leapfrog_step_end(double time, double grid_end, double h, std::span<const
   if (until_jump <= h / 2) return time + 2 * until_jump;
   if (until_jump <= kNear * h) return time + until_jump * 2 / 3;
   const double rest = grid_end - time;
-  // The steps return to the grid: in one step, or, if it ends less than h/2 later, in two equal
-  // ones.
+  // The steps return to the grid: in one step or, if it ends less than h/2 later, in two.
   if (rest < h / 2 - kTiny * h) return time + (rest + h) / 2;
   return grid_end;
 }

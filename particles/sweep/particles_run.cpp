@@ -1,7 +1,6 @@
 // Runs the case of a row and keeps its results (particles_run.hpp). result.json is written last and
 // records of which case and version it is, so that a process may be killed at any time; a change
-// must keep that. A run that fails is no error here: its row says why. Numbers are in the units of
-// the case.
+// must keep that. A run that fails is no error here: its row says why. Units are those of the case.
 #include "viscontact/particles/sweep/particles_run.hpp"
 
 #include <fmt/format.h>
@@ -49,8 +48,7 @@ std::vector<std::string> fields_of(const std::string& line) {
 }
 
 /// Adds from steps.csv, whose first time is `from`, the values of the last step, and the means over
-/// time of the columns whose mean is asked for. A value of a step holds from the end of the step
-/// before it.
+/// time of the columns whose mean is asked for. A value holds from the end of the step before.
 void add_steps(const fs::path& path, double from, const std::vector<std::string>& columns,
                Values& values) {
   std::istringstream text(read_file(path));

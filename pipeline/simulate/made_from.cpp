@@ -51,8 +51,7 @@ bool is_simulated(const results::RunFolder& run, const std::string& model,
     const auto same = [&](const std::string& key) {
       return value(made_from, key) == value(identity, key);
     };
-    // The two keys of the limits are compared even if `identity` lacks them, because a missing key
-    // means no limit.
+    // The two keys of the limits are compared even if `identity` lacks them, which means no limit.
     return same(kBelowKey) && same(kAboveKey) &&
            std::ranges::all_of(identity, [&](const auto& line) { return same(line.first); });
   } catch (const Error&) {  // not a trajectory

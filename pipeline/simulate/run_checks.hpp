@@ -1,6 +1,5 @@
 // Checks a case for errors before the tabulation starts, which can take hours. The main job calls
-// the checks. Gaps [L] are in the unit of the case. A change must keep the checks quick, about a
-// second.
+// the checks. Gaps [L] are in the unit of the case. The checks must stay quick, about a second.
 #pragma once
 
 #include <string>

@@ -1,6 +1,5 @@
 // The copies of case, force files and fit in a run's folder, so that the folder alone repeats the
-// run. The stages of the main job call it. A change must never let a copy replace a file of the
-// user.
+// run. The stages of the main job call it. A copy must never replace a file of the user.
 #pragma once
 
 #include "viscontact/case_file/case_file.hpp"

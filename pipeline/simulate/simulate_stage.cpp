@@ -97,8 +97,7 @@ lubrication::LubricationForce force_for(const case_file::Case& c, const lubricat
   return with_place(fit_path.string(), [&] { return lubrication::LubricationForce(fit, outside); });
 }
 
-/// Adds comments to the trajectory that say how it was computed, and drops rows if the case asks
-/// for fewer rows.
+/// Adds comments that say how the trajectory was computed, and drops rows if the case asks for it.
 void finish(reduced_model::Trajectory& trajectory, const reduced_model::ModelChoice& choice,
             const reduced_model::Motion& motion, const lubrication::LubricationForce& force) {
   auto& comments = trajectory.provenance;

@@ -14,8 +14,7 @@
 
 namespace viscontact::pipeline {
 
-/// The rows that task `number` of `count` tasks computes: those whose number modulo `count` is
-/// `number`.
+/// The rows of task `number` of `count` tasks: those whose number modulo `count` is `number`.
 struct Share {
   std::size_t number = 0,  ///< number of the task, from 0, < count
       count = 1;           ///< number of tasks, >= 1; 1: all rows

@@ -1,7 +1,7 @@
 // Sums of piecewise polynomials (polynomial.hpp) and sinusoids, and the search for their changes of
-// sign. Lengths, masses and times are in any one consistent system of units. A force that is not
-// defined is an Error(kBadInput). A change must keep the form of the sums, in which short intervals
-// and small arguments lose no digits.
+// sign. Lengths, masses and times are in any consistent units. A force that is not defined is an
+// Error(kBadInput). A change must keep the form of the sums, in which short intervals and small
+// arguments lose no digits.
 #include "viscontact/reduced_model/external_force/external_force.hpp"
 
 #include <fmt/format.h>
@@ -223,8 +223,7 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
     const double from = pieces_[i].from;
     const double to = i + 1 < pieces_.size() ? std::min(end, pieces_[i + 1].from) : end;
     const auto& coefficients = pieces_[i].coefficients;
-    // The force of this piece, also at its right end, where value() would give that of the next
-    // piece.
+    // The force of this piece, also at its right end, where value() gives that of the next piece.
     const auto value_at = [&](double t) {
       double value = polynomial::value(coefficients, t - from);
       for (const auto& s : sinusoids_) value += sine(s, t);

@@ -1,7 +1,7 @@
 // The external force f_ext(t): every force on the sphere except those of the fluid and of contact,
-// such as gravity, a push or a measured signal. Lengths, masses and times are in any one consistent
-// system of units. Every model of one sphere uses it. A change must keep means and impulses exact,
-// because the budgets are balanced to round-off.
+// such as gravity, a push or a measured signal. Lengths, masses and times are in any consistent
+// units. Every model of one sphere uses it. A change must keep means and impulses exact, because
+// the budgets are balanced to round-off.
 #pragma once
 
 #include <algorithm>
@@ -68,8 +68,7 @@ class ExternalForce {
   /// Mean of f_ext over [from, to] [M L/T^2], 0 <= from < to.
   double mean(double from, double to) const;
 
-  /// The times at which f_ext or its slope jumps, in increasing order. are_one_time() is false for
-  /// any two of them.
+  /// The times at which f_ext or its slope jumps, increasing. are_one_time() is false for any two.
   std::vector<double> jumps() const;
 
   /// The times in (0, end) at which f_ext changes its sign, by a jump or through 0, in increasing

@@ -1,7 +1,6 @@
 // Polynomials c0 + c1 tau + c2 tau^2 + ..., given by their coefficients; numbers have any
 // dimension. External forces and the states of CVODE within a step are such polynomials. Nothing is
-// thrown. A change must keep the order of operations, because trajectories depend on these sums to
-// the last digit.
+// thrown. A change must keep the order of operations, on which all digits of trajectories depend.
 #pragma once
 
 #include <algorithm>

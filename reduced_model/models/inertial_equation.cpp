@@ -1,7 +1,7 @@
 // The equation (S) of inertial_equation.hpp for s = ln(q/r), the tolerances of its integration, and
-// the velocity that belongs to a state. Lengths, masses and times are in any one consistent system
-// of units. A gap outside the fit is an Error(kBadInput) of LubricationForce. A change of results
-// must raise kModelsRevision.
+// the velocity that belongs to a state. Lengths, masses and times are in any consistent units. A
+// gap outside the fit is an Error(kBadInput) of LubricationForce. A change of results must raise
+// kModelsRevision.
 #include "viscontact/reduced_model/models/inertial_equation.hpp"
 
 #include <algorithm>
@@ -37,8 +37,8 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
   system.derivative = [this, &step_begin](double t, std::span<const double> y,
                                           std::span<double> derivative) {
     const double q = gap_of(y[0]);
-    // CVODE chooses its first step from the slope at its beginning, which must not consist of
-    // rounding errors.
+    // CVODE chooses its first step from the slope at its beginning, which must not be rounding
+    // errors.
     derivative[0] = t == step_begin ? instant(t, q, t).velocity / q : slope(t, q);
   };
   system.jacobian = [this](double t, std::span<const double> y, std::span<double> jacobian) {

@@ -1,7 +1,7 @@
 // The equation of motion of the sphere with its inertia, by its first integral (physics.md (4.1),
 // (4.2)). q is the gap, r the radius, m the mass, R the resistance, Gamma its primitive, f_ext the
-// external force. Lengths, masses and times are in any one consistent system of units. The models
-// `inertial` and `inertial_rough` integrate it, and rolling/ along its normal.
+// external force. Lengths, masses and times are in any consistent units. The models `inertial` and
+// `inertial_rough` integrate it, and rolling/ along its normal.
 //
 //     m d^2q/dt^2 = -R(q) dq/dt + f_ext(t)                                           (M)
 //     m u + Gamma(q) = P(t) := m u0 + Gamma(q0) + int_0^t f_ext,   u = dq/dt         (I)
@@ -38,8 +38,7 @@ class InertialEquation {
   double gap_of(double s) const;      ///< q = r e^s [L]
   double state_of(double gap) const;  ///< s = ln(q/r)
   double momentum(double t) const;    ///< P(t) [M L/T]
-  /// Adds an impulse [M L/T] to P, at a jump of the velocity or after solids have carried the
-  /// force.
+  /// Adds an impulse [M L/T] to P, at a jump of the velocity or after solids carried the force.
   void add_impulse(double impulse) { momentum_at_start_ += impulse; }
 
   /// Equation (S), its Jacobian and its tolerances, for CVODE. `step_begin` is the time at which
@@ -61,8 +60,8 @@ class InertialEquation {
   /// follows a jump of f_ext at once.
   double first_step(double t, double gap) const;
 
-  /// The state s near that of `gap` [L] in which drag and force at time t are balanced, as exactly
-  /// as (I) allows.
+  /// The state s near that of `gap` [L] in which drag and force at time t are balanced, exactly by
+  /// (I).
   double balanced_state(double t, double gap) const;
 
   /// True if the rest of a fall takes less time than the rounding of t. `film` [L] is then set to

@@ -1,7 +1,7 @@
 // The registry of models, the suffixes of their names, and the budget of models whose film is the
-// whole drag. Lengths, masses and times are in any one consistent system of units. An unknown name
-// is an Error(kBadInput), and a result that is not finite an Error(kNotConverged). A change must
-// keep the names, and the order, which gives the colours of the report.
+// whole drag. Lengths, masses and times are in any consistent units. An unknown name is an
+// Error(kBadInput), and a result that is not finite an Error(kNotConverged). A change must keep the
+// names, and the order, which gives the colours of the report.
 #include "viscontact/reduced_model/models/models.hpp"
 
 #include <fmt/format.h>
@@ -61,8 +61,8 @@ Trajectory simulate_explicit_euler(const Motion& motion,
     const double fall = -h * u;
     ++trajectory.steps;
     if (!(q - fall > 0)) {
-      // The point at which the straight line of this step crosses the wall. The drag is not defined
-      // there.
+      // The point at which the straight line of this step crosses the wall, where no drag is
+      // defined.
       const double crossing = t + q / fall * h;
       trajectory.rows.push_back({crossing, 0, u, {}, motion.external_force.value(crossing), {}});
       break;

@@ -1,7 +1,7 @@
 // The model `reference`, the lecture's reference solution (physics.md (4.3)): no inertia, explicit
 // Euler. q is the gap, u the velocity, F_lub the lubrication force, R the resistance. Lengths,
-// masses and times are in any one consistent system of units. models.cpp lists the model. A change
-// of results must raise kModelsRevision.
+// masses and times are in any consistent units. models.cpp lists the model. A change of results
+// must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/lubrication/lubrication_force.hpp"

@@ -1,6 +1,6 @@
 // Computes the rows of the model `reference_exact` by the equation of reference_exact.hpp. Lengths,
-// masses and times are in any one consistent system of units. A motion outside the fit is an
-// Error(kBadInput). A change of results must raise kModelsRevision.
+// masses and times are in any consistent units. A motion outside the fit is an Error(kBadInput). A
+// change of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 
 namespace viscontact::reduced_model {

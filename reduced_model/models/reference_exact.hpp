@@ -1,7 +1,7 @@
 // The model `reference_exact`: the solution without inertia and without a time step, by the first
 // integral (physics.md (4.2)). q is the gap, q0 the initial one, R the resistance, Gamma its
-// primitive, f_ext the external force. Lengths, masses and times are in any one consistent system
-// of units. models.cpp lists the model. A change of results must raise kModelsRevision.
+// primitive, f_ext the external force. Lengths, masses and times are in any consistent units.
+// models.cpp lists the model. A change of results must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/lubrication/lubrication_force.hpp"

@@ -37,8 +37,7 @@ struct Grid {
   }
 };
 
-/// A grid of the window with about `points` points, which are about as far apart along x as along
-/// y.
+/// A grid of the window with about `points` points, nearly as far apart along x as along y.
 Grid grid_of(const Window& window, std::size_t points);
 
 /// Velocity [L/T] and pressure [M/(L T^2)] at the points of a grid, row by row from the bottom,

@@ -87,8 +87,7 @@ void add_side(std::vector<Polyline>& lines, const QuadraticMesh& mesh, const Win
 }
 
 /// A view of the sphere and the fluid around it: the whole fluid if it extends at most 6 radii from
-/// the axis and is at most 12 radii high, otherwise the fluid within 3.2 radii of the sphere's
-/// centre.
+/// the axis and is at most 12 radii high, else within 3.2 radii of its centre.
 PlotView surroundings(const QuadraticMesh& mesh, double radius, double gap) {
   constexpr double kReach = 3.2, kWhole = 6, kMargin = 0.15;  // in radii
   const Window fluid{0, std::ranges::max(mesh.x), std::min(0.0, std::ranges::min(mesh.y)),

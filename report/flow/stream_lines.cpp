@@ -129,8 +129,8 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
         arrows.push_back(line[i]);
         break;
       }
-  // The parts before and after the arrow are simplified separately, so that its place stays a point
-  // of the line.
+  // The parts before and after the arrow are simplified separately, so that its place stays a
+  // point.
   const double tolerance = 0.1 * std::min(grid.step_x(), grid.step_y());
   const auto middle = line.begin() + static_cast<std::ptrdiff_t>(arrow);
   result.points = simplified({line.begin(), middle + 1}, tolerance);

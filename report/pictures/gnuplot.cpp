@@ -141,8 +141,7 @@ std::string draw_picture(TextKind kind, const std::vector<Panel>& panels, int wi
   if (panels.size() > 1) script += "unset multiplot\n";
   // A picture takes about one second. If gnuplot needs ten minutes, it hangs.
   constexpr std::chrono::seconds kLongest = std::chrono::minutes(10);
-  // The shell command puts gnuplot's warnings after the picture, because they could be written into
-  // the middle of it.
+  // The shell command puts gnuplot's warnings after the picture; they could stand in the middle.
   const auto result = run_process(
       {"/bin/sh", "-c",
        "{ errors=$(gnuplot 2>&1 >&3); status=$?; } 3>&1; printf '%s' \"$errors\"; exit $status"},

@@ -1,7 +1,7 @@
 // The case of a sphere that moves along a plane and turns (TOML, docs/case-file.md). Lengths,
-// masses and times are in any one consistent system of units. Keys are declared in rolling_case.cpp
-// (keys.hpp). The stage of a rolling sphere and its sweeps read it. A change must keep accepting
-// the cases that users have written.
+// masses and times are in any consistent units. Keys are declared in rolling_case.cpp (keys.hpp).
+// The stage of a rolling sphere and its sweeps read it. A change must keep accepting the cases that
+// users have written.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 // The sweep of a sphere that moves along a plane and turns: the state of each model at the end of
 // the motion, from one fit of all motions of the pair. Lengths, masses and times are in the units
-// of the case. `sweep` calls it. A change must keep the names of the columns, because scripts of
-// users read them.
+// of the case. `sweep` calls it. A change must keep the names of the columns, which users' scripts
+// read.
 #pragma once
 
 #include <filesystem>

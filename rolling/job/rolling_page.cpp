@@ -17,8 +17,7 @@ namespace {
 constexpr auto kRollingPictures =
     std::to_array<std::string_view>({"gap", "velocity", "rotation", "slip", "friction"});
 
-/// Place of a model's colour: its place among all models, so that it does not depend on which of
-/// them were run.
+/// Place of a model's colour: its place among all models, so that it is the same in all runs.
 std::size_t place_of(const std::string& model) {
   const auto& models = rolling_models();
   const auto found = std::ranges::find(models, model, [](const auto& m) { return m.name; });

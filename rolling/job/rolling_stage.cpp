@@ -50,8 +50,8 @@ void check_rolling_files(const RollingFolder& folder) {
   check_rolling_report(folder.path);
 }
 
-/// Makes the fit of the case's tables, unless the case names a fit. `failure` is set to the rows
-/// that failed.
+/// Makes the fit of the tables, unless the case names a fit. Sets `failure` to the rows that
+/// failed.
 void make_fit(const RollingCase& c, const RollingFolder& folder, const RollingRequest& request,
               pipeline::RowFailure& failure) {
   if (c.fit) return;

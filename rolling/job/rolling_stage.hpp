@@ -1,6 +1,6 @@
 // The command `rolling`: tables, fit, trajectories and report of a sphere that moves along a plane.
 // Results are in the units of the case. A change must keep the names of the files, keys and
-// columns, which scripts of users read.
+// columns, which users' scripts read.
 #pragma once
 
 #include <filesystem>

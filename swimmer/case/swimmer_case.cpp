@@ -21,8 +21,7 @@ void read_radii(const case_file::TomlSection& section, std::string_view key,
   section.require(radii.size() >= kFewestSpheres && radii.size() <= kMostSpheres, key,
                   "has {} numbers; it must have {} to {}", radii.size(), kFewestSpheres,
                   kMostSpheres);
-  // With a larger ratio the mesh around the small sphere would have more elements than FreeFEM can
-  // number.
+  // With a larger ratio the mesh around the small sphere has more elements than FreeFEM can number.
   constexpr double kLargestRatio = 100;
   const auto [smallest, largest] = std::ranges::minmax(radii);
   section.require(largest <= kLargestRatio * smallest, key,

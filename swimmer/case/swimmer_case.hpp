@@ -1,7 +1,7 @@
 // The case of a swimmer (TOML, docs/case-file.md): spheres on a line, the table of their resistance
-// matrices, and the strokes that are computed with it. Lengths, masses and times are in any one
-// consistent system of units. Keys are declared in swimmer_case.cpp (keys.hpp). The stage of a
-// swimmer and its sweeps read it. A change must keep accepting the cases that users have written.
+// matrices, and the strokes that are computed with it. Lengths, masses and times are in any
+// consistent units. Keys are declared in swimmer_case.cpp (keys.hpp). The stage of a swimmer and
+// its sweeps read it. A change must keep accepting the cases that users have written.
 #pragma once
 
 #include <Eigen/Core>

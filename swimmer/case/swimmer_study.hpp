@@ -1,7 +1,6 @@
 // The sweep over the strokes of a swimmer: its displacement, energy and efficiency at each point,
 // from one fit of the resistance matrices. Lengths, masses and times are in the units of the case.
-// `sweep` calls it. A change must keep the names of the columns, because scripts of users read
-// them.
+// `sweep` calls it. The names of the columns must stay, for users' scripts.
 #pragma once
 
 #include <filesystem>

@@ -1,8 +1,7 @@
 // Subtracts the lubrication from each resistance matrix R, and takes the logarithm S of the rest: R
 // = mu (R_lub + l exp S), with the viscosity mu and the largest radius l (resistance_fit.hpp).
 // Lengths, masses and times are in the units of the table. Rows that are missing or stand twice are
-// an Error(kBadInput). A change must keep the random signs, so that error estimates can be
-// repeated.
+// an Error(kBadInput). A change must keep the random signs, and so the error estimates.
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 
 #include <fmt/format.h>
@@ -114,8 +113,7 @@ void change_by_estimates(ResistanceRow& row, SplitMix64& random) {
     }
 }
 
-/// Barycentric weights of the nodes 1/(gap + a + b), where a and b are the radii of the two
-/// spheres.
+/// Barycentric weights of the nodes 1/(gap + a + b), with the radii a and b.
 Eigen::VectorXd weights_of(const ResistanceFit& fit, std::size_t k) {
   Eigen::VectorXd inverse(static_cast<Index>(fit.gaps[k].size()));
   for (std::size_t i = 0; i < fit.gaps[k].size(); ++i)

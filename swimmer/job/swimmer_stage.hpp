@@ -1,6 +1,5 @@
 // The command `swimmer`: table, fit, strokes and report of a swimmer. Results are in the units of
-// the case. A change must keep the names of the files, keys and columns, which scripts of users
-// read.
+// the case. A change must keep names of files, keys and columns, for users' scripts.
 #pragma once
 
 #include <filesystem>

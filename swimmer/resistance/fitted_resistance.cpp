@@ -1,7 +1,6 @@
 // Evaluates R = mu (R_lub + l exp(S)) and its derivatives (resistance_fit.hpp). mu is the
 // viscosity, l the largest radius. Lengths, masses and times are in the units of the fit. Gaps
-// outside the table are an Error(kBadInput). A change must keep that slopes are the derivatives of
-// R to round-off.
+// outside the table are an Error(kBadInput). Slopes must stay the derivatives of R.
 #include "viscontact/swimmer/resistance/fitted_resistance.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // The resistance matrix R of spheres on a line at any gaps between them, from a fit
 // (resistance_fit.hpp), for the mechanics of the swimmer. Lengths, masses and times are in the
-// units of the fit. A change must keep R symmetric and positive definite, and slopes its
-// derivatives.
+// units of the fit. R must stay symmetric and positive definite, slopes its derivatives.
 #pragma once
 
 #include <Eigen/Core>

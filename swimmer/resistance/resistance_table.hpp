@@ -1,7 +1,7 @@
 // The table of resistance matrices of rigid spheres on a line, over the gaps between them
 // (physics.md, section 7). Lengths, masses and times are in the units of the table. The tabulation
-// writes it and fit_resistance.hpp reads it. A change must keep the names of the columns, because
-// published tables use them.
+// writes it and fit_resistance.hpp reads it. A change must keep the names of the columns, which
+// published tables have.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,8 +37,7 @@ using lubrication::kMostSpheres;
 /// A table of resistance matrices.
 using ResistanceTable = lubrication::Table<ResistanceRow>;
 
-/// Position of R_ij in ResistanceRow::entries of `spheres` spheres; i and j count from 0, in any
-/// order.
+/// Position of R_ij in ResistanceRow::entries of `spheres` spheres; i, j from 0, in any order.
 std::size_t entry_position(std::size_t i, std::size_t j, std::size_t spheres);
 
 /// The number of entries on and above the diagonal.

@@ -33,8 +33,7 @@ std::vector<std::string> arguments_of(const CollinearSpheres& spheres,
   return arguments;
 }
 
-/// Reads the lines "viscontact-entry I J VALUE ESTIMATE" into `row`. Returns false if one is
-/// missing.
+/// Reads the lines "viscontact-entry I J VALUE ESTIMATE" into `row`. False if one is missing.
 bool read_entries(const std::string& output, double viscosity, ResistanceRow& row) {
   std::istringstream lines(output);
   std::size_t found = 0;

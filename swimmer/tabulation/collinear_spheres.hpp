@@ -1,6 +1,6 @@
 // Rigid spheres on a line in a viscous fluid: the inputs of a table of their resistance matrices,
 // and the solution of one row by FreeFEM (physics.md, section 7). The commands `tabulate` and
-// `swimmer` use it. Lengths, masses and times are in any one consistent system of units.
+// `swimmer` use it. Lengths, masses and times are in any consistent units.
 #pragma once
 
 #include <optional>

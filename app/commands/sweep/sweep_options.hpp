@@ -1,7 +1,6 @@
 // The options of `sweep`, and the functions that turn options into a study (the points of the sweep
 // and the function that computes the row of a point), one for each kind of case. The commands of
-// this folder use them. docs/command-line.md describes the options, and a change must keep their
-// names.
+// this folder use them. docs/command-line.md describes the options, whose names must stay.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The loop over time of the contact models: the resolved drag in a step, the budget, and the
 // contact interval. The equations are those of contact_step.hpp. Lengths, masses and times are in
-// any one consistent system of units. Errors are those of the model and of motion.hpp. A change of
-// results must raise kModelsRevision.
+// any consistent units. Errors are those of the model and of motion.hpp. A change of results must
+// raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 #include <algorithm>
@@ -45,8 +45,7 @@ class DragAtDistance {
                        setting.mass + setting.step * drag_.resistance(contact_gap_ + distance +
                                                                       setting.step * v));
     };
-    // A change of the velocity below its own rounding does not change the gap at the end of the
-    // step.
+    // A change of the velocity below its own rounding does not change the gap after the step.
     const auto settled = [](double v, double next) {
       constexpr double kRoundOff = 4 * std::numeric_limits<double>::epsilon();
       return std::abs(next - v) <= kRoundOff * std::abs(next);
@@ -257,8 +256,7 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
                                end.gamma, step.solid * per_kick});
     clock.look_at(times, before, push, step);
     lowest_gamma = std::min(lowest_gamma, end.gamma);
-    // If contact lasts through a step in which the force changes its sign, gamma is lowest at that
-    // time.
+    // If contact lasts through a step in which the force changes its sign, gamma is lowest then.
     const double begin = times.kick_begin;
     for (; turn != turns.end() && *turn < times.kick_end; ++turn)
       if (*turn > begin && before.gamma < 0 && step.state.gamma < 0)

@@ -1,8 +1,7 @@
 // The loop over time that all contact models with a time step share (physics.md (4.5) to (4.7)). A
 // model supplies its resolved drag and the gap at which it makes contact. gamma is minus the
-// impulse that the film has absorbed. Lengths, masses and times are in any one consistent system of
-// units. A change must keep the budget balanced to round-off, and raise kModelsRevision if results
-// change.
+// impulse that the film has absorbed. Lengths, masses and times are in any consistent units. A
+// change must keep the budget balanced to round-off, and raise kModelsRevision if results change.
 #pragma once
 
 #include <functional>

@@ -1,9 +1,9 @@
 // One time step of viscous contact (physics.md (4.5) to (4.7)), which all contact models with a
 // time step share. m is the mass, u the velocity, D the gap minus that at contact, gamma minus the
 // impulse that the film has absorbed, f the external force, Gamma_res the primitive of the resolved
-// resistance. Lengths, masses and times are in any one consistent system of units. Rolling uses it,
-// too, and nothing is thrown. A change must keep the balance m u + Gamma_res(D) + gamma = int f to
-// round-off while no solid carries load.
+// resistance. Lengths, masses and times are in any consistent units. Rolling uses it, too, and
+// nothing is thrown. A change must keep the balance m u + Gamma_res(D) + gamma = int f to round-off
+// while no solid carries load.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,7 @@ struct ContactState {
 
 /// The constants of all steps of one length.
 struct ContactSetting {
-  /// Computes per_mass and per_step from the other constants, whose ranges are those of the
-  /// members.
+  /// Computes per_mass and per_step from the other constants; ranges are those of the members.
   ContactSetting(double mass_, double gamma_min_, double step_)
       : mass(mass_), gamma_min(gamma_min_), step(step_), per_mass(1 / mass_), per_step(1 / step_) {}
   double mass;  ///< m [M], > 0
@@ -35,8 +34,7 @@ struct ContactSetting {
 struct ContactStep {
   /// The state at the end of the step.
   ContactState state;
-  /// From the film that gamma stands for: gamma^n - gamma^{n+1}; < 0 while the film pulls the
-  /// sphere.
+  /// From the film that gamma stands for: gamma^n - gamma^{n+1}; < 0 while the film pulls.
   double film = 0;
   double drag = 0;   ///< from the resolved drag
   double solid = 0;  ///< from the solid contact, >= 0

@@ -1,7 +1,7 @@
 // Plain inelastic contact, for comparison with viscous contact. q is the gap, u the velocity, m the
 // mass, f_ext the external force, lambda the force of the contact; - and + mark values before and
-// after an impact. Lengths, masses and times are in any one consistent system of units. models.cpp
-// lists the model. A change of results must raise kModelsRevision.
+// after an impact. Lengths, masses and times are in any consistent units. models.cpp lists the
+// model. A change of results must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"

@@ -1,9 +1,8 @@
 // Rebound of the sphere from the solid contact below its film (physics.md (4.12), (4.13)), for
 // contact_model.cpp and viscous_contact_exact.cpp. m is the mass, u the velocity, gamma minus the
 // impulse that the film has absorbed, D the gap minus that at contact, h the step. Lengths, masses
-// and times are in any one consistent system of units. Nothing is thrown. A change must keep that
-// an impact takes place at its time within a step, because heights of rebounds converge with the
-// step only then.
+// and times are in any consistent units. Nothing is thrown. A change must keep that an impact takes
+// place at its time within a step, for heights of rebounds to converge.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Finds the events of problem (P), which are landing, release and change to solid contact, and
 // computes the budget between them. The equations are those of viscous_contact_exact.hpp. Lengths,
-// masses and times are in any one consistent system of units. Errors are those of
-// viscous_contact_exact.hpp. A change of results must raise kModelsRevision.
+// masses and times are in any consistent units. Errors are those of viscous_contact_exact.hpp. A
+// change of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 
 #include <algorithm>
@@ -110,8 +110,7 @@ class EventDriven {
     return t;
   }
 
-  // Fraction of the motion: a shorter flight counts as rest, so that the bounces of a dry sphere
-  // end.
+  // Fraction of the motion: a shorter flight counts as rest, so that dry bounces end.
   static constexpr double kShortestFlight = 1e-6;
 
   double m_;

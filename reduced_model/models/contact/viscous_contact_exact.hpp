@@ -1,8 +1,8 @@
 // Viscous contact without a time step, from event to event (physics.md (4.4), (4.6)). q is the gap,
 // u the velocity, m the mass, f_ext the external force, gamma minus the impulse that the film has
-// absorbed. Lengths, masses and times are in any one consistent system of units. models.cpp lists
-// the model, and studies and tests compare the models with a time step with it. A change of results
-// must raise kModelsRevision.
+// absorbed. Lengths, masses and times are in any consistent units. models.cpp lists the model, and
+// studies and tests compare the models with a time step with it. A change of results must raise
+// kModelsRevision.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"

@@ -1,7 +1,7 @@
 // Viscous contact with the regular part R(q) - k/q of the fitted resistance R (physics.md (4.7)). q
 // is the gap, u the velocity, m the mass, gamma minus the impulse that the film has absorbed. k is
-// the coefficient of 1/q in R. Lengths, masses and times are in any one consistent system of units.
-// models.cpp lists the model. A change of results must raise kModelsRevision.
+// the coefficient of 1/q in R. Lengths, masses and times are in any consistent units. models.cpp
+// lists the model. A change of results must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"

@@ -1,7 +1,7 @@
 // Viscous contact at a threshold gap q_c, with the whole fitted resistance R(q) at gaps q above it
 // (physics.md (4.7)). Gamma is the primitive of R, gamma minus the impulse that the film below q_c
-// has absorbed, m the mass, u the velocity. Lengths, masses and times are in any one consistent
-// system of units. models.cpp lists the model. A change of results must raise kModelsRevision.
+// has absorbed, m the mass, u the velocity. Lengths, masses and times are in any consistent units.
+// models.cpp lists the model. A change of results must raise kModelsRevision.
 #pragma once
 
 #include <algorithm>
