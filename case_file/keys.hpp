@@ -138,8 +138,7 @@ KeyTable describe_keys(std::string section, void (*declaration)(Keys&, Place&, M
   return table;
 }
 
-/// A whole number that may be greater than the largest int; up to 1e12 a double has no rounding
-/// error.
+/// A whole number that may be greater than the largest int; up to 1e12 a double is exact.
 inline constexpr Allowed kWholeNumber = {
     [](double v) { return v >= 1 && v <= 1e12 && v == std::floor(v); },
     "from 1 to 1e12 without a fraction"};

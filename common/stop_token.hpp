@@ -10,9 +10,8 @@
 namespace viscontact {
 
 /// A view of a flag that requests a stop. A copy views the same flag; the flag must outlive all its
-/// views. A default token never requests a stop. This class takes the place of std::stop_token,
-/// because a signal handler must not call std::stop_source::request_stop, but may set a lock-free
-/// atomic.
+/// views. A default token never requests a stop. std::stop_token is not used, because a signal
+/// handler may set a lock-free atomic, but not call request_stop().
 class StopToken {
  public:
   StopToken() = default;

@@ -29,7 +29,7 @@
 namespace viscontact::fitting {
 namespace {
 
-/// The least squares problem of a fit: a row for each row of the table, a column for each fitted
+/// The least squares problem of a fit: a row for each row of the table, a column for each
 /// coefficient.
 struct FittedSystem {
   /// Row weight times term(gap), times the square root of the weight that the loss gives the row.

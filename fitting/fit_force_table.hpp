@@ -46,8 +46,8 @@ struct FitSettings {
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const FitSettings& settings,
                                  const StopToken& stop = {});
 
-/// The same with a basis by name and the loss kSquared. Throws Error(kBadInput) for an unknown
-/// basis, too.
+/// As above with a basis by name and the loss kSquared. Throws Error(kBadInput) for an unknown
+/// basis.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, std::string_view basis,
                                  lubrication::Weights weights);
 

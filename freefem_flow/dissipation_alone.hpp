@@ -1,5 +1,6 @@
 // Dissipation of the fluid without particles, which the apparent viscosity refers to, where it has
-// a closed form. Lengths, masses and times are in the units of the case.
+// a closed form. Lengths, masses and times are in the units of the case; nothing is thrown.
+// flow_process.cpp asks it if the solver does not know. A change must keep 0 for "not known".
 #pragma once
 
 #include "viscontact/particles/domain/domain.hpp"

@@ -1,4 +1,6 @@
-// The commands of fluid solvers (freefem_solver.hpp).
+// The commands of fluid solvers, and the units in which FreeFEM computes (freefem_solver.hpp). A
+// solver that does not start is an Error(kExternalProgram). A change must keep units that are
+// powers of 2, so that no digit changes.
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // Starts the process of a fluid solver: FreeFEM with the scripts of this part, or a program of the
-// user's own.
+// user's own. Numbers are in the units of the case. The commands of app/ hand it to particles/. A
+// change must keep the names of the scripts.
 #pragma once
 
 #include <memory>

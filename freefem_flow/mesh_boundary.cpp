@@ -1,5 +1,6 @@
 // Puts the boundary of a mesh together from walls, periodic sides, the axis and the surfaces of the
-// particles (mesh_boundary.hpp). Lengths are in the unit of the case.
+// particles (mesh_boundary.hpp). Lengths are in the unit of the case. A gap that is too narrow is
+// an Error(kNotConverged). Opposite periodic sides must get the same points.
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 
 #include <algorithm>

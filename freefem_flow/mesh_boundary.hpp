@@ -1,5 +1,6 @@
 // The boundary of a mesh, as the fluid solver gets it (docs/fluid-solver.md). Lengths are in the
-// unit of the case.
+// unit of the case. flow_process.hpp sends it. A change of labels must be made in
+// freefem_flow/scripts, too. Gaps too narrow for a mesh are an Error(kNotConverged).
 #pragma once
 
 #include <array>

@@ -69,8 +69,7 @@ class LubricationForce {
   /// at the smallest fitted gap.
   double regular_resistance(double gap) const;
 
-  /// int_0^q (R(s) - k/s) ds [M L/T] for q >= 0, where R - k/q is the same constant below the
-  /// interval.
+  /// int_0^q (R(s) - k/s) ds [M L/T] for q >= 0, with the same constant below the interval.
   double regular_impulse(double gap) const;
 
   /// Gamma(q) = int_r^q R(s) ds [M L/T], r the sphere's radius. It is computed from a closed form

@@ -73,8 +73,7 @@ struct PairFit {
 };
 
 /// The value of an entry at a gap [L] > 0, in the dimension that EntryFit gives. Throws
-/// Error(kBadInput) if the fit lacks the entry. Outside the interval of gaps the formula is
-/// continued.
+/// Error(kBadInput) if the fit lacks the entry. Outside the interval the formula goes on.
 double entry_value(const PairFit& fit, PairEntry entry, double gap);
 
 /// True if the path is a regular file with a PairFit. False for a pipe, which is not read, because

@@ -63,8 +63,7 @@ struct State {
   /// Forces and torques of the links in the last step, in the order of Links::force_count()
   /// [M L/T^2, M L^2/T^2]: the first guess of the next step. Empty before the first step.
   std::vector<double> link_forces;
-  /// Work of each arm in the last step, divided by the length of the step [M L^2/T^3]; empty before
-  /// the first step.
+  /// Work of each arm in the last step over its length [M L^2/T^3]; empty before the first step.
   std::vector<double> arm_powers;
   // What time stepping in a fluid needs of the step before; without a fluid these stay empty or 0.
   /// Velocities and angular velocities [L/T, 1/T], motion_components() numbers (fluid_solver.hpp)

@@ -32,8 +32,7 @@ class Remaining {
   std::optional<std::uint64_t> first_;
 };
 
-/// Says at how many points models or strokes (`part`) failed, "; ... failed at 3 points"; empty if
-/// none did.
+/// Says at how many points models or strokes (`part`) failed: "; ... failed at 3 points", or empty.
 std::string failures_in_words(const sweep::SweepOutcome& outcome, const std::string& part) {
   const auto points = [](std::uint64_t n) {
     return fmt::format("{} point{}", n, n == 1 ? "" : "s");

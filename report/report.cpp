@@ -70,7 +70,7 @@ void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
     const double smallest = first->gap, largest = last->gap;
     const bool contact = choice->model->contact != nullptr;
     // In contact, the gap of a contact model is 0, where no drag is computed; the recovered film is
-    // compared instead.
+    // compared.
     const double thinnest = contact ? trajectory.recovered_minimal_gap.value_or(low) : smallest;
     if (thinnest > 0 && thinnest < low)
       warnings.add(
@@ -152,8 +152,7 @@ void add_passage_through_plane(Warnings& warnings, const results::RunResults& ru
   }
 }
 
-/// Warns if models that do not compute the solid contact have gaps at which the rough surfaces
-/// would touch.
+/// Warns if models without solid contact have gaps at which the rough surfaces would touch.
 void add_roughness(Warnings& warnings, const results::RunResults& run) {
   const auto& motion = run.c.motion.value();
   const double roughness = motion.roughness[0] + motion.roughness[1];

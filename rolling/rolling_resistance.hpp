@@ -33,8 +33,8 @@ struct RollingResistance {
 /// The resistances as functions of the gap, and their derivatives by ln q.
 class RollingFluid {
  public:
-  /// `fit` must outlive the object. Throws Error(kBadInput) if the fit lacks squeeze, slide, roll
-  /// or slide_roll.
+  /// `fit` must outlive the object. Throws Error(kBadInput) if it lacks squeeze, slide, roll or
+  /// slide_roll.
   explicit RollingFluid(const motions::PairFit& fit);
 
   /// The resistances at a gap [L] > 0. Below the interval of the fit its formula, which has the

@@ -1,5 +1,6 @@
 // How long the edges of the mesh are at a point of the boundary. Lengths are in the unit of the
-// case. bench/README.md has the errors of velocities that the constants give.
+// case. mesh_boundary.cpp uses it. bench/README.md has the errors of velocities that the constants
+// give, which a change must measure again.
 #pragma once
 
 #include <algorithm>

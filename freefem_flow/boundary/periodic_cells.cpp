@@ -1,6 +1,6 @@
-// Cuts each cell out of the plane by the lines halfway to its neighbours, joins corners that are the
-// same in the period, and keeps the edges whose other side is an image. Lengths are in the unit of
-// the case.
+// Cuts each cell out of the plane by the lines halfway to its neighbours, joins corners that are
+// the same in the period, and keeps the edges whose other side is an image. Lengths are in the unit
+// of the case; nothing is thrown. Edges must keep their partners, or the mesh is not periodic.
 #include "viscontact/freefem_flow/boundary/periodic_cells.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Where a fitted mesh of a periodic domain ends: halfway between particles. Lengths are in the unit
-// of the case.
+// of the case; nothing is thrown. mesh_boundary.cpp uses it. A change must give each edge a
+// partner.
 #pragma once
 
 #include <array>

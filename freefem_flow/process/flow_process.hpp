@@ -1,6 +1,6 @@
 // A fluid solver that is a process of its own, FreeFEM or a program of the user's, asked by the
-// protocol of docs/fluid-solver.md. Lengths, masses and times are in the units of the case. A change
-// of the protocol must change its version and that page.
+// protocol of docs/fluid-solver.md. Lengths, masses and times are in the units of the case.
+// freefem_solver.cpp makes it. A change of the protocol must change its version and that page.
 #pragma once
 
 #include <chrono>

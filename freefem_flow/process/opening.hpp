@@ -1,5 +1,6 @@
 // The first text that a fluid solver gets: the fluid, the domain and the sizes of the particles
-// (docs/fluid-solver.md).
+// (docs/fluid-solver.md, which a change must follow), in the units of the arguments.
+// flow_process.cpp sends it.
 #pragma once
 
 #include <span>

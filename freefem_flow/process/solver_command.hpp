@@ -1,4 +1,5 @@
-// How the process of a fluid solver is started.
+// How the process of a fluid solver is started, with what messages need. freefem_solver.cpp makes
+// it, flow_process.hpp uses it. A change must keep a user's command as it was written.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // Requests to the process of a fluid solver, and its answers word by word, each of which is
 // checked. Everything that goes wrong becomes an error that names the solver, the request and the
-// last lines of the solver.
+// last lines of the solver. flow_process.cpp uses it; a change must keep that no answer is waited
+// for without end.
 #pragma once
 
 #include <chrono>

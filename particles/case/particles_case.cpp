@@ -1,6 +1,6 @@
 // Reads the case file of many particles (particles_case.hpp). Lengths, masses and times are in the
-// units of the case. A change must keep the keys and their defaults, because users have written
-// cases with them.
+// units of the case. A wrong value is an Error(kBadInput) with its line. A change must keep keys
+// and defaults, which users' cases rely on.
 #include "viscontact/particles/case/particles_case.hpp"
 
 #include <algorithm>

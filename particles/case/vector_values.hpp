@@ -1,5 +1,6 @@
 // Readers of vectors and of piecewise constant vectors, and keys with such values, for the sections
-// of a case of many particles. Lengths, masses and times are in the units of the case.
+// of a case of many particles. Lengths, masses and times are in the units of the case. A wrong
+// value is an Error(kBadInput) with its line. A change must keep accepting users' cases.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,7 @@
 // The constraints of a step on particles that turn: contacts with friction, rigid bodies and links.
-// Makes the problem of constraint_problem.hpp and takes over its solution. Units are those of the
-// case.
+// Makes the problem of constraint_problem.hpp and takes over its solution. Lengths, masses and
+// times are in the units of the case. step_projection.hpp uses it; nothing is thrown. A change must
+// keep the order of units, on which results depend.
 #pragma once
 
 #include <cstddef>

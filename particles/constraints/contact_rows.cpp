@@ -1,4 +1,5 @@
-// Tangents and rows of contacts (contact_rows.hpp).
+// Tangents and rows of contacts (contact_rows.hpp), in the units of the case. Nothing is thrown. A
+// change must keep the angular momentum of a pair.
 #include "viscontact/particles/constraints/contact_rows.hpp"
 
 #include <array>

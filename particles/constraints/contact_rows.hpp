@@ -1,5 +1,6 @@
 // The rows of a contact with friction in the constraint problem of a step, docs/physics.md (5.6).
-// Units are those of the case.
+// Lengths [L] and impulses [M L/T] are in the units of the case. constraint_system.hpp and the
+// blows use them; nothing is thrown. A change must keep the angular momentum of a pair.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// Newton's method for a step of the proximal method (proximal_step.hpp).
+// Newton's method for a step of the proximal method (proximal_step.hpp), in the units of the case.
+// A step that fails is reported, not thrown. A change must keep the order of sums.
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 #include <algorithm>

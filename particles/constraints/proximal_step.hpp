@@ -1,5 +1,6 @@
 // One step of the proximal method for the constraints of a time step, by Newton's method
-// (constraint_problem.hpp). Units are those of the case.
+// (constraint_problem.hpp). Lengths, masses and times are in the units of the case.
+// constraint_solver.cpp uses it; a step that fails is no error.
 #pragma once
 
 #include <cstddef>

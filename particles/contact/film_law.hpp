@@ -19,8 +19,7 @@ namespace viscontact::particles {
 /// small gaps q, by Reynolds' equation. mu is the viscosity, and r_eff the effective radius
 /// (FilmLaw::effective_radius()).
 enum class FilmShape {
-  /// Spheres: R = 6 pi mu r_eff^2/q [M/T]. Discs without a fluid count as spheres whose centres
-  /// stay in a plane.
+  /// Spheres: R = 6 pi mu r_eff^2/q [M/T]. Discs without a fluid count as spheres in a plane.
   kSpheres,
   /// Discs in the plane of a fluid, which are cylinders: R = 3 sqrt(2) pi mu (r_eff/q)^(3/2)
   /// [M/(L T)] per length (Jeffrey & Onishi 1981).

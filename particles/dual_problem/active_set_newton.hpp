@@ -1,5 +1,6 @@
 // Newton's method on the set of active contacts, for the dual problem (5.4) of docs/physics.md,
-// scaled as in dual_problem.hpp.
+// scaled as in dual_problem.hpp. dual_solver.cpp and fluid/contact_problem.cpp use it; nothing is
+// thrown. A change must keep that a call without a solution leaves z as it was.
 #pragma once
 
 #include <algorithm>

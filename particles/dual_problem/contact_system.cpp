@@ -1,5 +1,6 @@
 // Numbers the bodies, joins islands, and passes both to the solver. Equations and units are those
-// of contact_system.hpp.
+// of contact_system.hpp. Nothing is thrown. A change must keep the order of bodies, on which
+// results depend.
 #include "viscontact/particles/dual_problem/contact_system.hpp"
 
 #include <algorithm>

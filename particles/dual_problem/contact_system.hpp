@@ -1,5 +1,6 @@
 // The contacts and particles that take part in the projection of a step, as the dual problem (5.4)
-// of docs/physics.md needs them. Units are those of the case.
+// of docs/physics.md needs them. Lengths, masses and times are in the units of the case.
+// projection/ and constraints/ use it; nothing is thrown. Results depend on the order of contacts.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,8 @@
 // The dual problem (5.4) of docs/physics.md of one time step, in scaled unknowns, and what its
 // solvers ask of it. It is the same whatever resists the impulses: masses (MassDualProblem), or a
 // fluid (FluidDualProblem and DenseDualProblem in fluid/contact_problem.cpp). Lengths, masses and
-// times are in the units of the case.
+// times are in the units of the case. Nothing is thrown. A change must keep gamma exact at its
+// bound.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Solves the dual problem (5.4) of docs/physics.md for a time step. Impulses and residuals are
-// scaled as dual_problem.hpp says.
+// scaled as dual_problem.hpp says. projection/ and impacts/ use it. Nothing is thrown: the result
+// has the residual. Results must not depend on the number of threads.
 #pragma once
 
 #include "viscontact/particles/dual_problem/free_set_factor.hpp"

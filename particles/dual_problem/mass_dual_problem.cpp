@@ -1,5 +1,5 @@
 // Builds the arrays of a MassDualProblem and combines displacements. Equations and units are those
-// of mass_dual_problem.hpp.
+// of mass_dual_problem.hpp. Nothing is thrown. A change must keep the order of all sums.
 #include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 #include <Eigen/Core>

@@ -1,8 +1,9 @@
 // Modified proportioning with reduced gradient projections, MPRGP (Dostal & Schoeberl 2005,
 // "Minimizing quadratic functions subject to bound constraints with the rate of convergence and
 // finite termination"), for the dual problem (5.4) of docs/physics.md, scaled as in
-// dual_problem.hpp. Sums must be taken in blocks of the thread pool, so that the results do not
-// depend on the number of threads.
+// dual_problem.hpp. dual_solver.cpp and fluid/contact_problem.cpp use it; nothing is thrown. Sums
+// must be taken in blocks of the thread pool, so that the results do not depend on the number of
+// threads.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,6 @@
 // Solves the contact problem of a step in a fluid (fluid_contacts.hpp): computes w, and chooses
-// between the matrix W and products with it. Units are those of the case.
+// between the matrix W and products with it. Lengths, masses and times are in the units of the
+// case. Errors are those of the mobility. Results may depend on nothing but the arguments.
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <set>

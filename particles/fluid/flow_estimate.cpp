@@ -1,5 +1,6 @@
-// Computes a flow up to three times and compares the results (flow_estimate.hpp). Units are those
-// of the case.
+// Computes a flow up to three times and compares the results (flow_estimate.hpp). Lengths, masses
+// and times are in the units of the case. Errors are those of FluidSolver. A change must keep the
+// order of the questions, because each `vary` replaces the fluid of the one before.
 #include "viscontact/particles/fluid/flow_estimate.hpp"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// The results of one flow.
+/// The results of one flow: velocities [L/T, 1/T], quantities, and what `further` returned.
 struct Results {
   std::vector<double> velocities;
   FlowQuantities quantities;
@@ -22,8 +23,8 @@ std::vector<double> difference(std::span<const double> of, std::span<const doubl
   return result;
 }
 
-/// Of each component, the length of the vector that it belongs to: velocity or force, and apart
-/// from it angular velocity or torque.
+/// For each component the length of its vector: velocity or force; angular velocity or torque count
+/// alone.
 std::vector<double> lengths(std::span<const double> of, std::size_t components) {
   std::vector<double> result;
   for (const double x : of) result.push_back(std::abs(x));
@@ -32,7 +33,7 @@ std::vector<double> lengths(std::span<const double> of, std::size_t components) 
   return result;
 }
 
-/// The largest length, where turning components count times the radius to the power of `power`.
+/// The largest length. Angular velocities (`power` 1) and torques (-1) count times radius^power.
 double largest(std::span<const double> of, const Particles& particles, int power) {
   const auto components = motion_components(particles.dimension);
   const auto all = lengths(of, components);
@@ -45,8 +46,8 @@ double largest(std::span<const double> of, const Particles& particles, int power
   return result;
 }
 
-/// Of each component of the loads of a particle in the plane, the largest change of all of them,
-/// where torques count divided by the radius. A change that is small by chance then hides no error.
+/// For each load of a particle in the plane the largest change of all its loads, where torques
+/// count divided by the radius. A change that is small by chance then hides no error.
 std::vector<double> of_loads(std::span<const double> changes, const Particles& particles) {
   auto result = lengths(changes, motion_components(particles.dimension));
   if (particles.dimension == 1) return result;

@@ -1,5 +1,7 @@
 // The errors of velocities and forces in a fluid: the flow of one placement is computed again with
-// another penalty and on another mesh. Units are those of the case.
+// another penalty and on another mesh. Lengths, masses and times are in the units of the case.
+// fluid_simulation.cpp calls it at the first and the last step. A change must keep the order of the
+// questions.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,6 @@
 // Lists pairs that are close to contact, chooses the contacts of a step among them and measures
-// their residuals (fluid_contacts.hpp). Units are those of the case.
+// their residuals (fluid_contacts.hpp). Lengths, masses and times are in the units of the case.
+// Errors are those of the mobility. A change must keep the order of pairs, which files have.
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 #include <iterator>

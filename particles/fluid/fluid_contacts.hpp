@@ -1,6 +1,7 @@
 // The contacts of a step in a fluid, docs/physics.md (6.4): which pairs take part, and impulses
 // that keep their gaps open, as forces on particles whose velocities depend linearly on forces. A
-// gap of a contact is D - D_c here, with the threshold gap D_c. Units are those of the case.
+// gap of a contact is D - D_c here, with the threshold gap D_c. Lengths, masses and times are in
+// the units of the case. fluid_simulation.cpp and the blows use it.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// What a step in a fluid computes before it changes the state (fluid_simulation.hpp). Units are
-// those of the case.
+// What a step in a fluid computes before it changes the state (fluid_simulation.hpp). Velocities
+// are in [L/T, 1/T], forces in [M L/T^2, M L^2/T^2], in the units of the case. Nothing is thrown. A
+// change must keep the state unchanged until a step is accepted.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Simulates rigid particles in a fluid with viscous contact, docs/physics.md (6.1) to (6.5)
 // (Lefebvre 2007, "Fluid-particle simulations with FreeFem++"; Lefebvre 2009, "Numerical simulation
-// of gluey particles"). Lengths, masses and times are in one consistent system of units.
+// of gluey particles"). Lengths, masses and times are in any consistent units. particles/run uses
+// it. Restarts must give the same bits.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,6 @@
 // What a simulation asks of a fluid: the velocities that rigid particles take in it under given
-// forces. Lengths, masses and times are in the units of the case.
+// forces. Lengths, masses and times are in the units of the case. FluidSimulation asks;
+// freefem_flow/ answers. A change must agree with docs/fluid-solver.md.
 #pragma once
 
 #include <array>

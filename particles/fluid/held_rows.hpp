@@ -1,5 +1,6 @@
 // The conditions that rigid bodies and links put on the velocities of particles in a fluid, and how
-// bodies move, docs/physics.md (6.7). Units are those of the case.
+// bodies move, docs/physics.md (6.7). Lengths, masses and times are in the units of the case.
+// fluid_simulation.cpp uses it; nothing is thrown.
 #pragma once
 
 #include <cstddef>

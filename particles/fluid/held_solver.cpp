@@ -1,4 +1,5 @@
-// Forces that keep linear conditions on the velocities of particles in a fluid (held_solver.hpp).
+// Forces that keep linear conditions on the velocities of particles in a fluid (held_solver.hpp),
+// in the units of the case. Conditions that contradict each other are an Error(kNotConverged).
 #include "viscontact/particles/fluid/held_solver.hpp"
 
 #include <fmt/format.h>

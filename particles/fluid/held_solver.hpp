@@ -1,5 +1,5 @@
-// A fluid whose particles are held by rigid bodies, hinges, springs and arms, docs/physics.md (6.7).
-// Units are those of the case.
+// A fluid whose particles are held by rigid bodies, hinges, springs and arms, docs/physics.md
+// (6.7). Lengths, masses and times are in the units of the case. fluid_simulation.cpp uses it.
 #pragma once
 
 #include <Eigen/QR>

@@ -1,4 +1,5 @@
-// Forces, inertia and given motions of a step (step_equation.hpp). Units are those of the case.
+// Forces, inertia and given motions of a step (step_equation.hpp). Lengths, masses and times are in
+// the units of the case. Nothing is thrown. A change must keep the order of the step in time.
 #include "viscontact/particles/fluid/step_equation.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // The equation of motion of a step in a fluid: forces, inertia and given motions, docs/physics.md
-// (6.1) and (6.5). Units are those of the case.
+// (6.1) and (6.5). Lengths, masses and times are in the units of the case. fluid_simulation.cpp
+// uses it; nothing is thrown. A change must keep second order in time away from contact.
 #pragma once
 
 #include <array>

@@ -185,8 +185,7 @@ class Search {
         });
   }
 
-  /// The pairs in order: by counting for `first`, then by sorting the few pairs with the same
-  /// `first`.
+  /// The pairs in order: by counting for `first`, then by sorting the few with the same `first`.
   std::vector<ClosePair> sorted() const {
     std::vector<std::size_t> begin(extents_.size() + 1, 0);
     for (const auto& pair : found_.values) ++begin[static_cast<std::size_t>(pair.first) + 1];

@@ -63,8 +63,8 @@ void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
 /// The box of the scene (Scene::box), for a flow in `domain`.
 ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& frames,
                     const std::optional<report::Window>& domain) {
-  // If the extent of all particles is more than 1.5 times that of the central ones, some particles
-  // have flown away.
+  // If the extent of all particles is more than 1.5 times that of the central ones, some have flown
+  // away.
   constexpr double kFlownAway = 1.5;
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   // At both ends of all axes together, 2 % of the particles are left out.

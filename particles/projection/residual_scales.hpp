@@ -1,5 +1,7 @@
 // The scales by which the residuals of a projection are measured: lengths, the impulses at work in
-// each contact, and rounding errors. Units are those of the case.
+// each contact, and rounding errors. Lengths [L] and impulses [M L/T] are in the units of the case;
+// nothing is thrown. step_projection.hpp uses it. A change must keep the scales independent of
+// units.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Solves the projection (5.3) of one step on the contacts and particles that take part in it:
-// chooses them, sets their tolerances, and checks the solution. Units are those of the case. The
+// chooses them, sets their tolerances, and checks the solution. Lengths, masses and times are in
+// the units of the case. simulation.cpp uses it; what is not solved is reported, not thrown. The
 // results must not depend on the number of threads.
 #pragma once
 

@@ -104,8 +104,7 @@ PressureColours widened(PressureColours colours) {
 }  // namespace
 
 std::string film_colour(double share) {
-  // Colour-blind readers can tell the colours of the scale viridis apart, and so can readers of a
-  // print in grey.
+  // Colour-blind readers can tell the colours of the scale viridis apart, also in a grey print.
   static const std::vector<ColourNode> kViridis = {
       {0, {253, 231, 37}},     {0.125, {173, 220, 48}}, {0.25, {94, 201, 98}},
       {0.375, {40, 174, 128}}, {0.5, {33, 145, 140}},   {0.625, {44, 114, 142}},
