@@ -1,5 +1,5 @@
-// Contacts and overlaps of a state (current_contacts.hpp), in the units of the case. Nothing is
-// thrown. A change must keep the order of contacts, which vtk_reader.cpp restores.
+// Contacts and overlaps of a state, in the units of the case. Nothing is thrown. A change must keep
+// the order of contacts, which vtk_reader.cpp restores. Used by io/ and run/.
 #include "viscontact/particles/current_contacts.hpp"
 
 #include <algorithm>

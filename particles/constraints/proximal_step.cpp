@@ -1,5 +1,5 @@
-// Newton's method for a step of the proximal method (proximal_step.hpp), in the units of the case.
-// A step that fails is reported, not thrown. A change must keep the order of sums.
+// Newton's method for a step of the proximal method, in the units of the case. A step that fails is
+// reported, not thrown. A change must keep the order of sums. Used by constraint_solver.cpp.
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Makes the rows of rigid bodies and links in a fluid (held_rows.hpp), in the units of the case. A
-// change must keep bodies exactly rigid.
+// change must keep bodies exactly rigid. Used by fluid_acceptance.cpp and fluid_simulation.cpp.
 #include "viscontact/particles/fluid/held_rows.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-// The stages of sweeps of particles (particles_sweep_stage.hpp). Times are in seconds where a
-// comment says so, else in the unit of the case. Errors are those of the header. A change must keep
-// runs in their folders until the user deletes them, so that adding draws runs the new ones only.
+// The stages of sweeps of particles. Times are in seconds where a comment says so, else in the unit
+// of the case. Errors are those of the header. A change must keep runs in their folders until the
+// user deletes them, so that adding draws runs the new ones only. Used by app/.
 #include "viscontact/particles/sweep/particles_sweep_stage.hpp"
 
 #include <fmt/format.h>
