@@ -1,7 +1,7 @@
 // Fits of one table in several bases, and the choice between them by Akaike's information criterion
 // (FitDiagnostics::information_criterion). Lengths, masses and times are in the units of the table.
 // `fit --compare-bases` and the report print and draw these fits. A change must keep that one basis
-// that fails does not stop the others.
+// that fails does not stop the others. Used by report/.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,7 @@
 // The flow of one row of a table (one gap and one velocity of the sphere) with its meshes, for the
-// pictures of report/flow. rho is the
-// distance from the axis, z the height, phi the angle about the axis. Lengths, masses and times are
-// in the units of the case. A change must agree with scripts/pictures.idp.
+// pictures of report/flow. rho is the distance from the axis, z the height, phi the angle about the
+// axis. Lengths, masses and times are in the units of the case. A change must agree with
+// scripts/pictures.idp. Used by report/.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // What lubrication theory says of forces and torques near contact if a sphere slides, rolls or
 // spins beside its neighbour (physics.md (2.9) to (2.11)). Lengths, also the gap q, are in sphere
 // radii. The tabulation of motions writes these coefficients into the head of its tables. Nothing
-// is thrown: the caller gives a motion and a neighbour that are allowed.
+// is thrown: the caller gives a motion and a neighbour that are allowed. Used by freefem_axi/.
 #pragma once
 
 #include <string_view>

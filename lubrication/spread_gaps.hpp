@@ -1,6 +1,6 @@
 // Sample points for functions of the gap, at which fits are checked and exported. Nothing is
 // thrown. The default of 201 points is also stated in the help of `export` and in
-// docs/file-formats.md.
+// docs/file-formats.md. Used by fitting/, lubrication_force.cpp and motions/.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Lists the contacts of a state for output, and measures its overlaps. Lengths, masses and times
 // are in the units of the case. Files, frames and pages show these contacts. A change must keep the
-// order of contacts_of(), which vtk_reader.cpp restores.
+// order of contacts_of(), which vtk_reader.cpp restores. Used by io/ and run/.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The motion of a step of length h without contacts: displacements h u* and turns h w* of
-// docs/physics.md (5.3) and (5.10), and the velocities at the present time. Lengths, masses and
-// times are in the units of the case. Nothing is thrown. A change must keep that bodies move as
-// simulation.cpp expects: displacements and turns of all members are set.
+// docs/physics.md (5.3) and (5.10), and the velocities at the present time. Numbers are in the
+// units of the case. Nothing is thrown. simulation.cpp calls these functions at the beginning of
+// each step; a change must set displacements and turns of all members.
 #include "viscontact/particles/rotation.hpp"
 #include "viscontact/particles/simulation.hpp"
 

@@ -1,6 +1,6 @@
 // What moves the particles of a simulation, and how their motion is computed: the content of a case
-// file. Both simulations (simulation.hpp, fluid/fluid_simulation.hpp) and the output of their
-// states read it. Lengths, masses and times are in any consistent units.
+// file. Nothing is checked here. Both simulations (simulation.hpp, fluid/fluid_simulation.hpp) and
+// the output of their states read it. Lengths, masses and times are in any consistent units.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // What every model of motion is given: the sphere, its start, the external force, and the values of
 // the models' parameters. Lengths, masses and times are in any consistent units. Case files set
-// these members; a change must keep the keys.
+// these members; a change must keep the keys. Used by case_file/, models/contact/ and more.
 #pragma once
 
 #include <array>
@@ -35,8 +35,7 @@ struct Motion {
 
   /// Approximate number of rows of a trajectory file (fewer_rows.hpp), >= 2; 0 writes all rows.
   int output_rows = 0;
-  /// report_progress() calls this function with the time [T] that a model has reached; may be
-  /// empty.
+  /// report_progress() calls it with the time [T] that a model has reached; may be empty.
   std::function<void(double time)> progress{};
   /// If it requests a stop, report_progress() throws Error(kInterrupted).
   StopToken stop{};

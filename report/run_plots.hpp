@@ -1,6 +1,6 @@
 // The plots of the report of one sphere: lengths, masses and times are in the units of the case. A
 // plot without curves has nothing to show, and report.cpp, the only user, leaves it out. A change
-// must keep the names of the plots, which are names of files.
+// must keep the names of the plots, which are names of files. Used by report.cpp.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,7 @@
-// The exit code of the program for each kind of error. Scripts of users rely on these numbers;
-// --help and the manual print this table, and docs/command-line.md repeats it. The table is here
-// and not in app, because failed_models.json stores the codes.
+// The exit code of the program for each kind of error. A change must keep these numbers, on which
+// users' scripts rely; --help and the manual print this table, and docs/command-line.md repeats it.
+// The table is here and not in app, because failed_models.json stores the codes. Used by app/ and
+// failed_models.cpp.
 #pragma once
 
 #include <optional>

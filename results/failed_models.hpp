@@ -1,6 +1,6 @@
 // The record of the models that failed in a simulation, failed_models.json in a run's folder. From
 // this file `compare` and `report` know why these models have no trajectory. A change must keep the
-// keys of the file.
+// keys of the file. Used by pipeline/ and rolling/.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // Gauss-Legendre quadrature with any number of points, for integrals along a stroke (swim.hpp,
 // polynomial_loop.hpp). Numbers have no dimension, and nothing is thrown. A change must keep the
-// points to round-off.
+// points to round-off. Used by polynomial_loop.cpp and swim.cpp.
 #pragma once
 
 #include <Eigen/Core>

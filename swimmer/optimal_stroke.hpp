@@ -1,8 +1,7 @@
 // The stroke of least energy for a given displacement (Alouges, DeSimone & Lefebvre 2008): among
 // the loops through a given shape with this displacement, the one with the least energy in a given
 // period. Its power is constant. Lengths, masses and times are in the units of the fit. The
-// commands `swimmer` and `sweep` use it; a change must keep energies to the digits of
-// docs/swimmer.md.
+// commands `swimmer` and `sweep` use it; energies must stay those of docs/swimmer.md.
 #pragma once
 
 #include <Eigen/Core>

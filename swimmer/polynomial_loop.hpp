@@ -1,7 +1,7 @@
 // Closed loops of polynomials through a given shape, and the displacement and energy of these loops
 // as functions of their coefficients, for the optimal stroke (optimal_stroke.hpp). Lengths, masses
 // and times are in the units of the swimmer's fit. A change must keep that gradients are those of
-// the sums to round-off.
+// the sums to round-off. Used by optimal_stroke.hpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -57,8 +57,7 @@ class LoopFunctional {
   /// Throws Error(kBadInput) if the table does not contain the loop.
   LoopSums operator()(const PolynomialLoop& loop) const;
 
-  /// The Hessian of integral dx/ds' G0 dx/ds for a constant G0: the natural scale of the
-  /// coefficients.
+  /// The Hessian of integral dx/ds' G0 dx/ds for a constant G0, the scale of the coefficients.
   Eigen::MatrixXd constant_metric_hessian(const Eigen::MatrixXd& metric) const;
 
  private:

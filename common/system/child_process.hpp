@@ -1,7 +1,7 @@
 // A child process that is asked over and over, such as a fluid solver (freefem_flow/process/): text
 // goes to its standard input, and words come from its standard output (Linux). A change must keep
 // that neither a full pipe nor a child that ends or is silent can stop this process beyond the
-// deadline.
+// deadline. Used by freefem_flow/.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // Starts a child process with sockets as its standard streams (Linux), for run_process
 // (process.hpp) and ChildProcess (child_process.hpp). A change must keep that the child ends with
-// the thread that started it.
+// the thread that started it. Used by child_process.hpp and process.cpp.
 #pragma once
 
 #include <sys/types.h>

@@ -1,5 +1,5 @@
 // Turns a text of several lines into one line, for journals and messages that have one line each.
-// Other characters stay.
+// Only line ends may change. Used by freefem_axi/, particles/ and more.
 #pragma once
 
 #include <algorithm>

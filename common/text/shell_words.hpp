@@ -1,5 +1,5 @@
 // Splits command lines into words, and quotes words for a POSIX shell. The commands in messages, in
-// scripts of Slurm and in provenance are quoted by it.
+// scripts of Slurm and in provenance are quoted by it and must stay the same.
 #pragma once
 
 #include <string>

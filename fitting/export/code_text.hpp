@@ -1,6 +1,6 @@
 // Numbers and sums of terms as code of C, Fortran and Python, for export_fit.cpp and
 // export_pair.cpp. Numbers have the units of the fit. Nothing is thrown. A change must keep that
-// the code reads back the same doubles.
+// the code reads back the same doubles. Used by export_fit.cpp and motions/.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Rigid bodies of several discs or spheres, which keep their places in the body. Lengths, masses
 // and times are in any consistent units. The restart file stores the motion of the bodies
 // (io/restart.cpp); the case gives all else. Nothing is checked or thrown here; particles/case
-// checks the bodies.
+// checks the bodies. Used by body_step.hpp, dual_problem/ and particles.hpp.
 #pragma once
 
 #include <array>

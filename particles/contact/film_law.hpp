@@ -2,7 +2,7 @@
 // contact (Maury 2007, Lefebvre 2008): docs/physics.md (5.2), (5.5) and (6.8). Lengths, masses and
 // times are in any consistent units. Solvers take the bounds of a contact's impulse from here; a
 // simulation changes gamma by absorb() alone, and a change must keep that. Nothing is checked or
-// thrown.
+// thrown. Used by contact_laws.hpp.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Restitution of solids that touch through a film, docs/physics.md (5.15) (Poisson's law: what the
 // solids give back is a share of the impulse that they took). Impulses and gamma [M L/T] are in the
 // units of the case. impacts/ and fluid/ apply the law to each blow; nothing is checked or thrown.
-// A change must not let a blow create energy.
+// A change must not let a blow create energy. Used by contact_laws.hpp.
 #pragma once
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // solvers ask of it. It is the same whatever resists the impulses: masses (MassDualProblem), or a
 // fluid (FluidDualProblem and DenseDualProblem in fluid/contact_problem.cpp). Lengths, masses and
 // times are in the units of the case. Nothing is thrown. A change must keep gamma exact at its
-// bound.
+// bound. Used by active_set_newton.hpp, mass_dual_problem.hpp and mprgp.hpp.
 #pragma once
 
 #include <algorithm>

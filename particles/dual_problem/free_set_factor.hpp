@@ -1,7 +1,7 @@
 // A sparse Cholesky factor of the matrix W of mass_dual_problem.hpp (docs/physics.md (5.4)),
 // between chosen contacts and with diagonal 1. It serves dual_solver.cpp as a solver and as a
 // preconditioner. The chosen contacts are those that are free: their z is above the bound, and
-// their linearised gap is 0.
+// their linearised gap is 0. Used by dual_solver.hpp.
 #pragma once
 
 #include <memory>

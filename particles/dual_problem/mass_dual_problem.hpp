@@ -1,7 +1,7 @@
 // The dual problem of particles that only their masses resist: the two products with W that all
 // methods use, in flat arrays of contacts and bodies. Lengths, masses and times are in the units of
 // the case. A change must keep the order of all sums, because the results must not depend on the
-// threads.
+// threads. Used by dual_solver.cpp, dual_solver.hpp and free_set_factor.hpp.
 #pragma once
 
 #include <array>

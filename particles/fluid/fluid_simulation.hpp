@@ -1,7 +1,7 @@
 // Simulates rigid particles in a fluid with viscous contact, docs/physics.md (6.1) to (6.5)
 // (Lefebvre 2007, "Fluid-particle simulations with FreeFem++"; Lefebvre 2009, "Numerical simulation
 // of gluey particles"). Lengths, masses and times are in any consistent units. particles/run uses
-// it. Restarts must give the same bits.
+// it. Restarts must give the same bits. Used by fluid_motion.hpp and run/.
 #pragma once
 
 #include <memory>

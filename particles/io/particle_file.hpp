@@ -1,6 +1,6 @@
 // Particles and contacts as CSV files. Lengths, masses and times are in the units of the case.
 // Cases read such files, and runs write them. A change must keep the names of the columns, which
-// users' files contain.
+// users' files contain. Used by case/ and run/.
 #pragma once
 
 #include <filesystem>

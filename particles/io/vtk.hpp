@@ -1,6 +1,6 @@
 // Frames of a simulation as VTK files for ParaView. Lengths, masses and times are in the units of
 // the case. A run that continues, and pages, read the frames of a run again, so that a change must
-// keep the names of the arrays.
+// keep the names of the arrays. Used by vtk_reader.cpp and run/.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // One interface to the simulations of many particles with and without a fluid, for runs and sweeps.
 // Lengths, masses and times are in the units of the case. A change must keep that both simulations
-// answer each function in the same way.
+// answer each function in the same way. Used by particles_stage.cpp and sweep/.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,7 @@
 // What a run of many particles has done so far: sums over its steps, for run.json, and where its
 // files end, for restart.bin (docs/file-formats.md). Times [T] are in the unit of the case,
 // computing times in seconds. run_log.hpp keeps it. A change must keep the columns and keys, which
-// scripts of users and interrupted runs rely on.
+// scripts of users and interrupted runs rely on. Used by particles_earlier_run.hpp and run_log.hpp.
 #pragma once
 
 #include <cstdint>

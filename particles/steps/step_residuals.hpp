@@ -2,7 +2,7 @@
 // for particles with masses (projection/) and in a fluid (fluid/). A residual is how far a gap or a
 // length is from what its condition asks, [L]; docs/particles.md, "The projection", says what is
 // allowed. Lengths, masses and times are in the units of the case. A change of a limit changes
-// which steps are accepted.
+// which steps are accepted. Used by fluid/, projection/ and simulation.cpp.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
-// The stages of sweeps of particles. Times are in seconds where a comment says so, else in the unit
-// of the case. Errors are those of the header. A change must keep runs in their folders until the
-// user deletes them, so that adding draws runs the new ones only. Used by app/.
+// The stages of sweeps of particles. Computing times are in [s], others in the unit of the case.
+// Runs that all fail, or are missing, are an Error(kNotConverged). A change must keep runs in their
+// folders until the user deletes them, so that adding draws runs the new ones only. Used by app/.
 #include "viscontact/particles/sweep/particles_sweep_stage.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Submits rows to the workload manager Slurm as one array job (docs/cluster.md): those of
 // tabulations and of sweeps of particles. A change must keep that later edits of a case do not
-// change a submitted job.
+// change a submitted job. Used by app/, particles/ and tabulate/.
 #pragma once
 
 #include <cstddef>

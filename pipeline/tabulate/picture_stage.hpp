@@ -1,6 +1,6 @@
 // `viscontact tabulate --plot`: pictures (SVG) and VTK files of the flow for chosen gaps. Gaps [L]
 // and velocities [L/T] are in the units of the case. A change must keep the names of the files,
-// which contain the gap.
+// which contain the gap. Used by app/.
 #pragma once
 
 #include <filesystem>

@@ -2,7 +2,7 @@
 // `inertial` and `rolling`. Times are in [T]; the components of a state may have any dimensions.
 // Every return code of SUNDIALS is checked in cvode.cpp and nowhere else. This header must include
 // no header of SUNDIALS: those of Debian 13 need the headers of MPI, which the tests and users of
-// an installed Viscontact would then have to find.
+// an installed Viscontact would then have to find. Used by models/ and rolling/.
 #pragma once
 
 #include <exception>

@@ -1,6 +1,6 @@
 // The interval of gaps that a motion needs, which a table has to cover. Lengths are in the units of
 // the case. A change must keep that a motion that cannot be computed is no error here. `run` warns
-// by it before a tabulation, and messages say by it how far to tabulate.
+// by it before a tabulation, and messages say by it how far to tabulate. Used by pipeline/.
 #pragma once
 
 #include <optional>

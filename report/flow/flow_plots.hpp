@@ -1,6 +1,6 @@
 // Pictures of one row of a tabulation: the mesh in the gap, the flow around the sphere and the flow
 // in the gap. Lengths, masses and times are in the units of the case. `tabulate --plot` makes them;
-// a change must keep that each function returns a complete SVG.
+// a change must keep that each function returns a complete SVG. Used by pipeline/.
 #pragma once
 
 #include <string>

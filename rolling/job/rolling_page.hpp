@@ -29,8 +29,7 @@ struct RollingResults {
 /// the fit is continued although no row of a table supports it.
 std::vector<std::string> rolling_warnings(const RollingResults& results);
 
-/// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not
-/// write.
+/// Throws Error(kBadInput) if the report would replace a file in `folder` that is not Viscontact's.
 void check_rolling_report(const std::filesystem::path& folder);
 
 /// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no

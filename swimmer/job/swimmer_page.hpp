@@ -39,8 +39,7 @@ struct SwimmerResults {
   double energy_per_displacement = 0;
 };
 
-/// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not
-/// write.
+/// Throws Error(kBadInput) if the report would replace a file in `folder` that is not Viscontact's.
 void check_swimmer_report(const std::filesystem::path& folder);
 
 /// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no

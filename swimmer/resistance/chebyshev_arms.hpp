@@ -1,6 +1,6 @@
 // The distances of two spheres at which a fit of their resistance (resistance_fit.hpp) needs
 // values. The case of a swimmer tabulates these; a change of any bit makes another table and fit.
-// Nothing is thrown.
+// Nothing is thrown. Used by case/.
 #pragma once
 
 #include <cmath>
