@@ -10,7 +10,7 @@
 //     read_keys(root.section("solver"), solver_keys, settings);
 //     describe_keys("[solver]", solver_keys);
 //
-// Values have the units of the case, of any one consistent system. After a change of a declaration
+// All readers of cases use it. Values have the units of the case. After a change of a declaration
 // the tables of the page must be made again; the test CaseFilePage makes them and says where.
 #pragma once
 
@@ -151,7 +151,8 @@ std::string number_in_words(double number);
 
 // Values of keys. They refer to their arguments, which must live until the key is declared.
 
-/// A value with a reader and words of its own. `read` gets the section, the key and the places.
+/// A value that `read` reads, described by `words`. `read` gets the section, the key and the
+/// places.
 template <class Read, class... Places>
 KeyValue custom(std::string_view words, Read read, Places&... places) {
   return {[read, &places...](const TomlSection& section, std::string_view key) {

@@ -2,9 +2,9 @@
 // change of the solid contact to the next: the sphere touches the roughness, its slip ends,
 // friction no longer prevents slip, or the sphere is lifted off. x is along the plane, z away from
 // it, y the axis of rotation; u, V are the velocities of sphere and plane along x, w is the angular
-// velocity. s is ln(q/r) with the gap q and the radius r. Lengths, masses and times are in any
-// consistent units. A start above the fit is an Error(kBadInput), a step that CVODE gives up an
-// Error(kNotConverged). A change must keep the slip exactly 0 while the sphere rolls.
+// velocity. s is ln(q/r) with the gap q and the radius r. Numbers are in any consistent units. A
+// start above the fit is an Error(kBadInput), a step that CVODE gives up an Error(kNotConverged). A
+// change must keep the slip exactly 0 while the sphere rolls. Used by rolling/case/ and job/.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -32,10 +32,10 @@ SpherePlan planned_sphere(const case_file::Case& c);
 
 /// The study of a plan. Its results are, for each model, MODEL.minimal_gap [L],
 /// MODEL.minimal_gap_time [T], MODEL.film [L] (the thinnest recovered film), MODEL.contact_from
-/// [T], MODEL.contact_until [T], MODEL.sup_gap_distance, MODEL.l1_gap_distance and
-/// MODEL.l1_velocity_distance (distances to the reference), MODEL.film_ratio [1] (thinnest film
-/// over that of the reference) and MODEL.steps. Those of a model that fails are empty, and so are
-/// all distances if the reference fails. `version` is that of Viscontact.
+/// [T], MODEL.contact_until [T], MODEL.sup_gap_distance [L], MODEL.l1_gap_distance [L T] and
+/// MODEL.l1_velocity_distance [L] (to the reference), MODEL.film_ratio [1] (thinnest film over that
+/// of the reference) and MODEL.steps. Those of a model that fails are empty, and so are all
+/// distances if the reference fails. `version` is that of Viscontact.
 ///
 /// Reads the case. Throws Error(kBadInput) if the case has no [motion], if the first or the last
 /// point of the plan gives no valid case, or if its radius is not that of the fit. Throws

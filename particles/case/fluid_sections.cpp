@@ -1,6 +1,6 @@
 // Reads [domain] and [fluid] of a case of many particles (particles_sections.hpp). Lengths, masses
 // and times are in the units of the case. A wrong value is an Error(kBadInput) with its line. A
-// change must keep keys and defaults, which users' cases rely on.
+// change must keep keys and defaults, which users' cases rely on. Used by particles_case.cpp.
 #include <algorithm>
 #include <array>
 #include <limits>

@@ -1,7 +1,7 @@
 // Reads the particles of a case: [particles], [[particle]], [arrangement] and [[force]]
 // (particles_sections.hpp). Lengths, masses and times are in the units of the case. A wrong value
 // is an Error(kBadInput) with its line. A change must keep keys and defaults, which users' cases
-// rely on.
+// rely on. Used by particles_case.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

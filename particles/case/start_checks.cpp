@@ -1,6 +1,6 @@
-// Checks the state at the start of a case of many particles, and what a fluid needs of it
-// (particles_sections.hpp). Lengths are in the unit of the case. Each fault is an Error(kBadInput).
-// Messages must name the line of the CSV file, because the file can be long.
+// Checks the state at the start of a case of many particles, and what a fluid needs of it. Lengths
+// are in the unit of the case. Each fault is an Error(kBadInput). Messages must name the line of
+// the CSV file, because the file can be long. Used by particles_case.cpp.
 #include <algorithm>
 #include <array>
 #include <variant>

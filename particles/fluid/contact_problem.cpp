@@ -1,6 +1,6 @@
 // Solves the contact problem of a step in a fluid (fluid_contacts.hpp): computes w, and chooses
-// between the matrix W and products with it. Lengths, masses and times are in the units of the
-// case. Errors are those of the mobility. Results may depend on nothing but the arguments.
+// between the matrix W and products with it. Numbers are in the units of the case. Errors are those
+// of the mobility. Results may depend on nothing but the arguments. Used by fluid_contacts.cpp.
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <set>

@@ -1,6 +1,6 @@
 // Examines a step in a fluid and changes the state by it (fluid_simulation.hpp). Lengths, masses
 // and times are in the units of the case. A step that is refused is an Error(kNotConverged); the
-// state must then be that before the step.
+// state must then be that before the step. Used by fluid_simulation.cpp.
 #include <fmt/format.h>
 
 #include "viscontact/common/error.hpp"

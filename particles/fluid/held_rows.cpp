@@ -1,5 +1,6 @@
-// Makes the rows of rigid bodies and links in a fluid (held_rows.hpp), in the units of the case. A
-// change must keep bodies exactly rigid. Used by fluid_acceptance.cpp and fluid_simulation.cpp.
+// Makes the rows, linear conditions on velocities, of rigid bodies and links in a fluid. Units are
+// those of the case; nothing is thrown. A change must keep bodies exactly rigid. Used by
+// fluid_acceptance.cpp and fluid_simulation.cpp.
 #include "viscontact/particles/fluid/held_rows.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +45,7 @@ HeldMotion::HeldMotion(const Links& links, const Particles& particles, const Lin
   turn_rows();
 }
 
-/// StepEquation::link_times() of a particle.
+/// The time in the step at which links act on a particle [T]; < 0: it does not accelerate.
 double HeldMotion::link_time(std::int32_t particle) const {
   return link_times_.empty() ? -1 : link_times_[index_of(particle)];
 }
@@ -89,7 +90,7 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
       row.name = fmt::format("body {}", number);
       row.accelerates = link_time(first) >= 0;
       row.entries = {{layout_.at(member, d), 1}, {layout_.at(first, d), -1}};
-      // v_m - v_1 - w_1 x apart
+      // velocity of the member less that of the first one's rigid motion
       if (d < 2) {
         row.entries.emplace_back(layout_.at(first, 2), d == 0 ? apart[1] : -apart[0]);
         row.image_rate = of_images[m][d] - of_images[0][d];
@@ -149,7 +150,7 @@ UnitMotion HeldMotion::motion_of_body(std::size_t body, std::span<const double> 
   return motion;
 }
 
-/// Displacement and turn in the step of the image of a unit that a part of a row means.
+/// Displacement and turn in the step of the unit of a part, at the image that the part names.
 UnitMotion HeldMotion::motion_of(const LinkPart& part, std::span<const double> velocities) const {
   UnitMotion motion;
   const auto particle = part.particle;
@@ -250,7 +251,7 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
       right[c] /= norm;
     }
   }
-  // The least change in the norm of W^-1; redundant rows share the least forces.
+  // Of all changes the least one, weighted by W^-1; redundant rows get the least forces.
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor;
   constexpr double kRank = 1e-10;
   factor.setThreshold(kRank);

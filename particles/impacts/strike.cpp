@@ -1,6 +1,6 @@
 // Solves the blows of a step, each in its two phases (impacts.hpp). Lengths, masses and times are
 // in the units of the case. A blow that is not solved is reported, not thrown. A change must keep
-// the momentum to rounding errors, and must not let the energy grow.
+// the momentum to rounding errors, and must not let the energy grow. Used by impacts.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Finds close pairs across the sides of a periodic cell by copies of the particles near them
 // (close_pairs.hpp). Lengths are in one unit; nothing is checked or thrown. A change must keep the
-// order of the pairs.
+// order of the pairs. Used by neighbour_list.cpp.
 #include <algorithm>
 #include <array>
 #include <tuple>

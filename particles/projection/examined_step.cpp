@@ -1,6 +1,6 @@
 // Measures the residuals of the contacts and links of a step after a solution
 // (step_projection.hpp). Lengths [L] and impulses [M L/T] are in the units of the case. Nothing is
-// thrown. A change must find every pair whose gap the solution closed.
+// thrown. A change must find every pair whose gap the solution closed. Used by step_projection.cpp.
 #include <algorithm>
 #include <cmath>
 #include <vector>

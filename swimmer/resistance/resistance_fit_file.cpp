@@ -1,6 +1,6 @@
 // The fields of the file of a ResistanceFit (docs/file-formats.md). Lengths, masses and times are
 // in the units of the table. Every fault is an Error(kBadInput) with line and key. A change must
-// keep earlier files readable.
+// keep earlier files readable. Used by swimmer/job/.
 #include <fmt/format.h>
 
 #include <algorithm>

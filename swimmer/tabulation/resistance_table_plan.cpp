@@ -1,6 +1,6 @@
-// The table of resistance matrices as a TablePlan: its rows and their reflections
-// (collinear_spheres.hpp). Lengths are in the unit of the case. Errors are those of
-// solve_resistance(). A change of the text of inputs makes every earlier table out of date.
+// The table of resistance matrices as a TablePlan: its rows and their reflections. Lengths are in
+// the unit of the case. Errors are those of solve_resistance(). A change of the text of inputs
+// makes every earlier table out of date. Used by swimmer/job/.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // The studies of `sweep` from its options, for each kind of case (sweep_options.hpp). Options of
 // the command line decide; for those that are missing, the section [sweep] of the case decides. A
 // wrong option is an Error(kWrongUsage), a wrong case an Error(kBadInput). Rows are computed by
-// sweep/, and runs of particles by particles/sweep/.
+// sweep/, and runs of particles by particles/sweep/. Used by sweep_command.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
