@@ -106,8 +106,8 @@ class JsonFields {
                             json_->at(key).dump()));
   }
 
-  /// A vector as a JSON object: each value has the key `value.*name` and is written as
-  /// `part(value)`.
+  /// A vector as a JSON object: the member `name` of a value is its key, and `part` gives what is
+  /// written there.
   template <class Value, class Part>
   void by_name(const std::string& key, std::vector<Value>& values, std::string Value::*name,
                const Part& part, Absence absence = Absence::kRefused) {
