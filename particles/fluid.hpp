@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/membranes/membrane.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
 
 namespace viscontact::particles {
@@ -109,6 +110,9 @@ struct Fluid {
   /// Semi-axes of each particle in the plane, of which the first one points along the angle of the
   /// particle [L], > 0. Equal ones are those of a disc. Empty: all particles are discs or spheres.
   std::vector<std::array<double, 2>> semi_axes{};
+
+  /// Membranes in the fluid, in the order of their beads, which are all particles of the case.
+  std::vector<Membrane> membranes{};
 
   /// True if the fluid has inertia.
   bool has_inertia() const { return density > 0; }
