@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -114,6 +115,8 @@ struct Fluid {
   /// Membranes in the fluid, in the order of their beads, which are all particles of the case.
   std::vector<Membrane> membranes{};
 
+  /// True if both particles are beads of one membrane, which make no contact.
+  bool are_of_one_membrane(std::int32_t first, std::int32_t second) const;
   /// True if the fluid has inertia.
   bool has_inertia() const { return density > 0; }
   /// True if particle k is an ellipse and no disc.

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "viscontact/particles/domain/periods.hpp"
+
 namespace viscontact::particles {
 
 struct Setting;
@@ -43,9 +45,10 @@ struct MembraneMeasures {
   double tank_treading_frequency = 0;
 };
 
-/// Measures a membrane by the centres and the velocities of all particles, two numbers for each.
-MembraneMeasures measure(const Membrane& membrane, std::span<const double> positions,
-                         std::span<const double> velocities);
+/// Measures a membrane by the centres and the velocities of all particles, two numbers for each. In a
+/// periodic domain the centre is that of the image in which its first bead is.
+MembraneMeasures measure(const Membrane& membrane, const PeriodicCell& cell,
+                         std::span<const double> positions, std::span<const double> velocities);
 
 /// The rows of membranes.csv of all membranes of a state:
 /// time,id,x,y,inclination,area,perimeter,membrane_speed,tank_treading_frequency.

@@ -23,6 +23,22 @@ Membranes::Membranes(std::span<const Membrane> membranes) : membranes_(membranes
   }
 }
 
+Eigen::VectorXd Membranes::places(std::span<const double> positions, const PeriodicCell& cell,
+                                  const Eigen::VectorXd* near) const {
+  auto all = from_particles(positions, 2);
+  for (std::size_t m = 0; m < membranes_.size(); ++m)
+    for (Eigen::Index d = 0; d < 2; ++d) {
+      const double period = cell.lengths[static_cast<std::size_t>(d)];
+      if (!(period > 0)) continue;
+      const auto begin = d * beads() + first_[m];
+      if (near != nullptr)
+        all(begin) -= period * std::round((all(begin) - (*near)(begin)) / period);
+      for (Eigen::Index k = begin + 1; k < begin + membranes_[m].beads; ++k)
+        all(k) -= period * std::round((all(k) - all(k - 1)) / period);
+    }
+  return all;
+}
+
 Eigen::VectorXd Membranes::from_particles(std::span<const double> numbers,
                                           std::size_t components) const {
   Eigen::VectorXd all(2 * beads());
@@ -157,20 +173,22 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
 }
 
 MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
-                               Eigen::VectorXd& positions) const {
+                               const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const {
   const Eigen::VectorXd guess = positions;
-  Eigen::VectorXd tension = Eigen::VectorXd::Zero(beads());
-  bool is_solved = solve_step(from, time, answer, positions, tension);
+  const FluidAnswer loaded{answer.flow + answer.mobility * loads, answer.mobility};
+  MembraneMotion motion;
+  auto& tension = motion.tension;
+  tension = Eigen::VectorXd::Zero(beads());
+  bool is_solved = solve_step(from, time, loaded, positions, tension);
   if (!is_solved) {
     // A stiff membrane that is far from its equilibrium: solutions of shorter times lead to it.
     positions = guess;
     tension.setZero();
     is_solved = true;
     for (int halvings = 12; halvings >= 0 && is_solved; --halvings)
-      is_solved = solve_step(from, std::ldexp(time, -halvings), answer, positions, tension);
+      is_solved = solve_step(from, std::ldexp(time, -halvings), loaded, positions, tension);
   }
-  MembraneMotion motion;
-  motion.forces = bending_forces(positions) - speed_rows(positions).transpose() * tension;
+  motion.forces = loads + bending_forces(positions) - speed_rows(positions).transpose() * tension;
   motion.velocities = answer.flow + answer.mobility * motion.forces;
   for (std::size_t m = 0; m < curves_.size() && is_solved; ++m) {
     auto own = of(m, positions);
@@ -184,10 +202,29 @@ MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const F
   return motion;
 }
 
-MembraneMeasures measure(const Membrane& membrane, std::span<const double> positions,
-                         std::span<const double> velocities) {
+Eigen::MatrixXd Membranes::response(double time, const FluidAnswer& answer,
+                                    const MembraneMotion& motion,
+                                    const Eigen::VectorXd& positions) const {
+  const auto n = beads();
+  const Eigen::MatrixXd moves = time * answer.mobility;
+  const double unit = static_cast<double>(2 * n) / moves.trace();
+  const Eigen::MatrixXd rows = speed_rows(positions);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+  matrix.topLeftCorner(2 * n, 2 * n) =
+      Eigen::MatrixXd::Identity(2 * n, 2 * n) + moves * stiffness(positions, motion.tension);
+  matrix.topRightCorner(2 * n, n) = unit * moves * rows.transpose();
+  matrix.bottomLeftCorner(n, 2 * n) = rows;
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(3 * n, 2 * n);
+  right.topRows(2 * n) = moves;
+  const Eigen::MatrixXd solved = matrix.partialPivLu().solve(right).topRows(2 * n);
+  // Rounding errors are not symmetric.
+  return (solved + solved.transpose()) / 2;
+}
+
+MembraneMeasures measure(const Membrane& membrane, const PeriodicCell& cell,
+                         std::span<const double> positions, std::span<const double> velocities) {
   const std::array one = {membrane};
-  return measure(MembraneCurve(membrane.beads), Membranes(one).from_particles(positions, 2),
+  return measure(MembraneCurve(membrane.beads), Membranes(one).places(positions, cell),
                  Membranes(one).from_particles(velocities, 2));
 }
 
@@ -196,7 +233,7 @@ std::string membrane_rows(const Setting& setting, const State& state,
   std::string text;
   const auto& p = state.particles;
   for (std::size_t m = 0; m < setting.fluid->membranes.size(); ++m) {
-    const auto measures = measure(setting.fluid->membranes[m], p.positions, p.velocities);
+    const auto measures = measure(setting.fluid->membranes[m], p.cell, p.positions, p.velocities);
     text += fmt::format("{},{}", format_number(state.time), m);
     for (const double value :
          {measures.x, measures.y, measures.inclination, measures.area, measures.perimeter,

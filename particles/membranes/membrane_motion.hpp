@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/membranes/membrane.hpp"
 #include "viscontact/particles/membranes/membrane_curve.hpp"
 
@@ -21,8 +22,9 @@ struct FluidAnswer {
 
 /// Forces of the membranes on the fluid at the beads, and the velocities of the beads under them.
 struct MembraneMotion {
-  Eigen::VectorXd forces;      ///< bending and tension [M L/T^2]
+  Eigen::VectorXd forces;      ///< bending, tension and loads [M L/T^2]
   Eigen::VectorXd velocities;  ///< [L/T]
+  Eigen::VectorXd tension;     ///< of each length, as it enters the forces [M L/T^2]
 };
 
 /// All membranes of a case.
@@ -32,6 +34,12 @@ class Membranes {
   explicit Membranes(std::span<const Membrane> membranes);
 
   Eigen::Index beads() const { return first_.back(); }  ///< of all membranes
+
+  /// Positions of all beads, from those of all particles, two numbers for each. In a periodic domain
+  /// beads may be in different periods; each one is taken at the image nearest to the bead before it
+  /// and, with `near`, the first bead of each membrane at that nearest to its place in `near`.
+  Eigen::VectorXd places(std::span<const double> positions, const PeriodicCell& cell,
+                         const Eigen::VectorXd* near = nullptr) const;
 
   /// The first two of the `components` numbers of each bead, from those of all particles.
   Eigen::VectorXd from_particles(std::span<const double> numbers, std::size_t components) const;
@@ -50,12 +58,17 @@ class Membranes {
 
   /// Solves a step that is implicit in bending and lengths: positions z, forces f and the velocities
   ///
-  ///     (z - from)/time = flow + mobility f,   f = -grad E(z) - G(z)^T tension,   lengths(z) kept,
+  ///     (z - from)/time = flow + mobility f,   f = loads - grad E(z) - G(z)^T T,   lengths(z) kept,
   ///
   /// and then moves z so little that lengths and areas are exact. `positions` is a first guess, and z
   /// afterwards. Throws Error(kNotConverged) if Newton's method fails.
   MembraneMotion step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
-                      Eigen::VectorXd& positions) const;
+                      const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const;
+
+  /// How positions z of such a step change per load: a symmetric matrix [L/(M L/T^2)]. `motion` is
+  /// what step() returned with these positions.
+  Eigen::MatrixXd response(double time, const FluidAnswer& answer, const MembraneMotion& motion,
+                           const Eigen::VectorXd& positions) const;
 
  private:
   bool solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,

@@ -12,9 +12,6 @@
 
 namespace viscontact::particles {
 
-class Membranes;
-struct FluidAnswer;
-
 /// Membranes in a Stokes flow. A step of length h solves
 ///
 ///     (z - from)/time = S(at) f(z),   f(z) = -grad E(z) - G(z)^T tension,   lengths(z) kept,
@@ -23,7 +20,8 @@ struct FluidAnswer;
 /// forces f, E is the bending energy and G the derivative of the lengths. With the positions x^n and
 /// x^{n-1} and the step k before, r = h/k, at = (1 + r) x^n - r x^{n-1}, and `from` and `time` are
 /// those of the backward difference of second order; the first step is of first order (docs/physics.md
-/// (8.5)).
+/// (8.6)). Beads of different membranes, and beads and walls, make viscous contact as particles do: the
+/// impulses are loads on the beads in f, and the displacements without contact are the free motion.
 class MembraneSimulation {
  public:
   /// `setting.fluid` has membranes, whose beads are all particles of `state`; `state` is what
@@ -36,31 +34,23 @@ class MembraneSimulation {
   /// converge, and the errors of FluidSolver. The state is then that before the step.
   StepReport step(double end);
 
-  const State& state() const { return state_; }  ///< after the last step
+  const State& state() const;  ///< after the last step
 
   /// The flow where the membranes were at the beginning of the last step.
-  FlowField flow() { return flow_at(before_step_); }
+  FlowField flow();
   /// The flow where the membranes are now.
-  FlowField flow_at_present() { return flow_at(state_); }
+  FlowField flow_at_present();
 
   /// Forces and torques of the fluid on the beads in the last step, motion_components() each.
   std::vector<double> fluid_forces() const;
 
-  /// Number of unknowns of the last mesh.
-  std::size_t unknowns() const { return solver_->unknowns(); }
+  std::size_t unknowns() const;  ///< of the last mesh
   /// The largest resident memory of the solver so far [MiB].
-  double solver_peak_memory_mebibytes() const { return solver_->peak_memory_mebibytes(); }
+  double solver_peak_memory_mebibytes() const;
 
  private:
-  void place(const std::vector<double>& positions);
-  FluidAnswer ask(const std::vector<double>& positions);
-  FlowField flow_at(const State& state);
-  void wrap();
-
-  Setting setting_;
-  State state_, before_step_;
-  std::unique_ptr<FluidSolver> solver_;
-  std::unique_ptr<Membranes> membranes_;
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
 
 }  // namespace viscontact::particles

@@ -19,14 +19,16 @@ class MembraneSection : public ::testing::Test {
  protected:
   static std::string text(const std::string& membranes, const std::string& fluid = "",
                           const std::string& periodic = "true, false") {
-    return "title = \"Membranes\"\n[space]\ndimension = 2\n[domain]\nbox = { from = [-5.0, -4.0], to "
+    return "title = \"Membranes\"\n[space]\ndimension = 2\n[domain]\nbox = { from = [-5.0, -4.0], "
+           "to "
            "= [5.0, 4.0], periodic = [" +
-           periodic + "] }\n[viscous_contact]\ntime_step = 0.1\nend_time = 4.0\n[fluid]\nviscosity = "
-                      "2.0\n" +
+           periodic +
+           "] }\n[viscous_contact]\ntime_step = 0.1\nend_time = 4.0\n[fluid]\nviscosity = "
+           "2.0\n" +
            fluid + "\n" + membranes;
   }
-  static std::string membrane(const std::string& centre = "0.0, 0.0", const std::string& area = "0.8",
-                              const std::string& more = "") {
+  static std::string membrane(const std::string& centre = "0.0, 0.0",
+                              const std::string& area = "0.8", const std::string& more = "") {
     return "[[membrane]]\ncentre = [" + centre + "]\nperimeter = 7.0\nreduced_area = " + area +
            "\nbending_rigidity = 3.0\n" + more;
   }
@@ -82,17 +84,18 @@ TEST_F(MembraneSection, MembranesThatMeetOrLeaveTheDomainAreErrors) {
 }
 
 TEST_F(MembraneSection, WhatCannotBeComputedWithMembranesIsRefused) {
-  expect_refused(text(membrane() + "[[particle]]\ncentre = [3.0, 3.0]\nradius = 0.1\nmass = 0.0\n"), 12,
-                 "section [[membrane]] stands beside particle");
+  expect_refused(text(membrane() + "[[particle]]\ncentre = [3.0, 3.0]\nradius = 0.1\nmass = 0.0\n"),
+                 12, "section [[membrane]] stands beside particle");
   expect_refused(text(membrane(), "density = 1.0"), 11, "fluid.density is 1");
   expect_refused(text(membrane(), "mesh = \"fixed\""), 11, "fluid.mesh is 'fixed'");
   expect_refused(text(membrane(), "coupling = \"splitting\""), 11, "fluid.coupling is 'splitting'");
   expect_refused(text(membrane(), "solver = [\"mine\"]"), 11, "fluid.solver is a program");
   expect_refused(text(membrane(), "", "true, true"), 12, "section [[membrane]] stands in a box");
-  expect_refused("title = \"Dry\"\n[space]\ndimension = 2\n[viscous_contact]\ntime_step = 0.1\n"
-                 "end_time = 4.0\n" +
-                     membrane(),
-                 7, "section [[membrane]] belongs to a case with a fluid");
+  expect_refused(
+      "title = \"Dry\"\n[space]\ndimension = 2\n[viscous_contact]\ntime_step = 0.1\n"
+      "end_time = 4.0\n" +
+          membrane(),
+      7, "section [[membrane]] belongs to a case with a fluid");
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ TEST_P(OfBeads, ACircleHasItsPerimeterAreaAndEnergy) {
   for (const double radius : {1e-3, 2.0, 1e4}) {
     const auto x = circle(GetParam(), radius);
     EXPECT_NEAR(curve.perimeter(x) / (kTwoPi * radius), 1, 1e-12 * std::max(1.0, 1 / radius));
-    EXPECT_NEAR(curve.area(x) / (std::numbers::pi * radius * radius), 1, 1e-12 / std::min(1.0, radius * radius));
+    EXPECT_NEAR(curve.area(x) / (std::numbers::pi * radius * radius), 1,
+                1e-12 / std::min(1.0, radius * radius));
     // (1/2) curvature^2 perimeter. Rounding errors of second derivatives are those of positions times
     // N^2/4, and of the offset (3, -2) over the radius.
     EXPECT_NEAR(curve.bending_energy(x) * radius / std::numbers::pi, 1,
@@ -109,7 +110,8 @@ TEST(MembraneCurve, EnergyOfAnEllipseConverges) {
   const double a = 1.3, b = 0.9;
   double exact = 0;
   for (int i = 0; i < 4000; ++i) {
-    const double t = kTwoPi * i / 4000, q = std::pow(a * std::sin(t), 2) + std::pow(b * std::cos(t), 2);
+    const double t = kTwoPi * i / 4000,
+                 q = std::pow(a * std::sin(t), 2) + std::pow(b * std::cos(t), 2);
     exact += kTwoPi / 4000 * 0.5 * a * a * b * b * std::pow(q, -2.5);
   }
   const auto error = [&](int n) {
@@ -137,7 +139,7 @@ TEST_P(OfReducedArea, AnEllipseHasItsLengthsAreaCentreAndInclination) {
   const auto places = ellipse_of(membrane, {1, -2, 0}, 0.4);
   ASSERT_TRUE(places);
   const std::vector<double> at_rest(places->size(), 0);
-  const auto measures = measure(membrane, *places, at_rest);
+  const auto measures = measure(membrane, {}, *places, at_rest);
   EXPECT_NEAR(measures.perimeter, 7, 1e-11);
   EXPECT_NEAR(measures.area / membrane.area, 1, 1e-11);
   EXPECT_NEAR(measures.x, 1, 1e-9);
@@ -158,7 +160,7 @@ TEST(Measures, ARigidRotationIsNoTankTreading) {
     velocities.push_back(5 - 0.3 * places[k + 1]);
     velocities.push_back(2 + 0.3 * places[k]);
   }
-  EXPECT_NEAR(measure(membrane, places, velocities).tank_treading_frequency, 0, 1e-9);
+  EXPECT_NEAR(measure(membrane, {}, places, velocities).tank_treading_frequency, 0, 1e-9);
 }
 
 TEST(Shapes, MeetIfTheyCrossOrAreInsideEachOther) {

@@ -15,16 +15,20 @@ namespace viscontact::particles {
 namespace {
 
 /// Velocities of points under forces on them, smeared out over a length of 0.3 mean distances from a
-/// centre, in the shear flow (shear y, 0).
+/// centre, in the flow (shear y + strain x, -strain y).
 class Stokeslets : public FluidSolver {
  public:
-  Stokeslets(double shear, double smear) : shear_(shear), smear_(smear) {}
+  Stokeslets(double shear, double smear, double strain = 0)
+      : shear_(shear), smear_(smear), strain_(strain) {}
   void place(const FluidParticles& bodies) override { positions_ = bodies.particles->positions; }
   std::vector<double> velocities(std::span<const double> forces, bool driving) override {
     const std::size_t n = positions_.size() / 2;
     std::vector<double> velocities(3 * n);
     for (std::size_t i = 0; i < n; ++i) {
-      if (driving) velocities[3 * i] = shear_ * positions_[2 * i + 1];
+      if (driving) {
+        velocities[3 * i] = shear_ * positions_[2 * i + 1] + strain_ * positions_[2 * i];
+        velocities[3 * i + 1] = -strain_ * positions_[2 * i + 1];
+      }
       for (std::size_t j = 0; j < n; ++j) {
         const double dx = positions_[2 * i] - positions_[2 * j],
                      dy = positions_[2 * i + 1] - positions_[2 * j + 1];
@@ -46,7 +50,7 @@ class Stokeslets : public FluidSolver {
   std::size_t unknowns() const override { return 0; }
 
  private:
-  double shear_, smear_;
+  double shear_, smear_, strain_;
   std::vector<double> positions_;
 };
 
@@ -80,7 +84,7 @@ struct Vesicle {
     Membrane membrane;
     membrane.beads = beads;
     const auto& p = simulation.state().particles;
-    return measure(membrane, p.positions, p.velocities);
+    return measure(membrane, p.cell, p.positions, p.velocities);
   }
 };
 
@@ -138,7 +142,8 @@ TEST(MembraneSimulation, StepsAreOfSecondOrder) {
 // The shortest waves relax 1e5 times within a step: the implicit step is stable, and the shape is that
 // of least energy, which the membrane takes without a flow.
 TEST(MembraneSimulation, StiffMembranesAreStable) {
-  auto stiff = Vesicle{.rigidity = 100}.simulation(0.1), still = Vesicle{.shear = 0}.simulation(0.5);
+  auto stiff = Vesicle{.rigidity = 100}.simulation(0.1),
+       still = Vesicle{.shear = 0}.simulation(0.5);
   while (stiff.state().time < 5) stiff.step(5);
   while (still.state().time < 100) still.step(100);
   // The flow, a hundredth of the bending force, and the time step bend it a little.
@@ -154,7 +159,8 @@ TEST(MembraneSimulation, UnitsDoNotMatter) {
     second.step(1e-3);
   }
   EXPECT_NEAR(other.measures(second).inclination, one.measures(first).inclination, 1e-6);
-  EXPECT_NEAR(other.measures(second).membrane_speed / 1e-2, one.measures(first).membrane_speed, 1e-6);
+  EXPECT_NEAR(other.measures(second).membrane_speed / 1e-2, one.measures(first).membrane_speed,
+              1e-6);
 }
 
 TEST(MembraneSimulation, ContinuesBitForBit) {
@@ -167,6 +173,95 @@ TEST(MembraneSimulation, ContinuesBitForBit) {
   while (rest.state().time < 1 - 1e-9) rest.step(1);
   EXPECT_EQ(whole.state().particles.positions, rest.state().particles.positions);
   EXPECT_EQ(whole.state().particles.velocities, rest.state().particles.velocities);
+}
+
+/// Two vesicles, one above the other, that a straining flow presses together, and the floor of a box.
+struct Pressed {
+  Setting setting;
+  State state;
+
+  Pressed() {
+    setting.time_step = 0.05;
+    setting.domain = BoxDomain{{-10, -3.5}, {10, 10}, {}};
+    auto& fluid = setting.fluid.emplace();
+    fluid.threshold_gap = 0.1;
+    auto& p = state.particles;
+    for (const double y : {1.3, -1.3}) {
+      Membrane membrane;
+      membrane.first = static_cast<std::int32_t>(p.count());
+      membrane.beads = 20;
+      membrane.perimeter = 6.6;
+      membrane.area = 0.9 * 6.6 * 6.6 / (4 * std::numbers::pi);
+      const auto places = *ellipse_of(membrane, {y > 0 ? 0.02 : 0, y, 0}, 0);
+      p.positions.insert(p.positions.end(), places.begin(), places.end());
+      p.radii.resize(p.radii.size() + places.size() / 2, 0.14);
+      fluid.membranes.push_back(membrane);
+    }
+    p.velocities.resize(p.positions.size());
+    p.masses.resize(p.radii.size());
+  }
+  MembraneSimulation simulation(double strain) const {
+    return {setting, state, std::make_unique<Stokeslets>(0, 0.3, strain)};
+  }
+};
+
+/// The smallest gap of beads of both membranes.
+double gap_between(const State& state) {
+  double least = 1e300;
+  const auto& p = state.particles;
+  for (std::size_t i = 0; i < 20; ++i)
+    for (std::size_t j = 20; j < 40; ++j)
+      least = std::min(least, norm(p.position(i) - p.position(j)) - p.radii[i] - p.radii[j]);
+  return least;
+}
+
+// The gap stays at the threshold up to what the beads turn about each other in a step; pulled, they
+// stay until the pull has given back what the push has brought in.
+TEST(MembraneSimulation, MembranesMakeViscousContact) {
+  Pressed pressed;
+  pressed.setting.fluid->threshold_gap = 0.35;
+  auto simulation = pressed.simulation(1);
+  std::size_t contacts = 0;
+  while (simulation.state().time < 1.5) {
+    const auto report = simulation.step(1.5);
+    contacts = std::max(contacts, report.contacts);
+    EXPECT_TRUE(report.converged);
+    EXPECT_GT(gap_between(simulation.state()), 0.35 - 2e-3);
+  }
+  EXPECT_GE(contacts, 2U);
+  double gamma = 0;
+  for (const auto& pair : simulation.state().pairs) gamma += pair.gamma;
+  EXPECT_LT(gamma, -0.1);
+  Pressed released = pressed;
+  released.state = simulation.state();
+  auto pulled = released.simulation(-1);
+  pulled.step(1.55);
+  EXPECT_NEAR(gap_between(pulled.state()), 0.35, 2e-3);
+  const auto free = [&] {
+    for (const auto& pair : pulled.state().pairs)
+      if (pair.gamma < 0) return false;
+    return true;
+  };
+  while (!free() && pulled.state().time < 10) pulled.step(10);
+  EXPECT_TRUE(free());
+  EXPECT_GT(pulled.state().time, 1.7);
+}
+
+TEST(MembraneSimulation, MembranesMakeContactWithWalls) {
+  Pressed falling;
+  for (std::size_t k = 1; k < falling.state.particles.positions.size(); k += 2)
+    falling.state.particles.positions[k] -= 1;
+  // The upper one is far away.
+  for (std::size_t k = 1; k < 40; k += 2) falling.state.particles.positions[k] += 5;
+  auto simulation = falling.simulation(-1);
+  std::size_t contacts = 0;
+  while (simulation.state().time < 0.6)
+    contacts = std::max(contacts, simulation.step(0.6).contacts);
+  EXPECT_GE(contacts, 1U);
+  double lowest = 1e300;
+  for (std::size_t k = 20; k < 40; ++k)
+    lowest = std::min(lowest, simulation.state().particles.position(k)[1] - 0.14 + 3.5);
+  EXPECT_NEAR(lowest, 0.1, 2e-3);
 }
 
 }  // namespace

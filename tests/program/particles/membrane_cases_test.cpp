@@ -53,15 +53,16 @@ TEST_F(MembraneCase, EachHasATest) {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(kCases))
     if (entry.path().extension() == ".toml") names.insert(entry.path().stem());
-  EXPECT_EQ(names, (std::set<std::string>{"tank_treading", "tumbling"}));
+  EXPECT_EQ(names,
+            (std::set<std::string>{"poiseuille", "tank_treading", "tumbling", "two_that_meet"}));
 }
 
 // In a box of ten R0 the inclination is 30.6 degrees and the speed 0.444: 0.4 degrees and 1.7 % below
 // those in unbounded flow, 31.04 and 0.452. 24 beads make errors of 0.02 degrees, and what is left of
 // the start after 4 time units is below a tenth of a degree.
 TEST_F(MembraneCase, AVesicleTankTreads) {
-  compute("tank_treading", {"end_time = 4.0", "every = 4.0", "perimeter = 6.623059\nbeads = 24",
-                            "angle = 0.55"});
+  compute("tank_treading",
+          {"end_time = 4.0", "every = 4.0", "perimeter = 6.623059\nbeads = 24", "angle = 0.55"});
   EXPECT_NEAR(column("inclination").back() * 180 / std::numbers::pi, 30.6, 0.15);
   EXPECT_NEAR(column("membrane_speed").back(), 0.444, 2e-3);
   EXPECT_NEAR(column("perimeter").back(), 6.623059, 1e-9);
@@ -83,13 +84,36 @@ TEST_F(MembraneCase, AVesicleTankTreads) {
 
 // The angle falls below 0, where a vesicle that tank-treads never comes, and goes on around.
 TEST_F(MembraneCase, AVesicleWithAViscousFluidTumbles) {
-  compute("tumbling", {"end_time = 12.0", "perimeter = 6.623059\nbeads = 20",
-                       "time_step = 0.2"});
+  compute("tumbling", {"end_time = 12.0", "perimeter = 6.623059\nbeads = 20", "time_step = 0.2"});
   const auto angles = column("inclination");
   double turned = 0;
   for (std::size_t i = 1; i < angles.size(); ++i)
     turned += std::remainder(angles[i] - angles[i - 1], std::numbers::pi);
   EXPECT_LT(turned, -0.6 * std::numbers::pi);
+}
+
+// Lift moves a vesicle away from the wall.
+TEST_F(MembraneCase, AVesicleGoesToTheMiddleOfAChannel) {
+  compute("poiseuille", {"end_time = 5.0", "time_step = 0.2", "beads = 20"});
+  const auto x = column("x"), y = column("y");
+  EXPECT_NEAR(x.front(), 3, 1e-6);
+  EXPECT_NEAR(y.front(), 0.9, 1e-6);
+  EXPECT_GT(x.back(), 6);
+  EXPECT_LT(y.back(), 0.85);
+  EXPECT_GT(y.back(), 0.2);
+}
+
+// Each slides over the other one, and both do so alike: turned by half a turn, the case is itself.
+TEST_F(MembraneCase, TwoVesiclesThatMeetSlidePastEachOther) {
+  compute("two_that_meet", {"end_time = 6.0", "time_step = 0.1", "beads = 20"});
+  const auto x = column("x"), y = column("y");
+  for (std::size_t i = 0; i < x.size(); i += 2) {
+    EXPECT_NEAR(x[i], -x[i + 1], 2e-2);
+    EXPECT_NEAR(y[i], -y[i + 1], 2e-2);
+  }
+  EXPECT_LT(x.front(), -2);
+  EXPECT_GT(x[x.size() - 2], 1);
+  EXPECT_GT(*std::ranges::max_element(y), 0.95);
 }
 
 }  // namespace
