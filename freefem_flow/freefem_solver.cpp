@@ -19,6 +19,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem/freefem_command.hpp"
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
+#include "viscontact/freefem_flow/membranes/membrane_process.hpp"
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 #include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
@@ -269,19 +270,12 @@ void refuse_short_edges(const MeshBoundary& boundary, double size, double unit) 
     }
 }
 
-}  // namespace
+std::string if_silent() {
+  return fmt::format("on a slow machine set {} to more seconds", freefem::kTimeLimit);
+}
 
-SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
-  const std::string silent =
-      fmt::format("on a slow machine set {} to more seconds", freefem::kTimeLimit);
-  if (!fluid.solver.empty()) {
-    SolverCommand own;
-    own.arguments = fluid.solver;
-    own.remedy_if_missing = "the first word of the fluid's solver must be a program";
-    own.remedy_if_silent = silent;
-    return own;
-  }
-  const std::string script = script_of(fluid.mesh, dimension);
+/// The command that runs FreeFEM with this script.
+SolverCommand freefem_command(const std::string& script) {
   const auto folder = freefem::find_script_folder("freefem_flow", script);
   auto command = freefem::make_command(freefem::executable_of_user(), folder, script, {});
   // MUMPS lets Scotch order systems of more than 5000 rows. Scotch takes random numbers, which go
@@ -290,11 +284,26 @@ SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
   constexpr std::size_t kMostReproduced = 4000;
   return {std::move(command.arguments), std::move(command.environment), std::move(command.folder),
           std::string(freefem::kHowToInstall),
-          "too little memory can make FreeFEM hang (ulimit -v); " + silent, kMostReproduced,
+          "too little memory can make FreeFEM hang (ulimit -v); " + if_silent(), kMostReproduced,
           // Where lengths of edges differ by much, buildmesh writes "Warning LengthInterpole" on
           // standard output, and makes a good mesh.
           true};
 }
+
+}  // namespace
+
+SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
+  if (!fluid.solver.empty()) {
+    SolverCommand own;
+    own.arguments = fluid.solver;
+    own.remedy_if_missing = "the first word of the fluid's solver must be a program";
+    own.remedy_if_silent = if_silent();
+    return own;
+  }
+  return freefem_command(script_of(fluid.mesh, dimension));
+}
+
+SolverCommand membrane_solver_command() { return freefem_command("membranes.edp"); }
 
 SolverLimits solver_limits(const StopToken& stop) {
   SolverLimits limits;
@@ -307,6 +316,7 @@ std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Flui
                                                            const particles::Domain& domain,
                                                            std::span<const double> radii,
                                                            int dimension, const StopToken& stop) {
+  if (!fluid.membranes.empty()) return start_membrane_solver(fluid, domain, stop);
   const bool is_freefem = fluid.solver.empty();
   if (is_freefem) refuse_small_particles(fluid, domain, radii);
   const SolverUnits units = is_freefem ? solver_units(fluid, domain, radii) : SolverUnits{};

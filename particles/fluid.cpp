@@ -3,6 +3,7 @@
 // over a step exact, so that walls move as far as the case says. Used by freefem_flow/ and more.
 #include "viscontact/particles/fluid.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -21,6 +22,15 @@ std::array<double, 2> WallVelocity::at(double time, double from, double to) cons
     for (auto& component : velocity) component *= factor;
   }
   return velocity;
+}
+
+bool Fluid::are_of_one_membrane(std::int32_t first, std::int32_t second) const {
+  return std::ranges::any_of(membranes, [&](const Membrane& membrane) {
+    const auto has = [&](std::int32_t k) {
+      return k >= membrane.first && k < membrane.first + membrane.beads;
+    };
+    return has(first) && has(second);
+  });
 }
 
 double Fluid::size_of(int dimension, std::size_t k, double radius) const {

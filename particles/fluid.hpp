@@ -6,12 +6,14 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/membranes/membrane.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
 
 namespace viscontact::particles {
@@ -110,6 +112,11 @@ struct Fluid {
   /// particle [L], > 0. Equal ones are those of a disc. Empty: all particles are discs or spheres.
   std::vector<std::array<double, 2>> semi_axes{};
 
+  /// Membranes in the fluid, in the order of their beads, which are all particles of the case.
+  std::vector<Membrane> membranes{};
+
+  /// True if both particles are beads of one membrane, which make no contact.
+  bool are_of_one_membrane(std::int32_t first, std::int32_t second) const;
   /// True if the fluid has inertia.
   bool has_inertia() const { return density > 0; }
   /// True if particle k is an ellipse and no disc.

@@ -79,6 +79,9 @@ struct State {
   /// In a fluid with inertia the flow of the steps before, FluidSolver::saved_flow(). It is set
   /// only in a state that is to be written, and empty otherwise.
   std::vector<char> flow;
+  /// With membranes: the positions of all particles before the last step [L]. Empty if there was no
+  /// step, and without membranes.
+  std::vector<double> earlier_positions;
 };
 
 }  // namespace viscontact::particles

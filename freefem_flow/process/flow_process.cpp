@@ -266,20 +266,24 @@ particles::FlowField FlowProcess::flow() {
     const auto forces = forces_;
     velocities(forces, true);
   }
-  solver_->ask("flow", "flow\n");
-  solver_->expect("flow");
+  return read_flow(*solver_);
+}
+
+particles::FlowField read_flow(SolverDialogue& solver) {
+  solver.ask("flow", "flow\n");
+  solver.expect("flow");
   constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
-  const std::int64_t nodes = solver_->whole_number(kMost);
-  const std::int64_t triangles = solver_->whole_number(kMost);
-  if (nodes == 0 && triangles > 0) solver_->refuse("0 triangles, as there are no nodes,");
+  const std::int64_t nodes = solver.whole_number(kMost);
+  const std::int64_t triangles = solver.whole_number(kMost);
+  if (nodes == 0 && triangles > 0) solver.refuse("0 triangles, as there are no nodes,");
   // The memory grows with what comes: a wrong count must not take all of it at once.
   particles::FlowField field;
   for (std::int64_t k = 0; k < nodes; ++k)
     for (auto* column : {&field.x, &field.y, &field.velocity_x, &field.velocity_y, &field.pressure})
-      column->push_back(solver_->number());
+      column->push_back(solver.number());
   for (std::int64_t k = 0; k < triangles; ++k)
     for (auto& node : field.triangles.emplace_back())
-      node = static_cast<std::int32_t>(solver_->whole_number(nodes - 1));
+      node = static_cast<std::int32_t>(solver.whole_number(nodes - 1));
   return field;
 }
 

@@ -19,6 +19,9 @@ namespace viscontact::freefem_flow {
 
 class SolverDialogue;
 
+/// Asks a solver for the flow of its last solution, and reads the answer.
+particles::FlowField read_flow(SolverDialogue& solver);
+
 /// Makes the boundary of the mesh around particles, with edges that are about `coarsening` >= 1
 /// times as long as the fluid says. It is called only for solvers that ask for a boundary.
 using MeshBoundaryMaker =

@@ -363,6 +363,7 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
       lines.in_case.push_back(section.line());
     }
   if (root.has("arrangement")) read_arrangement(root.section("arrangement"), c);
+  read_membranes(root, c, lines);
   if (c.setting.fluid && !c.setting.fluid->semi_axes.empty())
     add_discs(c.setting.fluid->semi_axes, c.particles, c.particles.count());
   if (!c.setting.fluid && (c.setting.laws.friction || c.particles.turn()))
@@ -372,8 +373,8 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
                     "has no particle; it must have a row for each particle after the header line");
   if (c.particles.count() == 0)
     throw_bad_input({c.path.string()},
-                    "has no particle; name a file in [particles], or add a [[particle]] or an "
-                    "[arrangement]");
+                    "has no particle; name a file in [particles], or add a [[particle]], a "
+                    "[[membrane]] or an [arrangement]");
   return lines;
 }
 

@@ -297,7 +297,8 @@ std::vector<case_file::KeyTable> tables_of_particles_case() {
       case_file::describe_keys("[output]", output_keys),
       case_file::describe_keys("[[plane]]", plane_keys, c),
       case_file::describe_keys("[sweep] of particles", particles_sweep_keys)};
-  for (auto& more : {domain_and_fluid_tables(), particle_tables(), body_and_link_tables()})
+  for (auto& more :
+       {domain_and_fluid_tables(), particle_tables(), membrane_tables(), body_and_link_tables()})
     tables.insert(tables.end(), more.begin(), more.end());
   return tables;
 }

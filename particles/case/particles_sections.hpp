@@ -56,6 +56,14 @@ struct ParticleLines {
 /// box; and if its discs do not fit.
 ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c);
 
+/// Reads [[membrane]], called by read_particles_of_case(): makes the beads, which become particles, and
+/// the membranes of c.setting.fluid. Also throws if the case has other particles, planes, bodies, links
+/// or forces, or a fluid that cannot have membranes; if so few beads cannot have the reduced area; and
+/// for membranes that cross.
+void read_membranes(const case_file::TomlSection& root, ParticlesCase& c, ParticleLines& lines);
+/// Describes this section.
+std::vector<case_file::KeyTable> membrane_tables();
+
 /// Reads [[force]]: the same force on all particles whose ids it names. The particles must have
 /// been read. Also throws for an id that does not exist or has a force already.
 void read_forces_by_id(const case_file::TomlSection& root, ParticlesCase& c);

@@ -102,6 +102,10 @@ class FluidSolver {
   /// forces. place() must have been called.
   virtual std::vector<double> velocities(std::span<const double> forces, bool driving) = 0;
 
+  /// The velocities under unit forces and torques on each component of each particle, without
+  /// `driving`: a symmetric matrix, row after row [T/M, ...]. By default it asks for each of them.
+  virtual std::vector<double> mobility(std::size_t components);
+
   /// Quantities of the last velocities(forces, true).
   virtual FlowQuantities quantities() = 0;
 
@@ -137,6 +141,16 @@ class FluidSolver {
   virtual double peak_memory_mebibytes() const { return 0; }
 };
 
+inline std::vector<double> FluidSolver::mobility(std::size_t components) {
+  std::vector<double> matrix, forces(components);
+  for (std::size_t i = 0; i < components; ++i) {
+    forces[i] = 1;
+    const auto row = velocities(forces, false);
+    matrix.insert(matrix.end(), row.begin(), row.end());
+    forces[i] = 0;
+  }
+  return matrix;
+}
 inline void FluidSolver::keep_flow(bool /*at_rest*/, std::span<const double> /*motions*/) {}
 inline std::string FluidSolver::saved_flow() { return {}; }
 inline void FluidSolver::load_flow(const std::string& /*flow*/) {}

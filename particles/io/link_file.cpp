@@ -12,6 +12,7 @@
 
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/vtk/appended_data.hpp"
+#include "viscontact/particles/membranes/membrane.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -132,6 +133,8 @@ std::vector<TimeTable> time_tables(const Setting& setting, const Particles& part
       links.hinges.size(), hinge_rows);
   add("springs.csv", "length,force" + error, links.springs.size(), spring_rows);
   add("arms.csv", "length,force,power" + error, links.arms.size(), arm_rows);
+  add("membranes.csv", kMembraneColumns, setting.fluid ? setting.fluid->membranes.size() : 0,
+      membrane_rows);
   return tables;
 }
 

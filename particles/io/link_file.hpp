@@ -28,6 +28,7 @@ struct TimeTable {
 /// - hinges.csv: time,id,force_x,force_y,torque; in space force_x,force_y,force_z
 /// - springs.csv: time,id,length,force
 /// - arms.csv: time,id,length,force,power
+/// - membranes.csv: see membrane_rows()
 ///
 /// In a fluid the tables of links end with the column force_error_estimate, that of hinges also
 /// with torque_error_estimate: estimates of the errors that the mesh causes, in the units of the

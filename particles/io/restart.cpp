@@ -1,5 +1,5 @@
 // Writes and reads the binary restart file (restart.hpp). Numbers are in the units of the case; a
-// damaged file is an Error(kBadInput). Files of versions 1 to 8 must stay readable; a change of the
+// damaged file is an Error(kBadInput). Files of versions 1 to 9 must stay readable; a change of the
 // fields of State or Pair needs a new version. Used by run/.
 #include "viscontact/particles/io/restart.hpp"
 
@@ -20,9 +20,10 @@ namespace viscontact::particles {
 namespace {
 
 // Version 7 differs from version 6 by memories that version 6 has no array for. It is written only
-// where a pair has such a memory. Version 8 has the flow of a fluid with inertia, and is written
-// only where there is one.
-constexpr int kVersion = 8;
+// where a pair has such a memory. Version 8 has the flow of a fluid with inertia, and is written only
+// where there is one. Version 9 has the positions before the last step, and is written only with
+// membranes.
+constexpr int kVersion = 9;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -96,6 +97,8 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   if (version < 8) return;
   field(state.step_before);
   field(state.flow);
+  if (version < 9) return;
+  field(state.earlier_positions);
 }
 
 /// The first of kMemoryFields that has no array of its own in version 6.
@@ -271,6 +274,7 @@ bool is_consistent(const State& state) {
              (p.dimension == 3 ? p.orientations.size() / 4 * 3 : p.angles.size()) &&
          is_empty_or(p.orientations, 4 * p.count()) && is_empty_or(p.inertias, p.count()) &&
          is_empty_or(state.earlier_velocities, p.count() * motion_components(p.dimension)) &&
+         is_empty_or(state.earlier_positions, numbers) &&
          is_empty_or(state.earlier_forces, p.count() * motion_components(p.dimension)) &&
          std::isfinite(state.velocity_lag) && state.velocity_lag >= 0 &&
          std::isfinite(state.earlier_step) && state.earlier_step >= 0 &&
@@ -303,7 +307,10 @@ std::string write_restart(const State& state) {
     arrays.bodies.push_back({body.centre, body.velocity, body.angle, body.orientation,
                              body.angular_momentum, body.angular_velocity});
   std::string bytes;
-  const int version = !state.flow.empty() ? kVersion : arrays.names.empty() ? 6 : 7;
+  const int version = !state.earlier_positions.empty() ? 9
+                      : !state.flow.empty()            ? 8
+                      : !arrays.names.empty()          ? 7
+                                                       : 6;
   for_fields(state, arrays, version, Writer{bytes});
   std::string text;
   text.append(kWhat).append(std::to_string(version)).append(", ").append(kOrder).append("\n");

@@ -16,14 +16,20 @@ ParticleSimulation::ParticleSimulation(const Setting& setting, State state, int 
   }
   const auto& p = state.particles;
   auto solver = start_solver(*setting.fluid, setting.domain, p.radii, p.dimension, stop);
+  if (!setting.fluid->membranes.empty()) {
+    membranes_ = std::make_unique<MembraneSimulation>(setting, std::move(state), std::move(solver));
+    return;
+  }
   in_fluid_ = std::make_unique<FluidSimulation>(setting, std::move(state), std::move(solver));
 }
 
 StepReport ParticleSimulation::step(double end) {
+  if (membranes_) return membranes_->step(end);
   return in_fluid_ ? in_fluid_->step(end) : dry_->step(end);
 }
 
 const State& ParticleSimulation::state() const {
+  if (membranes_) return membranes_->state();
   return in_fluid_ ? in_fluid_->state() : dry_->state();
 }
 

@@ -4,15 +4,18 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
+#include "viscontact/particles/membranes/membrane_simulation.hpp"
 #include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::particles {
 
-/// A particles::FluidSimulation if the setting has a fluid, else a particles::Simulation.
+/// A particles::MembraneSimulation if the setting has a fluid with membranes, a
+/// particles::FluidSimulation if it has another fluid, else a particles::Simulation.
 class ParticleSimulation {
  public:
   /// `threads` >= 1 is the number of threads without a fluid. With a fluid, `start_solver` is
@@ -27,21 +30,41 @@ class ParticleSimulation {
   /// The particles with their velocities at the present time; see Simulation::reported_particles
   /// and FluidSimulation::reported_particles.
   Particles reported_particles() const {
-    return in_fluid_ ? in_fluid_->reported_particles() : dry_->reported_particles();
+    return in_fluid_ ? in_fluid_->reported_particles()
+                     : (dry_ ? dry_->reported_particles() : state().particles);
   }
 
   /// The blows of the last step; see Simulation::rebounds and FluidSimulation::rebounds.
-  const std::vector<Rebound>& rebounds() const {
+  std::span<const Rebound> rebounds() const {
+    if (membranes_) return {};
     return in_fluid_ ? in_fluid_->rebounds() : dry_->rebounds();
   }
 
-  /// True if there is a fluid. The functions below need one.
-  bool has_fluid() const { return in_fluid_ != nullptr; }
-  FluidSimulation& fluid() { return *in_fluid_; }  ///< the simulation with a fluid
+  /// True if there is a fluid. The functions below need one; see FluidSimulation.
+  bool has_fluid() const { return dry_ == nullptr; }
+  FlowField flow() { return membranes_ ? membranes_->flow() : in_fluid_->flow(); }
+  FlowField flow_at_present() {
+    return membranes_ ? membranes_->flow_at_present() : in_fluid_->flow_at_present();
+  }
+  std::vector<double> fluid_forces() const {
+    return membranes_ ? membranes_->fluid_forces() : in_fluid_->fluid_forces();
+  }
+  ForceErrors force_errors() const {
+    return membranes_ ? ForceErrors{} : in_fluid_->force_errors();
+  }
+  State state_to_save() { return membranes_ ? state() : in_fluid_->state_to_save(); }
+  std::size_t unknowns() const {
+    return membranes_ ? membranes_->unknowns() : in_fluid_->unknowns();
+  }
+  double solver_peak_memory_mebibytes() const {
+    return membranes_ ? membranes_->solver_peak_memory_mebibytes()
+                      : in_fluid_->solver_peak_memory_mebibytes();
+  }
 
  private:
   std::unique_ptr<Simulation> dry_;
   std::unique_ptr<FluidSimulation> in_fluid_;
+  std::unique_ptr<MembraneSimulation> membranes_;
 };
 
 }  // namespace viscontact::particles

@@ -68,8 +68,8 @@ class Run {
         return std::current_exception();
       }
       if (simulation_.has_fluid()) {
-        log_.totals().unknowns = simulation_.fluid().unknowns();
-        if (log_.lacks_flow()) log_.add_flow(simulation_.fluid().flow());
+        log_.totals().unknowns = simulation_.unknowns();
+        if (log_.lacks_flow()) log_.add_flow(simulation_.flow());
       }
       log_.add_step(report, simulation_.state(), simulation_.rebounds());
       if (report.time >= next_frame - tiny_time(case_)) {
@@ -130,7 +130,7 @@ class Run {
   void add_last_flow() {
     if (!is_at_end() || stop_.stop_requested() || !log_.lacks_flow()) return;
     try {
-      log_.add_flow(simulation_.fluid().flow_at_present());
+      log_.add_flow(simulation_.flow_at_present());
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kExternalProgram) throw;
       terminal::warn(fmt::format(
@@ -139,18 +139,17 @@ class Run {
   }
 
   void add_frame() {
-    std::span<const double> link_force_errors;
-    if (simulation_.has_fluid()) link_force_errors = simulation_.fluid().force_errors().of_links;
+    std::vector<double> link_force_errors;
+    if (simulation_.has_fluid()) link_force_errors = simulation_.force_errors().of_links;
     log_.add_frame(simulation_.state(), link_force_errors);
   }
 
   std::string final_particles() {
     const auto reported = simulation_.reported_particles();
     if (!simulation_.has_fluid()) return write_particles(reported);
-    const auto& fluid = simulation_.fluid();
-    return write_particles(reported,
-                           FluidForces{fluid.fluid_forces(), fluid.force_errors().of_fluid,
-                                       fluid.setting().fluid->semi_axes});
+    const auto forces = simulation_.fluid_forces();
+    const auto errors = simulation_.force_errors().of_fluid;
+    return write_particles(reported, FluidForces{forces, errors, case_.setting.fluid->semi_axes});
   }
 
   /// The record, with computing time and memory of this call and the calls before it.
@@ -160,7 +159,7 @@ class Run {
     auto& totals = record.totals;
     totals.seconds += seconds_since(begin_);
     double peak = static_cast<double>(usage.ru_maxrss) / 1024;
-    if (simulation_.has_fluid()) peak += simulation_.fluid().solver_peak_memory_mebibytes();
+    if (simulation_.has_fluid()) peak += simulation_.solver_peak_memory_mebibytes();
     totals.peak_memory_mebibytes = std::max(totals.peak_memory_mebibytes, peak);
     return record;
   }
@@ -171,8 +170,7 @@ class Run {
   void save(const RunRecord& record) {
     log_.sync();
     // In a fluid with inertia the solver has a part of the state.
-    const auto& state =
-        simulation_.has_fluid() ? simulation_.fluid().state_to_save() : simulation_.state();
+    const auto state = simulation_.has_fluid() ? simulation_.state_to_save() : simulation_.state();
     write("restart.bin", TextKind::kHashComment,
           record_comment(record, state.steps) + write_restart(state));
     last_saved_ = Clock::now();

@@ -105,5 +105,31 @@ TEST_F(KilledInFluid, GoesOnWithInertiaOfTheFluid) {
   expect_same_if_disturbed(replaced_matches(text, "mass = 0.0", "mass = 2.0"), 4);
 }
 
+TEST_F(KilledInFluid, GoesOnWithMembranes) {
+  expect_same_if_disturbed(R"(title = "A vesicle"
+[space]
+dimension = 2
+[fluid]
+viscosity = 1.0
+edges_per_particle = 10
+velocity = { shear_rate = 1.0 }
+[domain]
+box = { from = [-4.0, -3.0], to = [4.0, 3.0], periodic = [true, false] }
+[viscous_contact]
+time_step = 0.1
+end_time = 3.0
+[output]
+every = 0.3
+[[membrane]]
+centre = [2.6, 0.5]
+perimeter = 6.623059
+reduced_area = 0.9
+bending_rigidity = 1.0
+inner_viscosity = 3.0
+beads = 16
+)",
+                           1.5);
+}
+
 }  // namespace
 }  // namespace viscontact

@@ -1,0 +1,256 @@
+// Trigonometric interpolation, and the discrete energy of a membrane (membrane_curve.hpp).
+#include "viscontact/particles/membranes/membrane_curve.hpp"
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace viscontact::particles {
+namespace {
+
+/// Derivatives of the energy density e = c^2 q^(-5/2) at one bead, where c = x' y'' - y' x'' and
+/// q = x'^2 + y'^2, with respect to z = (x', y', x'', y'').
+struct Density {
+  double value = 0;
+  Eigen::Vector4d gradient;
+  Eigen::Matrix4d hessian;
+};
+
+Density density_at(double ax, double ay, double bx, double by) {
+  const double c = ax * by - ay * bx, q = ax * ax + ay * ay;
+  const double q5 = std::pow(q, -2.5), q7 = q5 / q, q9 = q7 / q;
+  const Eigen::Vector4d of_c(by, -bx, -ay, ax), of_q(2 * ax, 2 * ay, 0, 0);
+  Eigen::Matrix4d second_c = Eigen::Matrix4d::Zero(), second_q = Eigen::Matrix4d::Zero();
+  second_c(0, 3) = second_c(3, 0) = 1;
+  second_c(1, 2) = second_c(2, 1) = -1;
+  second_q(0, 0) = second_q(1, 1) = 2;
+  Density density;
+  density.value = c * c * q5;
+  density.gradient = 2 * c * q5 * of_c - 2.5 * c * c * q7 * of_q;
+  density.hessian = 2 * q5 * of_c * of_c.transpose() + 2 * c * q5 * second_c -
+                    5 * c * q7 * (of_c * of_q.transpose() + of_q * of_c.transpose()) +
+                    8.75 * c * c * q9 * of_q * of_q.transpose() - 2.5 * c * c * q7 * second_q;
+  return density;
+}
+
+}  // namespace
+
+double cardinal(int beads, double theta, int derivative) {
+  const double n = beads;
+  double sum = derivative == 0 ? 1 : 0;
+  const auto add = [&](double m, double weight) {
+    if (derivative == 0) sum += weight * std::cos(m * theta);
+    if (derivative == 1) sum -= weight * m * std::sin(m * theta);
+    if (derivative == 2) sum -= weight * m * m * std::cos(m * theta);
+  };
+  for (int m = 1; 2 * m < beads; ++m) add(m, 2);
+  if (beads % 2 == 0) add(n / 2, 1);
+  return sum / n;
+}
+
+MembraneCurve::MembraneCurve(int beads)
+    : n_(beads), first_(beads, beads), second_(beads, beads), first_halfway_(beads, beads) {
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) {
+      const double theta = kTwoPi * (i - j) / n_;
+      first_(i, j) = cardinal(n_, theta, 1);
+      second_(i, j) = cardinal(n_, theta, 2);
+      first_halfway_(i, j) = cardinal(n_, theta + kTwoPi / (2 * n_), 1);
+    }
+}
+
+Eigen::VectorXd MembraneCurve::speeds(const Eigen::VectorXd& positions) const {
+  const Eigen::ArrayXd dx = first_halfway_ * positions.head(n_),
+                       dy = first_halfway_ * positions.tail(n_);
+  return (dx.square() + dy.square()).sqrt();
+}
+
+Eigen::MatrixXd MembraneCurve::speed_rows(const Eigen::VectorXd& positions) const {
+  const Eigen::VectorXd dx = first_halfway_ * positions.head(n_),
+                        dy = first_halfway_ * positions.tail(n_);
+  const Eigen::VectorXd speed = (dx.array().square() + dy.array().square()).sqrt();
+  Eigen::MatrixXd rows(n_, 2 * n_);
+  rows.leftCols(n_) = (dx.array() / speed.array()).matrix().asDiagonal() * first_halfway_;
+  rows.rightCols(n_) = (dy.array() / speed.array()).matrix().asDiagonal() * first_halfway_;
+  return rows;
+}
+
+Eigen::MatrixXd MembraneCurve::speeds_hessian(const Eigen::VectorXd& positions,
+                                              const Eigen::VectorXd& factors) const {
+  const Eigen::ArrayXd dx = first_halfway_ * positions.head(n_),
+                       dy = first_halfway_ * positions.tail(n_);
+  // Of |d|: (1 - d d^T/|d|^2)/|d|.
+  const Eigen::ArrayXd scaled = factors.array() * (dx.square() + dy.square()).pow(-1.5);
+  const auto block = [&](const Eigen::ArrayXd& values) -> Eigen::MatrixXd {
+    return first_halfway_.transpose() * ((scaled * values).matrix().asDiagonal() * first_halfway_);
+  };
+  Eigen::MatrixXd hessian(2 * n_, 2 * n_);
+  hessian.topLeftCorner(n_, n_) = block(dy.square());
+  hessian.bottomRightCorner(n_, n_) = block(dx.square());
+  hessian.topRightCorner(n_, n_) = block(-dx * dy);
+  hessian.bottomLeftCorner(n_, n_) = hessian.topRightCorner(n_, n_).transpose();
+  return hessian;
+}
+
+double MembraneCurve::perimeter(const Eigen::VectorXd& positions) const {
+  return kTwoPi / n_ * speeds(positions).sum();
+}
+
+double MembraneCurve::area(const Eigen::VectorXd& positions) const {
+  return 0.5 * positions.dot(area_row(positions));
+}
+
+Eigen::VectorXd MembraneCurve::area_row(const Eigen::VectorXd& positions) const {
+  Eigen::VectorXd row(2 * n_);
+  row.head(n_) = kTwoPi / n_ * (first_ * positions.tail(n_));
+  row.tail(n_) = -kTwoPi / n_ * (first_ * positions.head(n_));
+  return row;
+}
+
+Eigen::MatrixXd MembraneCurve::tangents(const Eigen::VectorXd& positions) const {
+  Eigen::MatrixXd tangents(n_, 2);
+  tangents.col(0) = first_ * positions.head(n_);
+  tangents.col(1) = first_ * positions.tail(n_);
+  return tangents;
+}
+
+double MembraneCurve::bending_energy(const Eigen::VectorXd& positions) const {
+  const Eigen::MatrixXd a = tangents(positions);
+  const Eigen::VectorXd bx = second_ * positions.head(n_), by = second_ * positions.tail(n_);
+  double sum = 0;
+  for (int i = 0; i < n_; ++i) sum += density_at(a(i, 0), a(i, 1), bx(i), by(i)).value;
+  return 0.5 * kTwoPi / n_ * sum;
+}
+
+Eigen::VectorXd MembraneCurve::bending_gradient(const Eigen::VectorXd& positions) const {
+  const Eigen::MatrixXd a = tangents(positions);
+  const Eigen::VectorXd bx = second_ * positions.head(n_), by = second_ * positions.tail(n_);
+  Eigen::MatrixXd of_z(n_, 4);
+  for (int i = 0; i < n_; ++i)
+    of_z.row(i) = density_at(a(i, 0), a(i, 1), bx(i), by(i)).gradient.transpose();
+  Eigen::VectorXd gradient(2 * n_);
+  gradient.head(n_) = first_.transpose() * of_z.col(0) + second_.transpose() * of_z.col(2);
+  gradient.tail(n_) = first_.transpose() * of_z.col(1) + second_.transpose() * of_z.col(3);
+  return 0.5 * kTwoPi / n_ * gradient;
+}
+
+Eigen::MatrixXd MembraneCurve::bending_hessian(const Eigen::VectorXd& positions) const {
+  const Eigen::MatrixXd a = tangents(positions);
+  const Eigen::VectorXd bx = second_ * positions.head(n_), by = second_ * positions.tail(n_);
+  // Entry (z, w) of the Hessian of the density at all beads.
+  std::array<std::array<Eigen::VectorXd, 4>, 4> of_zw;
+  for (auto& row : of_zw) row.fill(Eigen::VectorXd(n_));
+  for (int i = 0; i < n_; ++i) {
+    const auto hessian = density_at(a(i, 0), a(i, 1), bx(i), by(i)).hessian;
+    for (int z = 0; z < 4; ++z)
+      for (int w = 0; w < 4; ++w)
+        of_zw[static_cast<std::size_t>(z)][static_cast<std::size_t>(w)](i) = hessian(z, w);
+  }
+  Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(2 * n_, 2 * n_);
+  for (std::size_t z = 0; z < 4; ++z)
+    for (std::size_t w = 0; w < 4; ++w) {
+      const auto& left = z < 2 ? first_ : second_;
+      const auto& right = w < 2 ? first_ : second_;
+      hessian.block(static_cast<Eigen::Index>(z % 2) * n_, static_cast<Eigen::Index>(w % 2) * n_,
+                    n_, n_) += left.transpose() * (of_zw[z][w].asDiagonal() * right);
+    }
+  return 0.5 * kTwoPi / n_ * hessian;
+}
+
+bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, double area,
+                              Eigen::VectorXd& positions) {
+  const int n = curve.beads();
+  const double speed = perimeter / kTwoPi;
+  constexpr int kMostRounds = 50;
+  constexpr double kExact = 1e-13;
+  for (int round = 0; round < kMostRounds; ++round) {
+    // Residuals and rows in units of the size, so that all are near 1.
+    Eigen::VectorXd missing(n + 1);
+    missing.head(n) = Eigen::VectorXd::Constant(n, 1) - curve.speeds(positions) / speed;
+    missing(n) = (area - curve.area(positions)) / (speed * speed);
+    if (!missing.allFinite()) return false;
+    if (missing.lpNorm<Eigen::Infinity>() < kExact) return true;
+    Eigen::MatrixXd rows(n + 1, 2 * n);
+    rows.topRows(n) = curve.speed_rows(positions);
+    rows.row(n) = curve.area_row(positions).transpose() / speed;
+    const Eigen::VectorXd change =
+        rows.transpose() * (rows * rows.transpose()).ldlt().solve(missing);
+    if (!change.allFinite()) return false;
+    positions += speed * change;
+    // Rounding errors of the residuals end the iteration.
+    if (missing.lpNorm<Eigen::Infinity>() < 1e3 * kExact) return true;
+  }
+  return false;
+}
+
+namespace {
+
+/// The centre of the area inside, and its second moments about that centre.
+struct Moments {
+  double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  /// The direction of the long axis, in (-pi/2, pi/2].
+  double inclination() const { return 0.5 * std::atan2(2 * xy, xx - yy); }
+};
+
+Moments moments_of(const MembraneCurve& curve, const Eigen::VectorXd& positions) {
+  const int n = curve.beads();
+  const Eigen::MatrixXd tangents = curve.tangents(positions);
+  // Integrals along the curve (Green), about the mean of the beads.
+  const double mean_x = positions.head(n).mean(), mean_y = positions.tail(n).mean();
+  double mx = 0, my = 0;
+  Moments moments;
+  for (int i = 0; i < n; ++i) {
+    const double x = positions(i) - mean_x, y = positions(n + i) - mean_y;
+    const double dx = kTwoPi / n * tangents(i, 0), dy = kTwoPi / n * tangents(i, 1);
+    mx += x * x / 2 * dy;
+    my -= y * y / 2 * dx;
+    moments.xx += x * x * x / 3 * dy;
+    moments.yy -= y * y * y / 3 * dx;
+    moments.xy += (x * x * y * dy - x * y * y * dx) / 4;
+  }
+  const double area = curve.area(positions), cx = mx / area, cy = my / area;
+  moments.x = mean_x + cx;
+  moments.y = mean_y + cy;
+  moments.xx -= area * cx * cx;
+  moments.yy -= area * cy * cy;
+  moments.xy -= area * cx * cy;
+  return moments;
+}
+
+}  // namespace
+
+MembraneMeasures measure(const MembraneCurve& curve, const Eigen::VectorXd& positions,
+                         const Eigen::VectorXd& velocities) {
+  const int n = curve.beads();
+  const auto moments = moments_of(curve, positions);
+  MembraneMeasures measures;
+  measures.x = moments.x;
+  measures.y = moments.y;
+  measures.inclination = moments.inclination();
+  measures.area = curve.area(positions);
+  measures.perimeter = curve.perimeter(positions);
+  if (velocities.size() == 0) return measures;
+  const Eigen::MatrixXd tangents = curve.tangents(positions);
+  const double u = velocities.head(n).mean(), v = velocities.tail(n).mean();
+  double circulation = 0;
+  for (int i = 0; i < n; ++i) {
+    const double vx = velocities(i) - u, vy = velocities(n + i) - v;
+    measures.membrane_speed += std::hypot(vx, vy) / n;
+    circulation += kTwoPi / n * (vx * tangents(i, 0) + vy * tangents(i, 1));
+  }
+  if (measures.membrane_speed == 0) return measures;
+  // The rate of the inclination, by a central difference over a time in which the beads move by this
+  // fraction of the perimeter: truncation and rounding are then below 1e-9 of the rate.
+  constexpr double kOfPerimeter = 1e-6;
+  const double time = kOfPerimeter * measures.perimeter / measures.membrane_speed;
+  const double turn = moments_of(curve, positions + time * velocities).inclination() -
+                      moments_of(curve, positions - time * velocities).inclination();
+  const double rate = std::remainder(turn, std::numbers::pi) / (2 * time);
+  // A rigid rotation of this rate has the circulation 2 rate area.
+  measures.tank_treading_frequency =
+      (circulation - 2 * rate * measures.area) / (measures.perimeter * measures.perimeter);
+  return measures;
+}
+
+}  // namespace viscontact::particles

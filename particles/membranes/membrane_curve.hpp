@@ -1,0 +1,72 @@
+// The closed curve through the beads of a membrane, docs/physics.md (8.2) and (8.3): its lengths, its
+// area, and its bending energy with the first and second derivatives. For sources of this folder and
+// tests: it needs Eigen. Lengths are in the unit of the case.
+#pragma once
+
+#include <Eigen/Core>
+#include <numbers>
+
+#include "viscontact/particles/membranes/membrane.hpp"
+
+namespace viscontact::particles {
+
+inline constexpr double kTwoPi = 2 * std::numbers::pi;  ///< range of the parameter of a curve
+
+/// The value at `theta` of the trigonometric polynomial of least degree that is 1 at 0 and 0 at the
+/// other `beads` - 1 points 2 pi k/beads (derivative 0), or its first or second derivative. The
+/// interpolation of f_k at 2 pi k/beads is sum_k f_k cardinal(beads, theta - 2 pi k/beads).
+double cardinal(int beads, double theta, int derivative);
+
+/// Curves through N beads. The parameter of a curve is s in [0, 2 pi), and bead k is at 2 pi k/N. An
+/// array of positions has x of all beads and then y of all, so that its size is 2 N.
+class MembraneCurve {
+ public:
+  /// `beads` >= 3 is N.
+  explicit MembraneCurve(int beads);
+
+  int beads() const { return n_; }  ///< N
+
+  /// The speeds |dx/ds| at the parameters halfway between beads, N numbers [L]. A curve of perimeter
+  /// P that keeps them at P/(2 pi) does not stretch. Halfway, because the derivative of the wave that
+  /// changes its sign from bead to bead is 0 at the beads.
+  Eigen::VectorXd speeds(const Eigen::VectorXd& positions) const;
+  /// Derivatives of the speeds: N rows, 2 N columns.
+  Eigen::MatrixXd speed_rows(const Eigen::VectorXd& positions) const;
+  /// Second derivatives of the sum of `factors` (N numbers) times the speeds, a symmetric matrix.
+  Eigen::MatrixXd speeds_hessian(const Eigen::VectorXd& positions,
+                                 const Eigen::VectorXd& factors) const;
+  /// Perimeter [L].
+  double perimeter(const Eigen::VectorXd& positions) const;
+
+  /// Area inside [L^2], > 0 if the beads go around counter-clockwise.
+  double area(const Eigen::VectorXd& positions) const;
+  /// Derivatives of the area, 2 N numbers [L].
+  Eigen::VectorXd area_row(const Eigen::VectorXd& positions) const;
+
+  /// Integral of (curvature^2)/2 along the curve [1/L], by the values at the beads.
+  double bending_energy(const Eigen::VectorXd& positions) const;
+  /// Its derivatives, 2 N numbers [1/L^2].
+  Eigen::VectorXd bending_gradient(const Eigen::VectorXd& positions) const;
+  /// Its second derivatives, a symmetric matrix [1/L^3].
+  Eigen::MatrixXd bending_hessian(const Eigen::VectorXd& positions) const;
+
+  /// First derivatives of x and of y with respect to s at the beads [L].
+  Eigen::MatrixXd tangents(const Eigen::VectorXd& positions) const;
+
+ private:
+  int n_;
+  // Derivatives with respect to s at the beads, of first and second order, and of first order halfway
+  // between them.
+  Eigen::MatrixXd first_, second_, first_halfway_;
+};
+
+/// Moves the positions as little as possible until all speeds are perimeter/(2 pi) and the area is
+/// `area`. Returns false if Newton's method finds no such positions.
+bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, double area,
+                              Eigen::VectorXd& positions);
+
+/// Measures a membrane. `velocities` may be empty.
+MembraneMeasures measure(const MembraneCurve& curve, const Eigen::VectorXd& positions,
+                         const Eigen::VectorXd& velocities);
+
+}  // namespace viscontact::particles

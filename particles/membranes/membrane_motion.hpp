@@ -1,0 +1,85 @@
+// The motion of membranes in a Stokes flow whose answer to forces on the beads is known,
+// docs/physics.md (8.4) to (8.6). For sources of this folder and tests: it needs Eigen. Units are those
+// of the case. An array of all beads has x of the beads of the first membrane, those of the second one
+// and so on, and then all y.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "viscontact/particles/domain/periods.hpp"
+#include "viscontact/particles/membranes/membrane.hpp"
+#include "viscontact/particles/membranes/membrane_curve.hpp"
+
+namespace viscontact::particles {
+
+/// The answer of the fluid at one placement: the velocities `flow` + `mobility` * forces.
+struct FluidAnswer {
+  Eigen::VectorXd flow;      ///< without forces on the beads [L/T]
+  Eigen::MatrixXd mobility;  ///< [T/M], symmetric
+};
+
+/// Forces of the membranes on the fluid at the beads, and the velocities of the beads under them.
+struct MembraneMotion {
+  Eigen::VectorXd forces;      ///< bending, tension and loads [M L/T^2]
+  Eigen::VectorXd velocities;  ///< [L/T]
+  Eigen::VectorXd tension;     ///< of each length, as it enters the forces [M L/T^2]
+};
+
+/// All membranes of a case.
+class Membranes {
+ public:
+  /// The membranes must outlive this object.
+  explicit Membranes(std::span<const Membrane> membranes);
+
+  Eigen::Index beads() const { return first_.back(); }  ///< of all membranes
+
+  /// Positions of all beads, from those of all particles, two numbers for each. In a periodic domain
+  /// beads may be in different periods; each one is taken at the image nearest to the bead before it
+  /// and, with `near`, the first bead of each membrane at that nearest to its place in `near`.
+  Eigen::VectorXd places(std::span<const double> positions, const PeriodicCell& cell,
+                         const Eigen::VectorXd* near = nullptr) const;
+
+  /// The first two of the `components` numbers of each bead, from those of all particles.
+  Eigen::VectorXd from_particles(std::span<const double> numbers, std::size_t components) const;
+  /// Puts the numbers of all beads into those of all particles.
+  void to_particles(const Eigen::VectorXd& all, std::size_t components,
+                    std::vector<double>& numbers) const;
+
+  /// The positions of one membrane, x of all of its beads and then y, from those of all.
+  Eigen::VectorXd of(std::size_t m, const Eigen::VectorXd& all) const;
+  /// Puts the numbers of one membrane into those of all.
+  void put(std::size_t m, const Eigen::VectorXd& own, Eigen::VectorXd& all) const;
+
+  /// The motion at these positions: bending is that of the positions, and the tension keeps all
+  /// lengths at this moment.
+  MembraneMotion motion_at(const Eigen::VectorXd& positions, const FluidAnswer& answer) const;
+
+  /// Solves a step that is implicit in bending and lengths: positions z, forces f and the velocities
+  ///
+  ///     (z - from)/time = flow + mobility f,   f = loads - grad E(z) - G(z)^T T,   lengths(z) kept,
+  ///
+  /// and then moves z so little that lengths and areas are exact. `positions` is a first guess, and z
+  /// afterwards. Throws Error(kNotConverged) if Newton's method fails.
+  MembraneMotion step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
+                      const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const;
+
+  /// How positions z of such a step change per load: a symmetric matrix [L/(M L/T^2)]. `motion` is
+  /// what step() returned with these positions.
+  Eigen::MatrixXd response(double time, const FluidAnswer& answer, const MembraneMotion& motion,
+                           const Eigen::VectorXd& positions) const;
+
+ private:
+  bool solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
+                  Eigen::VectorXd& positions, Eigen::VectorXd& tension) const;
+  Eigen::MatrixXd speed_rows(const Eigen::VectorXd& positions) const;
+  Eigen::VectorXd bending_forces(const Eigen::VectorXd& positions) const;
+  Eigen::MatrixXd stiffness(const Eigen::VectorXd& positions, const Eigen::VectorXd& tension) const;
+
+  std::span<const Membrane> membranes_;
+  std::vector<MembraneCurve> curves_;
+  std::vector<Eigen::Index> first_;  // first bead of each membrane; the last entry counts all
+};
+
+}  // namespace viscontact::particles

@@ -1,0 +1,92 @@
+// Ellipses of a given perimeter and area (membrane_shape.hpp).
+#include "viscontact/particles/membranes/membrane_shape.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "viscontact/particles/membranes/membrane_curve.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+/// Points of an ellipse for integrals along it. The trapezoidal rule converges exponentially; for an
+/// ellipse of axes 1:20 this number leaves errors near rounding.
+constexpr int kPoints = 4096;
+
+/// Lengths of an ellipse of semi-axes a and b from parameter 0 to 2 pi i/kPoints.
+std::vector<double> lengths_along(double a, double b) {
+  std::vector<double> lengths = {0};
+  for (int i = 0; i < kPoints; ++i) {
+    const double t = kTwoPi * (i + 0.5) / kPoints;
+    lengths.push_back(lengths.back() +
+                      kTwoPi / kPoints * std::hypot(a * std::sin(t), b * std::cos(t)));
+  }
+  return lengths;
+}
+
+}  // namespace
+
+std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Vector& centre,
+                                              double angle) {
+  // a b = area/pi, and the perimeter grows with a/b.
+  const double mean = std::sqrt(membrane.area / std::numbers::pi);
+  double low = 1, high = 1e3;  // of a over `mean`
+  for (int i = 0; i < 100; ++i) {
+    const double middle = std::sqrt(low * high);
+    (lengths_along(mean * middle, mean / middle).back() < membrane.perimeter ? low : high) = middle;
+  }
+  const double a = mean * low, b = mean / low, c = std::cos(angle), s = std::sin(angle);
+  const auto lengths = lengths_along(a, b);
+  const auto n = static_cast<Eigen::Index>(membrane.beads);
+  Eigen::VectorXd positions(2 * n);
+  std::size_t i = 0;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double wanted = lengths.back() * static_cast<double>(k) / static_cast<double>(n);
+    while (lengths[i + 1] < wanted) ++i;
+    const double t =
+        kTwoPi / kPoints *
+        (static_cast<double>(i) + (wanted - lengths[i]) / (lengths[i + 1] - lengths[i]));
+    positions(k) = a * c * std::cos(t) - b * s * std::sin(t);
+    positions(n + k) = a * s * std::cos(t) + b * c * std::sin(t);
+  }
+  if (!restore_lengths_and_area(MembraneCurve(membrane.beads), membrane.perimeter, membrane.area,
+                                positions))
+    return {};
+  std::vector<double> places;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    places.push_back(centre[0] + positions(k));
+    places.push_back(centre[1] + positions(n + k));
+  }
+  return places;
+}
+
+bool do_meet(std::span<const double> first, std::span<const double> second) {
+  using Corner = std::array<double, 2>;
+  const auto corner = [](std::span<const double> polygon, std::size_t i) {
+    const auto k = 2 * (i % (polygon.size() / 2));
+    return Corner{polygon[k], polygon[k + 1]};
+  };
+  // > 0 if c is on the left of the way from a to b.
+  const auto side = [](const Corner& a, const Corner& b, const Corner& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  };
+  const auto is_inside = [&](const Corner& x, std::span<const double> polygon) {
+    bool inside = false;
+    for (std::size_t i = 0; i < polygon.size() / 2; ++i) {
+      const auto a = corner(polygon, i), b = corner(polygon, i + 1);
+      if ((a[1] > x[1]) != (b[1] > x[1]) && (side(a, b, x) > 0) == (b[1] > a[1])) inside = !inside;
+    }
+    return inside;
+  };
+  for (std::size_t i = 0; i < first.size() / 2; ++i)
+    for (std::size_t j = 0; j < second.size() / 2; ++j) {
+      const auto a = corner(first, i), b = corner(first, i + 1), c = corner(second, j),
+                 d = corner(second, j + 1);
+      if ((side(a, b, c) > 0) != (side(a, b, d) > 0) && (side(c, d, a) > 0) != (side(c, d, b) > 0))
+        return true;
+    }
+  return is_inside(corner(first, 0), second) || is_inside(corner(second, 0), first);
+}
+
+}  // namespace viscontact::particles
