@@ -18,12 +18,11 @@ class DirectSwimmer : public ParticlesCommand {
   double displacement(int edges) {
     auto text = read_file(VISCONTACT_SOURCE_FOLDER "/data/cases/swimmer/direct_simulation.toml");
     text = replaced(text, "every = 0.05", "every = 1.0");  // files of the first and last time only
-    text = replaced(text, "edges_per_particle = 12",
-                    "edges_per_particle = " + std::to_string(edges));
+    text =
+        replaced(text, "edges_per_particle = 12", "edges_per_particle = " + std::to_string(edges));
     const auto folder = out(std::to_string(edges));
     expect_done(run(put_case(text), folder));
-    const auto places =
-        matches_in(content(folder / "final_particles.csv"), "\n[0-9]+,([^,]+),", 1);
+    const auto places = matches_in(content(folder / "final_particles.csv"), "\n[0-9]+,([^,]+),", 1);
     EXPECT_EQ(places.size(), 3U);
     // The arms are those of the start again.
     EXPECT_NEAR(std::stod(places.at(2)) - std::stod(places.at(0)), 12, 1e-9);
