@@ -1,0 +1,76 @@
+// Each command of the gallery in docs/README.md succeeds. The cases whose computation takes minutes are
+// made shorter or coarser first; each such change must find what it changes.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/common/regular_expressions.hpp"
+#include "tests/docs/document.hpp"
+#include "viscontact/common/files/file.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kSource = VISCONTACT_SOURCE_FOLDER;
+
+/// Patterns in a case, and what takes their place.
+using Changes = std::vector<std::pair<std::string, std::string>>;
+
+/// What is changed in the cases that take minutes, by their path in data/cases.
+const std::map<std::string, Changes> kShortened = {
+    {"lecture.toml",
+     {{"count = 40", "count = 8"}, {"relative_accuracy = 1e-5", "relative_accuracy = 1e-2"}}},
+    {"fluid/lecture.toml",
+     {{"edges_per_particle = [0-9]+", "edges_per_particle = 8"},
+      {"end_time = [^ \n]+", "end_time = 0.2"}}},
+    {"fluid/viscosity_random_cell.toml",
+     {{"draws = 8", "draws = 1"}, {"=0.05,0.1,0.2,0.3,0.4,0.5", "=0.05,0.2"}}},
+    {"flow/two_discs.toml",
+     {{"constraint = \"rigid\"", "constraint = \"rigid\"\nedges_per_particle = 8"},
+      {"end_time = [^ \n]+", "end_time = 0.01"}}},
+};
+
+/// A reader's folder whose cases are copies, changed by kShortened.
+void shorten_cases(const fs::path& folder) {
+  fs::remove(folder / "data");
+  fs::copy(kSource / "data", folder / "data", fs::copy_options::recursive);
+  for (const auto& [name, changes] : kShortened) {
+    const auto file = folder / "data/cases" / name;
+    auto text = read_file(file);
+    for (const auto& [pattern, replacement] : changes) {
+      const auto changed = replaced_matches(text, pattern, replacement);
+      EXPECT_NE(changed, text) << name << ": " << pattern;
+      text = changed;
+    }
+    write_file(file, text);
+  }
+}
+
+TEST(Gallery, RunsEachSystemOfTheLectureByOneCommand) {
+  const ReadersFolder folder(VISCONTACT_EXECUTABLE);
+  shorten_cases(folder.path());
+  // With the shipped table, which takes minutes, the swimmer needs no FreeFEM.
+  fs::create_directories(folder.path() / "out/gallery/swimmer");
+  fs::copy_file(kSource / "data/tables/three_spheres.csv",
+                folder.path() / "out/gallery/swimmer/table.csv");
+  const auto page = kSource / "docs/README.md";
+  std::size_t commands = 0;
+  for (const auto& block : blocks_of(page)) {
+    ASSERT_EQ(block.language, "sh") << block.line;
+    const auto result = folder.run(block.text);
+    EXPECT_EQ(result.exit_status, 0) << block.line << ": " << block.text << result.output;
+    ++commands;
+  }
+  // One picture stands below each command.
+  EXPECT_EQ(matches_in(read_file(page), "\n!\\[").size(), commands);
+  EXPECT_GE(commands, 10U);
+}
+
+}  // namespace
+}  // namespace viscontact
