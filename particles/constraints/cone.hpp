@@ -109,11 +109,14 @@ class ConeScaling {
 
 /// The operations that interior points need on a cone, for a second-order cone.
 struct SecondOrderCone {
-  using Scaling = ConeScaling;
+  using Scaling = ConeScaling;  ///< of Nesterov & Todd
+  /// jordan_product().
   static ConePoint product(const ConePoint& x, const ConePoint& y) { return jordan_product(x, y); }
+  /// jordan_quotient().
   static ConePoint quotient(const ConePoint& z, const ConePoint& x) {
     return jordan_quotient(z, x);
   }
+  /// The function of that name; the number of rows does not matter.
   static double length_to_boundary(const ConePoint& x, const ConePoint& d, std::size_t) {
     return particles::length_to_boundary(x, d);
   }
@@ -127,22 +130,27 @@ struct SecondOrderCone {
 /// which are positive numbers. Points near its boundary lose no digits in them. What is a half-line
 /// has the first coordinate only, and no change of coordinates.
 struct LinearCones {
+  /// W of a point u and a dual point r: the roots of the ratios of their coordinates.
   class Scaling {
    public:
     Scaling() = default;
+    /// For points inside the cone.
     Scaling(const ConePoint& u, const ConePoint& r) {
       for (std::size_t k = 0; k < 3; ++k) square_[k] = r[k] > 0 ? u[k] / r[k] : 1;
     }
+    /// W x.
     ConePoint times(const ConePoint& x) const {
       ConePoint y;
       for (std::size_t k = 0; k < 3; ++k) y[k] = std::sqrt(square_[k]) * x[k];
       return y;
     }
+    /// W^-1 x.
     ConePoint divide(const ConePoint& x) const {
       ConePoint y;
       for (std::size_t k = 0; k < 3; ++k) y[k] = x[k] / std::sqrt(square_[k]);
       return y;
     }
+    /// (W^2 + shift)^-1, row by row.
     std::array<ConePoint, 3> inverse_square(double shift) const {
       std::array<ConePoint, 3> inverse{};
       for (std::size_t k = 0; k < 3; ++k) inverse[k][k] = 1 / (square_[k] + shift);
@@ -152,22 +160,27 @@ struct LinearCones {
    private:
     ConePoint square_{1, 1, 1};
   };
+  /// Products of the coordinates.
   static ConePoint product(const ConePoint& x, const ConePoint& y) {
     return {x[0] * y[0], x[1] * y[1], x[2] * y[2]};
   }
+  /// The y with product(x, y) = z; 0 where there is no coordinate.
   static ConePoint quotient(const ConePoint& z, const ConePoint& x) {
     ConePoint y{};
     for (std::size_t k = 0; k < 3; ++k)
       if (x[k] != 0) y[k] = z[k] / x[k];
     return y;
   }
+  /// The largest t with x + t d in the cone, for an x inside it that has `rows` coordinates.
   static double length_to_boundary(const ConePoint& x, const ConePoint& d, std::size_t rows) {
     double length = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < rows; ++k)
       if (d[k] < 0) length = std::min(length, -x[k] / d[k]);
     return length;
   }
+  /// Coordinates of the unit of the product.
   static ConePoint unit(std::size_t rows) { return {1, rows > 1 ? 1.0 : 0.0, 0}; }
+  /// The coordinates of a point, and back: the change is its own inverse.
   static ConePoint coordinates(const ConePoint& x) {
     const double half = std::numbers::sqrt2 / 2;
     return {half * (x[0] + x[1]), half * (x[0] - x[1]), 0};
