@@ -2,11 +2,12 @@
 // memory for each STRETCH of time.
 //
 //   box2d [--count N] [--until T] [--max-iterations K] [--tolerance X] [--impulse-tolerance X]
-//         [--threads N] [--print STRETCH] [--friction MU]
+//         [--threads N] [--print STRETCH] [--friction MU] [--method fixed_point|convex]
+//         [--gamma-min G]
 //
 // The discs start on a lattice of spacing 2.1 with random displacements up to 0.05, in a box of
 // width 2.1 ceil(sqrt N) with a floor and two walls. Radii are 0.8 to 1, m = r^2, gravity is 1, the
-// time step is 0.05 and gamma_min = -2.
+// time step is 0.05; gamma_min is -2 unless --gamma-min gives it.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -48,7 +49,9 @@ int main(int argc, char** argv) {
                                           {"--impulse-tolerance", "1e-10"},
                                           {"--threads", "1"},
                                           {"--print", "2.5"},
-                                          {"--friction", "0"}};
+                                          {"--friction", "0"},
+                                          {"--method", "fixed_point"},
+                                          {"--gamma-min", "-2"}};
   for (int i = 1; i < argc; i += 2) {
     if (!o.contains(argv[i]) || i + 1 == argc) {
       fmt::print(stderr, "box2d: no option '{}', or no value\n", argv[i]);
@@ -60,9 +63,12 @@ int main(int argc, char** argv) {
   auto setting = box(count);
   setting.solver = {std::stod(o["--tolerance"]), std::stod(o["--impulse-tolerance"]),
                     std::stoi(o["--max-iterations"])};
+  setting.laws.film.gamma_min = std::stod(o["--gamma-min"]);
   auto discs = box_of_discs(count);
   if (const double friction = std::stod(o["--friction"]); friction > 0) {
-    setting.laws.friction = FrictionLaw{friction};
+    const bool is_convex = o["--method"] == "convex";
+    setting.laws.friction =
+        FrictionLaw{friction, is_convex ? FrictionMethod::kConvex : FrictionMethod::kFixedPoint};
     add_rotation(discs.particles);
   }
   const double until = std::stod(o["--until"]), stretch = std::stod(o["--print"]);

@@ -23,10 +23,10 @@ inline void subtract_product(const Block& a, const Block& b, Block& c) {
       for (std::size_t j = 0; j < k; ++j) c[i * k + j] -= a[i * k + l] * b[l * k + j];
 }
 
-/// Replaces a block by its inverse (Gauss-Jordan with exchange of rows). Returns false if it is
-/// singular.
+/// Replaces a block by its inverse (Gauss-Jordan with exchange of rows). Changes `sign` if the
+/// determinant is negative. Returns false if the block is singular.
 template <int K, class Block>
-bool invert(Block& a) {
+bool invert(Block& a, int& sign) {
   constexpr auto k = static_cast<std::size_t>(K);
   Block inverse{};
   for (std::size_t i = 0; i < k; ++i) inverse[i * k + i] = 1;
@@ -36,6 +36,7 @@ bool invert(Block& a) {
       if (std::abs(a[i * k + j]) > std::abs(a[pivot * k + j])) pivot = i;
     if (!(std::abs(a[pivot * k + j]) > 0) || !std::isfinite(a[pivot * k + j])) return false;
     const double factor = 1 / a[pivot * k + j];
+    if ((factor < 0) != (pivot != j)) sign = -sign;
     for (std::size_t c = 0; c < k; ++c) {
       std::swap(a[pivot * k + c], a[j * k + c]);
       std::swap(inverse[pivot * k + c], inverse[j * k + c]);
@@ -139,6 +140,7 @@ template <int K>
 bool BlockFactor<K>::factorise() {
   std::vector<std::int32_t> next_in_row(order_.size(), -1);
   std::ranges::fill(first_in_row_, -1);
+  sign_ = 1;
   for (std::size_t j = 0; j < order_.size(); ++j)
     if (!factorise_column(j, next_in_row)) return false;
   return true;
@@ -160,7 +162,7 @@ bool BlockFactor<K>::factorise_column(std::size_t j, std::vector<std::int32_t>& 
     }
     enlist(k, begin + 1, next_in_row);
   }
-  if (!invert<K>(diagonal_[j])) return false;
+  if (!invert<K>(diagonal_[j], sign_)) return false;
   for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e) {
     Block product{};
     subtract_product<K>(diagonal_[j], above_[e], product);

@@ -46,6 +46,8 @@ class BlockFactor {
 
   /// Replaces A by its factors. Returns false if a block on the diagonal becomes singular.
   bool factorise();
+  /// Sign of the determinant of A, 1 or -1. Needs factorise().
+  int sign_of_determinant() const { return sign_; }
 
   /// Replaces `values`, K numbers for each body, by A^-1 values. Needs factorise().
   void solve(std::span<double> values) const;
@@ -72,6 +74,7 @@ class BlockFactor {
   std::vector<std::int32_t> first_in_row_;
   std::vector<std::size_t> next_entry_, entry_in_row_;
   mutable std::vector<double> permuted_;
+  int sign_ = 1;
 };
 
 }  // namespace viscontact::particles

@@ -91,13 +91,11 @@ BlockResidual residual_of(const ConstraintBlock& block, bool lifts_sliding, cons
   }
   residual.normal = contact_residual(v[0], w[0] * (p[0] - block.lowest));
   double factor = square > bound * bound ? bound / std::sqrt(square) : 1;
-  if (is_in_cone(block, lifts_sliding, p[0])) {
+  if (lifts_sliding && !block.is_in_cone) factor = 0;
+  if (lifts_sliding && block.is_in_cone) {
     const auto cone = FrictionCone::nearest(block.friction, p[0] - v[0] / w[0] - block.capacity,
                                             std::sqrt(square), w[0], w[1]);
-    // At the apex nothing is left to the solids, and the condition of the film is the one that
-    // counts.
-    if (cone.part != FrictionCone::Part::kApex || block.capacity <= block.lowest)
-      residual.normal = w[0] * std::abs(p[0] - block.capacity - cone.load);
+    residual.normal = w[0] * std::abs(p[0] - block.capacity - cone.load);
     factor = cone.tangential;
   }
   double off = 0;

@@ -108,6 +108,11 @@ struct ConstraintBlock {
   /// Of a bilateral block: v + compliance p = 0 holds for the value v of each row and its impulse p
   /// [T/M], >= 0.
   double compliance = 0;
+  /// Of a contact of the convex relaxation: (5.9) holds, and the impulses are in the FrictionCone.
+  /// Otherwise its film carries the impulse, and there is no friction.
+  bool is_in_cone = false;
+  /// Whether the contact has a film, which may carry its impulse.
+  bool has_film() const { return capacity > lowest; }
   /// Bound mu_s p_s of the tangential impulse [M L/T], where p_s is the part of the normal impulse
   /// that the solids carry, docs/physics.md (5.7).
   double bound(double normal_impulse) const {
@@ -128,9 +133,12 @@ struct ConstraintProblem {
   std::vector<ConstraintRow> rows;      ///< those of each block follow each other
   std::vector<ConstraintBlock> blocks;  ///< in the order of their rows
   std::vector<double> impulses;         ///< of the rows [M L/T]: a guess, then the solution
-  /// Whether contacts obey the convex relaxation (5.9): a contact whose solids carry load has its
-  /// impulses in the FrictionCone, and a sliding contact opens by h mu_s |v_t|.
+  /// Whether contacts obey the convex relaxation (5.9): a contact in the FrictionCone that slides
+  /// opens by h mu_s |v_t|.
   bool lifts_sliding = false;
+  /// Whether a rough solution of (5.9) is enough, which shows about how units move and which contacts
+  /// carry load.
+  bool is_rough = false;
 
   /// Adds a row with these parts and a guess of its impulse [M L/T].
   void add_row(double offset, std::span<const RowPart<D>> of_row, double impulse) {
@@ -159,13 +167,6 @@ struct ConstraintProblem {
     }
   }
 };
-
-/// Whether (5.9) holds for a contact with the normal impulse `p_n`, because its solids carry load
-/// or it has no film. Otherwise its film carries the impulse, and there is no friction.
-inline bool is_in_cone(const ConstraintBlock& block, bool lifts_sliding, double p_n) {
-  return lifts_sliding && block.is_contact && block.rows > 1 &&
-         (p_n > block.capacity || block.capacity <= block.lowest);
-}
 
 /// Motions y* + h M^-1 J^T p of all units.
 template <int D>

@@ -10,6 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "viscontact/particles/constraints/cone.hpp"
+#include "viscontact/particles/constraints/interior_points.hpp"
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 namespace viscontact::particles {
@@ -30,8 +32,8 @@ class ContactSweeps {
   void sweep(int count, const std::vector<double>& w);
 
  private:
-  void solve_block(const ConstraintBlock& block, const double* w);
-  void solve_in_cone(const ConstraintBlock& block, const double* w);
+  void solve_block(ConstraintBlock& block, const double* w);
+  void solve_in_cone(ConstraintBlock& block, const double* w);
   double wanted(std::size_t row, double w) const;
   void change(std::size_t row, double impulse);
 
@@ -66,7 +68,7 @@ void ContactSweeps<D>::change(std::size_t row, double impulse) {
 }
 
 template <int D>
-void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w) {
+void ContactSweeps<D>::solve_block(ConstraintBlock& block, const double* w) {
   if (!block.is_contact) {
     for (std::size_t k = 0; k < block.rows; ++k) {
       // v + w dp + compliance (p + dp) = 0
@@ -76,7 +78,7 @@ void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w
     }
     return;
   }
-  if (is_in_cone(block, problem_.lifts_sliding, problem_.impulses[block.row])) {
+  if (problem_.lifts_sliding && block.is_in_cone) {
     solve_in_cone(block, w);
     return;
   }
@@ -84,6 +86,7 @@ void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w
   change(block.row, std::max(block.lowest, wanted(block.row, w[0])));
   if (block.rows == 1) return;
   // In the convex relaxation the solids carry load from the next sweep on.
+  if (problem_.lifts_sliding) block.is_in_cone = problem_.impulses[block.row] > block.capacity;
   const double bound = problem_.lifts_sliding ? 0 : block.bound(problem_.impulses[block.row]);
   std::array<double, 2> to{};
   double square = 0;
@@ -98,7 +101,7 @@ void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w
 /// Improves the impulses of a contact in the cone of (5.9). The result is exact unless the rows of
 /// the contact act on each other, which they do in rigid bodies.
 template <int D>
-void ContactSweeps<D>::solve_in_cone(const ConstraintBlock& block, const double* w) {
+void ContactSweeps<D>::solve_in_cone(ConstraintBlock& block, const double* w) {
   // The sums of the rows of (what the rows do to each other)/w bound the eigenvalues. With steps
   // that are shorter by the largest sum the energy of the block falls.
   double largest = 1;
@@ -124,16 +127,17 @@ void ContactSweeps<D>::solve_in_cone(const ConstraintBlock& block, const double*
   const auto cone =
       FrictionCone::nearest(block.friction, to[0] - block.capacity, std::sqrt(square), w[0], w[1]);
   change(block.row, block.capacity + cone.load);
+  if (block.has_film()) block.is_in_cone = cone.load > 0;
   for (std::size_t k = 1; k < block.rows; ++k) change(block.row + k, cone.tangential * to[k]);
 }
 
 template <int D>
 void ContactSweeps<D>::sweep(int count, const std::vector<double>& w) {
   y_ = motions<D>(problem_, problem_.impulses);
-  const auto& blocks = problem_.blocks;
+  auto& blocks = problem_.blocks;
   for (int n = 0; n < count; ++n)
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-      const auto& block = blocks[n % 2 == 0 ? i : blocks.size() - 1 - i];
+      auto& block = blocks[n % 2 == 0 ? i : blocks.size() - 1 - i];
       solve_block(block, &w[block.row]);
     }
 }
@@ -160,9 +164,12 @@ class Iteration {
  public:
   Iteration(ConstraintProblem<D>& problem, ConstraintStart start)
       : problem_(problem), w_(scales_of_rows(problem, start)), sweeps_(problem), start_(start) {
-    for (const auto& block : problem.blocks)
-      if (block.is_contact)
-        problem.impulses[block.row] = std::max(problem.impulses[block.row], block.lowest);
+    for (auto& block : problem.blocks) {
+      if (!block.is_contact) continue;
+      problem.impulses[block.row] = std::max(problem.impulses[block.row], block.lowest);
+      block.is_in_cone = problem.lifts_sliding && block.rows > 1 &&
+                         (problem.impulses[block.row] > block.capacity || !block.has_film());
+    }
     best_.result.residual = std::numeric_limits<double>::infinity();
     update();
   }
@@ -171,10 +178,13 @@ class Iteration {
     if (start_ == ConstraintStart::kSweeps) sweep_while_it_gains(max_iterations);
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return finish();
     proximal_.emplace(problem_, w_);
+    if (problem_.lifts_sliding) {
+      solve_convex(max_iterations);
+      return finish();
+    }
     proximal_->set_epsilon(epsilon_);
     while (residual_ > 1 && best_.result.iterations < max_iterations)
-      problem_.lifts_sliding ? take_convex_step(max_iterations)
-                             : take_proximal_step(max_iterations);
+      take_proximal_step(max_iterations);
     return finish();
   }
 
@@ -202,35 +212,98 @@ class Iteration {
   /// opens. Small epsilons go there fast, but Newton's method then fails more often, so that
   /// epsilon follows what it achieves. Where even the easiest step fails, sweeps go on.
   void take_proximal_step(int max_iterations) {
-    constexpr int kMostIterations = 50, kFewIterations = 4;
-    constexpr double kLeastEpsilon = 1e-12, kLargestEpsilon = 1, kFactor = 3, kMuchWorse = 5;
+    constexpr int kMostIterations = 200, kFewIterations = 2;
+    constexpr double kLeastEpsilon = 1e-12, kLargestEpsilon = 1, kFactor = 3, kLargeFactor = 10;
     const auto center = problem_.impulses;
-    const double before = residual_;
     const int most = std::clamp(max_iterations - best_.result.iterations, 1, kMostIterations);
     const int taken = proximal_->solve(center, motions_, most);
     best_.result.iterations += taken;
-    problem_.impulses = proximal_->impulses();
-    update();
-    if (proximal_->failed() || taken == most || !(residual_ <= kMuchWorse * before)) {
+    if (!proximal_->failed() && taken < most) {
+      problem_.impulses = proximal_->impulses();
+      update();
+    }
+    if (proximal_->failed() || taken >= most || !std::isfinite(residual_)) {
       problem_.impulses = center;
       update();
       if (epsilon_ == kLargestEpsilon) sweep();
       epsilon_ = std::min(kLargestEpsilon, kFactor * epsilon_);
       proximal_->set_epsilon(epsilon_);
-    } else if (taken <= kFewIterations && epsilon_ > kLeastEpsilon) {
-      epsilon_ /= kFactor;
-      proximal_->set_epsilon(epsilon_);
+      return;
     }
+    if (proximal_->followed_path()) return;
+    epsilon_ /= taken <= kFewIterations ? kLargeFactor : kFactor;
+    epsilon_ = std::max(kLeastEpsilon, epsilon_);
+    proximal_->set_epsilon(epsilon_);
+  }
+
+  /// Solves the convex relaxation (5.9) by interior points. A solution shows where films give way to
+  /// solids, and another follows with these, at most kMostChanges times: a contact that would go on
+  /// changing keeps the law that it has. Proximal steps make the solution accurate, in a few
+  /// iterations, because it shows which contacts stick and slide.
+  void solve_convex(int max_iterations) {
+    constexpr int kMostChanges = 4, kMostIterations = 60;
+    // In space, points near the boundary of a second-order cone lose digits.
+    constexpr double kRough = 1e-3, kAccurate = D == 2 ? 1e-9 : 1e-6;
+    InteriorPoints<D> interior(problem_, w_);
+    for (int changes = 0; residual_ > 1 && best_.result.iterations < max_iterations; ++changes) {
+      const int most = std::min(max_iterations - best_.result.iterations, kMostIterations);
+      best_.result.iterations += interior.solve(problem_.is_rough ? kRough : kAccurate, most);
+      problem_.impulses = interior.impulses();
+      update();
+      if (changes == kMostChanges || !change_laws() || problem_.is_rough) break;
+    }
+    if (problem_.is_rough) return;
+    // With a smaller epsilon the rounding errors of the gaps, divided by epsilon, would be larger.
+    constexpr double kFirstEpsilonOfConvex = 1e-5;
+    epsilon_ = kFirstEpsilonOfConvex;
+    is_rising_ = true;
+    proximal_->set_epsilon(epsilon_);
+    while (residual_ > 1 && best_.result.iterations < max_iterations)
+      take_convex_step(max_iterations);
+  }
+
+  /// Lets solids carry load whose films are used up, and gives contacts back to their films whose
+  /// solids carry no load. Returns whether there are any.
+  bool change_laws() {
+    bool has_changed = false;
+    for (auto& block : problem_.blocks) {
+      if (!block.is_contact || block.rows == 1 || !block.has_film()) continue;
+      double* p = &problem_.impulses[block.row];
+      const double *v = &values_[block.row], *w = &w_[block.row];
+      bool is_in_cone = p[0] > block.capacity;
+      if (block.is_in_cone) {
+        double square = 0;
+        for (std::size_t k = 1; k < block.rows; ++k)
+          square += (p[k] - v[k] / w[k]) * (p[k] - v[k] / w[k]);
+        const double load = p[0] - v[0] / w[0] - block.capacity;
+        const auto cone =
+            FrictionCone::nearest(block.friction, load, std::sqrt(square), w[0], w[1]);
+        is_in_cone = cone.part != FrictionCone::Part::kApex;
+      }
+      if (is_in_cone == block.is_in_cone) continue;
+      has_changed = true;
+      block.is_in_cone = is_in_cone;
+      if (is_in_cone) continue;
+      p[0] = block.capacity;
+      std::fill_n(p + 1, block.rows - 1, 0.0);
+    }
+    if (has_changed) {
+      // What was found with other laws is not a solution with these.
+      best_.result.residual = std::numeric_limits<double>::infinity();
+      update();
+    }
+    return has_changed;
   }
 
   /// Takes a proximal step for the convex relaxation (5.9). Each step leads nearer to the solution
-  /// but for rounding errors, which are those of the gaps divided by epsilon. Therefore epsilon
-  /// falls until the impulses between jammed particles have grown as far as they must, then rises
-  /// until the errors are gone, and falls again if that was not far enough.
+  /// but for rounding errors, which are those of the gaps divided by epsilon. Therefore epsilon rises
+  /// until the errors are gone. Where impulses between jammed particles must grow, it falls and rises
+  /// again.
   void take_convex_step(int max_iterations) {
     constexpr int kMostIterations = 50;
-    constexpr double kLeastEpsilon = 1e-8, kFactor = 10;
+    constexpr double kLeastEpsilon = 1e-8, kFactor = 10, kLittle = 0.9;
     const auto center = problem_.impulses;
+    const double before = residual_;
     const int most = std::clamp(max_iterations - best_.result.iterations, 1, kMostIterations);
     const int taken = proximal_->solve(center, motions_, most);
     best_.result.iterations += taken;
@@ -242,6 +315,8 @@ class Iteration {
       problem_.impulses = center;
       update();
       if (is_largest) sweep();
+    } else if (residual_ > 1 && residual_ > kLittle * before && residual_ < before / kLittle) {
+      extend_change(center);
     }
     is_rising_ = !is_largest && (is_rising_ || is_least || !is_solved);
     epsilon_ = is_rising_ ? std::min(kFirstEpsilon, kFactor * epsilon_)
@@ -249,20 +324,41 @@ class Iteration {
     proximal_->set_epsilon(epsilon_);
   }
 
+  /// Between jammed particles, impulses that balance each other grow by the same small amounts in
+  /// each step, and the residual stays, until a contact slips or opens. Goes there at once.
+  void extend_change(const std::vector<double>& center) {
+    const auto& p = problem_.impulses;
+    double length = std::numeric_limits<double>::infinity();
+    for (const auto& block : problem_.blocks) {
+      if (!block.is_contact) continue;
+      const bool is_cone = block.is_in_cone;
+      ConePoint here{p[block.row] - (is_cone ? block.capacity : block.lowest)}, change{};
+      for (std::size_t k = 0; k < (is_cone ? block.rows : 1); ++k) {
+        if (k > 0) here[k] = p[block.row + k] / block.friction;
+        change[k] = (p[block.row + k] - center[block.row + k]) / (k > 0 ? block.friction : 1);
+      }
+      // Contacts on the boundary stay there.
+      constexpr double kInside = 1e-9;
+      if (determinant(here) > kInside * here[0] * here[0])
+        length = std::min(length, length_to_boundary(here, change));
+    }
+    if (!std::isfinite(length)) return;
+    for (std::size_t r = 0; r < p.size(); ++r) problem_.impulses[r] += length * (p[r] - center[r]);
+    update();
+  }
+
   /// Computes motions and residuals, and keeps the solution if it is the best so far.
   void update() {
     motions_ = motions<D>(problem_, problem_.impulses);
+    values_.resize(problem_.rows.size());
     residuals_.resize(problem_.blocks.size());
     residual_ = 0;
     for (std::size_t b = 0; b < problem_.blocks.size(); ++b) {
       const auto& block = problem_.blocks[b];
-      std::array<double, kMostRows> v{};
-      for (std::size_t k = 0; k < block.rows; ++k) {
-        const std::size_t r = block.row + k;
-        v[k] = problem_.rows[r].offset + problem_.product(r, motions_);
-      }
-      const double* p = &problem_.impulses[block.row];
-      residuals_[b] = residual_of(block, problem_.lifts_sliding, v.data(), p, &w_[block.row]);
+      for (std::size_t r = block.row; r < block.row + block.rows; ++r)
+        values_[r] = problem_.rows[r].offset + problem_.product(r, motions_);
+      residuals_[b] = residual_of(block, problem_.lifts_sliding, &values_[block.row],
+                                  &problem_.impulses[block.row], &w_[block.row]);
       const double share = residuals_[b].share(block);
       residual_ = largest_or_nan(residual_, share);
     }
@@ -285,6 +381,7 @@ class Iteration {
   ContactSweeps<D> sweeps_;
   ConstraintStart start_;
   std::optional<ProximalStep<D>> proximal_;
+  std::vector<double> values_;  // of the rows
   std::vector<double> best_impulses_;
   std::vector<Motion<D>> motions_;
   std::vector<BlockResidual> residuals_;

@@ -30,9 +30,11 @@ enum class ConstraintStart {
 /// Improves problem.impulses until the residual of each block is allowed, or until about
 /// `max_iterations` sweeps, factorisations and solutions with factors are done.
 ///
-/// Sweeps begin and go on as long as they gain. Steps of the proximal method
-/// (proximal_step.hpp) follow, whose epsilon falls after a step that Newton's method solved easily
-/// and grows after one that it did not solve. The solution returned is the best that was found.
+/// Sweeps begin and go on as long as they gain. For Coulomb's law, steps of the proximal method
+/// (proximal_step.hpp) follow, whose epsilon falls after a step that was solved easily and grows
+/// after one that was not solved. The convex relaxation (5.9) is solved by interior points
+/// (interior_points.hpp), and proximal steps make the solution accurate. The solution returned is
+/// the best that was found.
 template <int D>
 ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations,
                                         ConstraintStart start = ConstraintStart::kSweeps);

@@ -235,6 +235,7 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   problem_ = {};
   problem_.lifts_sliding =
       step_.laws.friction && step_.laws.friction->method == FrictionMethod::kConvex;
+  problem_.is_rough = is_rough;
   number_units(system);
   for (std::size_t c = 0; c < system.contacts.size(); ++c)
     add_contact(system.contacts[c], c, allowed_slip);

@@ -18,17 +18,8 @@ ProximalStep<D>::ProximalStep(const ConstraintProblem<D>& problem, const std::ve
       projected_(problem.rows.size()),
       branches_(problem.blocks.size()),
       direction_(problem.units.size(), Motion<D>{}),
-      error_(problem.units.size()) {
-  std::vector<typename BlockFactor<kMotion>::Edge> edges;
-  for (const auto& block : problem.blocks) {
-    first_edge_.push_back(edges.size());
-    const auto parts = problem.parts_of(block.row);
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      for (std::size_t j = i + 1; j < parts.size(); ++j)
-        edges.push_back({parts[i].unit, parts[j].unit});
-  }
-  factor_.analyse(problem.units.size(), edges);
-}
+      error_(problem.units.size()),
+      matrix_(problem) {}
 
 template <int D>
 void ProximalStep<D>::set_epsilon(double epsilon) {
@@ -72,13 +63,12 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const d
   return branch;
 }
 
-/// The projection of the convex relaxation (5.9). Whether the solids carry load is decided by the
-/// impulses before the step, because the film and the cone together are not a convex set.
+/// The projection of the convex relaxation (5.9).
 template <int D>
 typename ProximalStep<D>::Branch ProximalStep<D>::project_relaxed(std::size_t b, const double* q,
                                                                   double* p) const {
   const auto& block = problem_.blocks[b];
-  if (!is_in_cone(block, true, center_[block.row])) {
+  if (!block.is_in_cone) {
     p[0] = std::max(q[0], block.lowest);
     std::fill_n(p + 1, block.rows - 1, 0.0);
     return {q[0] > block.lowest};
@@ -131,27 +121,6 @@ double ProximalStep<D>::error_at(double t, bool is_kept) {
   return std::sqrt(sum);
 }
 
-/// Adds weight * row^T other to the matrix, for two rows of block `b`.
-template <int D>
-void ProximalStep<D>::add_product(std::size_t b, std::size_t row, std::size_t other,
-                                  double weight) {
-  constexpr auto k = static_cast<std::size_t>(kMotion);
-  const auto add = [&](auto& into, const Motion<D>& left, const Motion<D>& right) {
-    for (std::size_t i = 0; i < k; ++i)
-      for (std::size_t j = 0; j < k; ++j) into[i * k + j] += weight * left[i] * right[j];
-  };
-  const auto left = problem_.parts_of(row), right = problem_.parts_of(other);
-  auto edge = first_edge_[b];
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    add(factor_.diagonal(static_cast<std::size_t>(left[i].unit)), left[i].coefficients,
-        right[i].coefficients);
-    for (std::size_t j = i + 1; j < left.size(); ++j, ++edge) {
-      add(factor_.off_diagonal(edge, 0), left[i].coefficients, right[j].coefficients);
-      add(factor_.off_diagonal(edge, 1), left[j].coefficients, right[i].coefficients);
-    }
-  }
-}
-
 /// Adds J^T (-dP/dy) of a block to the matrix.
 template <int D>
 void ProximalStep<D>::add_block(std::size_t b) {
@@ -160,16 +129,17 @@ void ProximalStep<D>::add_block(std::size_t b) {
   const auto branch = branches_[b];
   if (!block.is_contact) {
     for (std::size_t k = 0; k < block.rows; ++k)
-      add_product(b, block.row + k, block.row + k, rho[k] / (1 + rho[k] * block.compliance));
+      matrix_.add_product(b, block.row + k, block.row + k,
+                          rho[k] / (1 + rho[k] * block.compliance));
     return;
   }
   const bool is_on_cone = problem_.lifts_sliding && (branch.friction == Friction::kSlips ||
                                                      branch.friction == Friction::kSlipsBack);
-  if (branch.is_closed && !is_on_cone) add_product(b, block.row, block.row, rho[0]);
+  if (branch.is_closed && !is_on_cone) matrix_.add_product(b, block.row, block.row, rho[0]);
   if (branch.friction == Friction::kNone) return;
   if (branch.friction == Friction::kSticks) {
     for (std::size_t k = 1; k < block.rows; ++k)
-      add_product(b, block.row + k, block.row + k, rho[k]);
+      matrix_.add_product(b, block.row + k, block.row + k, rho[k]);
     return;
   }
   // p_t = mu_s (p_n - capacity) q_t/|q_t|.
@@ -185,52 +155,37 @@ void ProximalStep<D>::add_block(std::size_t b) {
     const double weight = 1 / (1 / rho[0] + block.friction * block.friction / rho[1]);
     for (std::size_t k = 0; k < block.rows; ++k)
       for (std::size_t l = 0; l < block.rows; ++l)
-        add_product(b, block.row + k, block.row + l, weight * generator[k] * generator[l]);
+        matrix_.add_product(b, block.row + k, block.row + l, weight * generator[k] * generator[l]);
   } else if (branch.is_closed) {
     for (std::size_t k = 1; k < block.rows; ++k)
-      add_product(b, block.row + k, block.row, rho[0] * block.friction * q[k] / length);
+      matrix_.add_product(b, block.row + k, block.row, rho[0] * block.friction * q[k] / length);
   }
   if (block.rows < 3) return;
   const double factor = rho[1] * block.bound(projected_[block.row]) / length;
   for (std::size_t k = 1; k < 3; ++k)
     for (std::size_t l = 1; l < 3; ++l)
-      add_product(b, block.row + k, block.row + l,
-                  factor * ((k == l ? 1 : 0) - q[k] * q[l] / square));
+      matrix_.add_product(b, block.row + k, block.row + l,
+                          factor * ((k == l ? 1 : 0) - q[k] * q[l] / square));
 }
 
 template <int D>
 bool ProximalStep<D>::factorise() {
-  constexpr auto k = static_cast<std::size_t>(kMotion), d = static_cast<std::size_t>(D);
-  factor_.clear();
-  for (std::size_t u = 0; u < problem_.units.size(); ++u) {
-    const auto& unit = problem_.units[u];
-    auto& block = factor_.diagonal(u);
-    for (std::size_t i = 0; i < d; ++i) block[i * k + i] = unit.inverse_mobility;
-    for (std::size_t i = d; i < k; ++i)
-      for (std::size_t j = d; j < k; ++j)
-        block[i * k + j] = unit.inverse_turn_mobility[(i - d) * (k - d) + j - d];
-  }
+  matrix_.set_to_masses();
   for (std::size_t b = 0; b < problem_.blocks.size(); ++b) add_block(b);
   factored_ = branches_;
-  has_factor_ = factor_.factorise();
+  has_factor_ = matrix_.factorise();
   return has_factor_;
 }
 
 /// Sets the direction of Newton's method at the present error.
 template <int D>
 void ProximalStep<D>::find_direction() {
-  constexpr auto k = static_cast<std::size_t>(kMotion);
-  std::vector<double> values(error_.size() * k);
-  for (std::size_t u = 0; u < error_.size(); ++u)
-    for (std::size_t i = 0; i < k; ++i) values[u * k + i] = error_[u][i];
-  factor_.solve(values);
-  for (std::size_t u = 0; u < error_.size(); ++u)
-    for (std::size_t i = 0; i < k; ++i) direction_[u][i] = values[u * k + i];
+  direction_ = matrix_.solution_of(error_);
   for (std::size_t r = 0; r < problem_.rows.size(); ++r)
     changes_[r] = problem_.product(r, direction_);
 }
 
-/// Length of a step that makes the error fall.
+/// Length of a step that makes the error fall; 0 if none was found.
 template <int D>
 double ProximalStep<D>::length_of_step(double before) {
   if (problem_.lifts_sliding) return length_to_minimum();
@@ -239,8 +194,8 @@ double ProximalStep<D>::length_of_step(double before) {
   constexpr int kMostHalvings = 8;
   double length = 1;
   for (int n = 0; n < kMostHalvings; ++n, length /= 2)
-    if (error_at(length, false) <= (1 - kPromised * length) * before) break;
-  return length;
+    if (error_at(length, false) <= (1 - kPromised * length) * before) return length;
+  return 0;
 }
 
 /// Length of a step that ends near the minimum of the convex function whose gradient is the
@@ -288,17 +243,21 @@ double ProximalStep<D>::rounding_error() const {
 template <int D>
 int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
                            int max_iterations) {
-  constexpr double kExact = 1e-10;
+  constexpr double kSlow = 0.1, kExact = 1e-10;
+  constexpr int kMostPaths = 3;
+  constexpr double kLeastShare = 0.05;
   center_ = center;
   y_ = start;
   for (std::size_t r = 0; r < problem_.rows.size(); ++r)
     values_[r] = problem_.rows[r].offset + problem_.product(r, y_);
   failed_ = false;
+  paths_ = 0;
   int iterations = 0;
   const double first = error_at(0, true);
   double before = first;
   while (iterations < max_iterations) {
-    if (!has_factor_ || factored_ != branches_) {
+    const bool is_fresh = !has_factor_ || factored_ != branches_;
+    if (is_fresh) {
       ++iterations;
       if (!factorise()) failed_ = true;
       if (failed_) break;
@@ -306,17 +265,35 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     ++iterations;
     find_direction();
     const double length = length_of_step(before);
-    for (std::size_t u = 0; u < y_.size(); ++u)
-      for (std::size_t k = 0; k < y_[u].size(); ++k) y_[u][k] += length * direction_[u][k];
-    for (std::size_t r = 0; r < values_.size(); ++r) values_[r] += length * changes_[r];
     const auto last = factored_;
+    if (length == 0) {
+      if (before <= rounding_error()) break;
+      failed_ = D == 3 || paths_ == kMostPaths;
+      if (failed_) break;
+      ++paths_;
+      error_at(0, true);
+      const double share = follow_path(iterations);
+      before = error_at(0, true);
+      if (share == 1) break;
+      failed_ = share < kLeastShare;
+      if (failed_) break;
+      continue;
+    }
+    move(length, direction_);
     const double here = error_at(0, true);
     // In the plane the equation is linear between changes of branches, so that a whole step
     // without a change ends at the solution, within rounding errors.
-    const bool is_linear = D == 2 || here <= kExact * first || here > before / 2;
+    const bool is_linear = D == 2 || here <= kExact * first ||
+                           ((is_fresh || !problem_.lifts_sliding) && here > before / 2);
+    // In space the matrix also changes along the surface of a cone.
+    if (D == 3 && problem_.lifts_sliding && !is_fresh && here > kSlow * before) has_factor_ = false;
     if (here == 0 || (length == 1 && last == branches_ && is_linear)) break;
-    if (problem_.lifts_sliding ? here <= rounding_error() : !(here < before)) {
-      failed_ = !(here <= rounding_error());
+    // The error may grow on the way to the minimum of the convex function. Within rounding errors
+    // it is made as small as it can be, because impulses that must grow do so with small errors.
+    const bool is_rounding = here <= rounding_error();
+    if (problem_.lifts_sliding ? is_rounding && has_factor_ && !(here < before / 2)
+                               : !(here < before)) {
+      failed_ = !is_rounding;
       break;
     }
     before = here;

@@ -3,11 +3,14 @@
 // constraint_solver.cpp uses it; a step that fails is no error.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <limits>
+#include <span>
 #include <vector>
 
-#include "viscontact/particles/constraints/block_factor.hpp"
 #include "viscontact/particles/constraints/constraint_problem.hpp"
+#include "viscontact/particles/constraints/unit_matrix.hpp"
 
 namespace viscontact::particles {
 
@@ -29,6 +32,12 @@ namespace viscontact::particles {
 /// block of constraints (Alart & Curnier 1991, "A mixed formulation for frictional contact problems
 /// prone to Newton like solution methods"). As long as no contact opens, closes, sticks or slips,
 /// the factors of the iteration before serve again.
+///
+/// In the plane the equation is linear between changes of branches. Where no step along the
+/// direction of Newton's method makes the error smaller, the path on which the error is a multiple
+/// of what it was is followed from branch to branch, also where it turns back (Katzenelson 1965, "An
+/// algorithm for solving nonlinear resistor networks"; Chien & Kuh 1976, "Solving piecewise-linear
+/// equations for resistive networks"). Coulomb's law of jammed particles has such turns.
 template <int D>
 class ProximalStep {
  public:
@@ -38,19 +47,22 @@ class ProximalStep {
   void set_epsilon(double epsilon);  ///< > 0; must be called before solve()
 
   /// Solves from the impulses P^k = `center` and the motions `start`. Returns the number of
-  /// factorisations and solutions with factors. Sets failed() if Newton's method made no progress.
+  /// factorisations and solutions with factors. Sets failed() if it found no solution.
   int solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
             int max_iterations);
 
-  /// True if Newton's method made no progress in the last solve().
+  /// True if the last solve() found no solution.
   bool failed() const { return failed_; }
+  /// True if the last solve() followed a path, because Newton's method made no progress.
+  bool followed_path() const { return paths_ > 0; }
   /// Impulses of the rows that the last solve() found [M L/T].
   const std::vector<double>& impulses() const { return projected_; }
   /// Motions of the units that the last solve() found [L], [rad].
   const std::vector<Motion<D>>& motions() const { return y_; }
 
  private:
-  static constexpr int kMotion = D + kTurns<D>;
+  // Each crossing costs a solution with factors, and makes the next ones a little more expensive.
+  static constexpr int kMostCrossings = 30;
   // Which branch of the projection each part of a block is in. The matrix depends on it.
   enum class Friction : unsigned char { kNone, kSticks, kSlips, kSlipsBack };
   struct Branch {
@@ -65,7 +77,21 @@ class ProximalStep {
   double error_at(double t, bool is_kept);
   bool factorise();
   void add_block(std::size_t b);
-  void add_product(std::size_t b, std::size_t row, std::size_t other, double weight);
+  struct Crossing;
+  // Where a block leaves its branch, as a multiple of the direction, and its next branch.
+  struct Exit {
+    double length = std::numeric_limits<double>::infinity();
+    Branch branch;
+  };
+  std::array<double, 4> derivatives(std::size_t b, Branch branch) const;
+  Crossing crossing_to(std::size_t b, Branch branch) const;
+  double product(const Crossing& crossing, std::span<const Motion<D>> motions) const;
+  Exit exit_of(std::size_t b, double sign) const;
+  // Follows the path, through at most kMostCrossings changes of branches, whose number it adds to
+  // `iterations`. Returns the largest share of the error that was removed on it, and leaves y_
+  // there.
+  double follow_path(int& iterations);
+  void move(double length, std::span<const Motion<D>> direction);
   void find_direction();
   double length_to_minimum();
   double rounding_error() const;
@@ -78,11 +104,9 @@ class ProximalStep {
   std::vector<double> projected_;         // P^{k+1}
   std::vector<Branch> branches_, factored_;
   std::vector<Motion<D>> y_, direction_, error_;
-  BlockFactor<kMotion> factor_;
-  // Number of the first edge of each block: one for each pair of its units, of which the first is
-  // that of the earlier part.
-  std::vector<std::size_t> first_edge_;
+  UnitMatrix<D> matrix_;
   bool has_factor_ = false, failed_ = false;
+  int paths_ = 0;  // in the last solve()
 };
 
 }  // namespace viscontact::particles

@@ -1,0 +1,190 @@
+// The second-order cone |x_1, x_2| <= x_0 of up to three dimensions, and the scaling of Nesterov &
+// Todd between a point of it and a dual one (Alizadeh & Goldfarb 2003, "Second-order cone
+// programming"; Vandenberghe 2010, "The CVXOPT linear and quadratic cone program solvers"). In one
+// dimension the cone is x_0 >= 0, and in two it is a pair of linear conditions. The numbers of a
+// point have one dimension, which is that of the square root of an energy in interior_points.hpp.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace viscontact::particles {
+
+/// A point of a cone of up to three dimensions; what is beyond its dimension is 0.
+using ConePoint = std::array<double, 3>;
+
+/// Sum of the products of the components.
+inline double inner(const ConePoint& x, const ConePoint& y) {
+  return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+}
+
+/// The distance of a point from the axis of the cone.
+inline double beside_axis(const ConePoint& x) { return std::hypot(x[1], x[2]); }
+
+/// x_0^2 - x_1^2 - x_2^2, > 0 inside the cone.
+inline double determinant(const ConePoint& x) {
+  const double beside = beside_axis(x);
+  return (x[0] - beside) * (x[0] + beside);
+}
+
+/// The product of Jordan's algebra: (x.y, x_0 y_k + y_0 x_k).
+inline ConePoint jordan_product(const ConePoint& x, const ConePoint& y) {
+  return {inner(x, y), x[0] * y[1] + y[0] * x[1], x[0] * y[2] + y[0] * x[2]};
+}
+
+/// The y with jordan_product(x, y) = z, for an x inside the cone.
+inline ConePoint jordan_quotient(const ConePoint& z, const ConePoint& x) {
+  const double y = (x[0] * z[0] - x[1] * z[1] - x[2] * z[2]) / determinant(x);
+  return {y, (z[1] - y * x[1]) / x[0], (z[2] - y * x[2]) / x[0]};
+}
+
+/// The largest t with x + t d in the cone, for an x inside it; infinity if there is none.
+inline double length_to_boundary(const ConePoint& x, const ConePoint& d) {
+  double length = std::numeric_limits<double>::infinity();
+  if (d[0] < 0) length = -x[0] / d[0];
+  // a t^2 + 2 b t + c is the determinant of x + t d.
+  const double a = determinant(d), b = x[0] * d[0] - x[1] * d[1] - x[2] * d[2], c = determinant(x);
+  const double square = b * b - a * c;
+  if (!(square >= 0)) return length;
+  const double sum = -(b + std::copysign(std::sqrt(square), b));
+  for (const double root : {sum / a, c / sum})
+    if (root > 0 && root < length) length = root;
+  return length;
+}
+
+/// The scaling W of a point u and a dual point r, both inside the cone: W^-1 u = W r.
+class ConeScaling {
+ public:
+  ConeScaling() = default;
+  /// For points inside the cone.
+  ConeScaling(const ConePoint& u, const ConePoint& r) {
+    const double of_u = std::sqrt(determinant(u)), of_r = std::sqrt(determinant(r));
+    size_ = std::sqrt(of_u / of_r);
+    const double length = std::sqrt(2 * (1 + inner(u, r) / (of_u * of_r)));
+    for (std::size_t k = 0; k < 3; ++k)
+      point_[k] = (u[k] / of_u + (k == 0 ? 1 : -1) * r[k] / of_r) / length;
+  }
+
+  /// W x.
+  ConePoint times(const ConePoint& x) const { return product(x, size_, 1); }
+  /// W^-1 x.
+  ConePoint divide(const ConePoint& x) const { return product(x, 1 / size_, -1); }
+
+  /// (W^2 + shift)^-1, row by row, computed from eigenvalues, so that points near the boundary of
+  /// the cone lose no digits.
+  std::array<ConePoint, 3> inverse_square(double shift) const {
+    const double beside = beside_axis(point_), grown = point_[0] + beside, square = size_ * size_;
+    const double low = 1 / (square * grown * grown + shift);
+    const double high = 1 / (square / (grown * grown) + shift);
+    const double across = 1 / (square + shift);
+    const ConePoint direction =
+        beside > 0 ? ConePoint{0, point_[1] / beside, point_[2] / beside} : ConePoint{0, 1, 0};
+    std::array<ConePoint, 3> inverse{};
+    inverse[0][0] = (low + high) / 2;
+    for (std::size_t k = 1; k < 3; ++k) {
+      inverse[0][k] = inverse[k][0] = (low - high) / 2 * direction[k];
+      for (std::size_t l = 1; l < 3; ++l)
+        inverse[k][l] =
+            ((low + high) / 2 - across) * direction[k] * direction[l] + (k == l ? across : 0);
+    }
+    return inverse;
+  }
+
+ private:
+  ConePoint product(const ConePoint& x, double factor, double sign) const {
+    const double beside = point_[1] * x[1] + point_[2] * x[2];
+    const double along = sign * x[0] + beside / (1 + point_[0]);
+    return {factor * (point_[0] * x[0] + sign * beside), factor * (x[1] + point_[1] * along),
+            factor * (x[2] + point_[2] * along)};
+  }
+
+  double size_ = 1;
+  ConePoint point_{1, 0, 0};  // of determinant 1
+};
+
+/// The operations that interior points need on a cone, for a second-order cone.
+struct SecondOrderCone {
+  using Scaling = ConeScaling;  ///< of Nesterov & Todd
+  /// jordan_product().
+  static ConePoint product(const ConePoint& x, const ConePoint& y) { return jordan_product(x, y); }
+  /// jordan_quotient().
+  static ConePoint quotient(const ConePoint& z, const ConePoint& x) {
+    return jordan_quotient(z, x);
+  }
+  /// The function of that name; the number of rows does not matter.
+  static double length_to_boundary(const ConePoint& x, const ConePoint& d, std::size_t) {
+    return particles::length_to_boundary(x, d);
+  }
+  /// Components of the unit of the product.
+  static ConePoint unit(std::size_t) { return {1, 0, 0}; }
+  /// The coordinates of a point in which the operations are done, and back.
+  static ConePoint coordinates(const ConePoint& x) { return x; }
+};
+
+/// The same for the cone of the plane, |x_1| <= x_0, in the coordinates (x_0 + x_1, x_0 - x_1)/2^0.5,
+/// which are positive numbers. Points near its boundary lose no digits in them. What is a half-line
+/// has the first coordinate only, and no change of coordinates.
+struct LinearCones {
+  /// W of a point u and a dual point r: the roots of the ratios of their coordinates.
+  class Scaling {
+   public:
+    Scaling() = default;
+    /// For points inside the cone.
+    Scaling(const ConePoint& u, const ConePoint& r) {
+      for (std::size_t k = 0; k < 3; ++k) square_[k] = r[k] > 0 ? u[k] / r[k] : 1;
+    }
+    /// W x.
+    ConePoint times(const ConePoint& x) const {
+      ConePoint y;
+      for (std::size_t k = 0; k < 3; ++k) y[k] = std::sqrt(square_[k]) * x[k];
+      return y;
+    }
+    /// W^-1 x.
+    ConePoint divide(const ConePoint& x) const {
+      ConePoint y;
+      for (std::size_t k = 0; k < 3; ++k) y[k] = x[k] / std::sqrt(square_[k]);
+      return y;
+    }
+    /// (W^2 + shift)^-1, row by row.
+    std::array<ConePoint, 3> inverse_square(double shift) const {
+      std::array<ConePoint, 3> inverse{};
+      for (std::size_t k = 0; k < 3; ++k) inverse[k][k] = 1 / (square_[k] + shift);
+      return inverse;
+    }
+
+   private:
+    ConePoint square_{1, 1, 1};
+  };
+  /// Products of the coordinates.
+  static ConePoint product(const ConePoint& x, const ConePoint& y) {
+    return {x[0] * y[0], x[1] * y[1], x[2] * y[2]};
+  }
+  /// The y with product(x, y) = z; 0 where there is no coordinate.
+  static ConePoint quotient(const ConePoint& z, const ConePoint& x) {
+    ConePoint y{};
+    for (std::size_t k = 0; k < 3; ++k)
+      if (x[k] != 0) y[k] = z[k] / x[k];
+    return y;
+  }
+  /// The largest t with x + t d in the cone, for an x inside it that has `rows` coordinates.
+  static double length_to_boundary(const ConePoint& x, const ConePoint& d, std::size_t rows) {
+    double length = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < rows; ++k)
+      if (d[k] < 0) length = std::min(length, -x[k] / d[k]);
+    return length;
+  }
+  /// Coordinates of the unit of the product.
+  static ConePoint unit(std::size_t rows) { return {1, rows > 1 ? 1.0 : 0.0, 0}; }
+  /// The coordinates of a point, and back: the change is its own inverse.
+  static ConePoint coordinates(const ConePoint& x) {
+    const double half = std::numbers::sqrt2 / 2;
+    return {half * (x[0] + x[1]), half * (x[0] - x[1]), 0};
+  }
+};
+
+}  // namespace viscontact::particles

@@ -1,0 +1,87 @@
+// The convex relaxation of friction (5.9) of docs/physics.md by interior points
+// (constraint_problem.hpp). Units are those of the case.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+#include "viscontact/particles/constraints/cone.hpp"
+#include "viscontact/particles/constraints/constraint_problem.hpp"
+#include "viscontact/particles/constraints/unit_matrix.hpp"
+
+namespace viscontact::particles {
+
+/// Finds motions y and impulses that minimise |y - y*|^2/2 in the norm of M/h subject to
+///
+///     u = (gap, mu_s slip) in the cone of a contact that rubs, with the dual point
+///     r = (p_n - capacity, p_t/mu_s) in the same cone and u.r = 0,
+///     gap >= 0 of the other contacts, with the dual p_n - lowest >= 0,
+///     bilateral rows as equations,
+///
+/// by the predictor-corrector method of Mehrotra (1992), scaled after Nesterov & Todd (1997,
+/// "Self-scaled barriers and interior-point methods for convex programming"). Each iteration
+/// factorises a UnitMatrix. The number of iterations hardly depends on the problem, whether or not
+/// its rows are redundant: a small multiple of the change of r in an iteration is added to u, as in
+/// the proximal method. This change vanishes at the solution, and keeps the matrix regular.
+template <int D>
+class InteriorPoints {
+ public:
+  /// `problem` must outlive this object; `w` are its row_mobilities().
+  InteriorPoints(const ConstraintProblem<D>& problem, const std::vector<double>& w);
+
+  /// Solves the problem until what is left of all its conditions is `accuracy` of what they are
+  /// without impulses, in (0, 1), and returns the number of factorisations. Stops early where rounding errors make a
+  /// matrix singular, or after `max_iterations`.
+  int solve(double accuracy, int max_iterations);
+
+  /// Impulses of the rows that the last solve() found [M L/T].
+  const std::vector<double>& impulses() const { return impulses_; }
+
+ private:
+  static constexpr std::size_t kMotion = static_cast<std::size_t>(D + kTurns<D>);
+  using Cone = std::conditional_t<D == 2, LinearCones, SecondOrderCone>;
+  enum class Role : unsigned char { kEquation, kBound, kCone };
+  // A block, whose numbers are scaled so that impulses and displacements have one unit, in which
+  // the mobility of its first row is 1.
+  struct Part {
+    Role role = Role::kBound;
+    std::size_t rows = 1;
+    ConePoint scale{};   // of its rows
+    double base = 0;     // impulse at which r is 0 [M L/T]
+    ConePoint u{}, r{};  // the present point
+    ConePoint change_of_u{}, change_of_r{};
+    double compliance = 0;  // of an equation
+    // Of a cone, the value of the rows less u; of an equation, what should be 0.
+    ConePoint error{};
+    ConePoint goal{};  // W^2 dr + du
+    typename Cone::Scaling scaling;
+    std::array<ConePoint, 3> inverse{};  // d(r)/d(goal - error)
+  };
+  // Number of linear conditions that a cone is, and the share of a second-order cone in the mean u.r.
+  static double degree(const Part& part) {
+    return inner(Cone::unit(part.rows), Cone::unit(part.rows));
+  }
+  void set_parts();
+  ConePoint impulse_of(const Part& part, const ConePoint& r) const;
+  ConePoint values(std::size_t b, bool with_offset, const std::vector<Motion<D>>& y) const;
+  void add_impulse(std::size_t b, const ConePoint& r, std::vector<Motion<D>>& to) const;
+  double measure();
+  bool factorise();
+  void find_direction();
+  double length_to_boundary() const;
+  void set_corrector(double gap_before, double length);
+  void move(double length);
+  void take_impulses();
+
+  const ConstraintProblem<D>& problem_;
+  const std::vector<double>& w_;
+  UnitMatrix<D> matrix_;
+  std::vector<Part> parts_;
+  std::vector<Motion<D>> y_, direction_, error_;  // error_: impulses that are missing
+  std::vector<double> impulses_;
+  double gap_ = 0;  // mean u.r of the cones
+};
+
+}  // namespace viscontact::particles

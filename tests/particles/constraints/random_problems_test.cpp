@@ -1,0 +1,168 @@
+// Random problems with friction against the conditions that their solutions obey, docs/physics.md
+// (5.7) and (5.9): in the plane and in space, with films, bilateral rows, redundant contacts, masses
+// in the ratio 1e4, friction up to 2, in other units and in another order.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "tests/particles/constraints/random_constraints.hpp"
+#include "viscontact/particles/constraints/constraint_solver.hpp"
+#include "viscontact/particles/constraints/interior_points.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+// Residuals are allowed up to this part of the size of the problem. It is far above rounding errors
+// of masses in the ratio 1e4.
+constexpr double kAllowed = 1e-9;
+// A residual bounds what is missing from each condition but for a factor that depends on mu_s, which
+// is at most (1 + mu_s)^2 < 10.
+constexpr double kTolerance = 10 * kAllowed;
+
+template <int D>
+void allow(ConstraintProblem<D>& problem) {
+  const double size = size_of(problem);
+  for (auto& block : problem.blocks) block.allowed = block.allowed_slip = kAllowed * size;
+}
+
+/// Checks each condition of (5.4), (5.7) and (5.9) by itself.
+template <int D>
+void expect_solved(const ConstraintProblem<D>& problem, const std::vector<double>& impulses,
+                   double tolerance) {
+  const auto y = motions<D>(problem, impulses);
+  const auto w = row_mobilities<D>(problem);
+  const double size = size_of(problem), length = tolerance * size;
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+    SCOPED_TRACE(b);
+    const auto& block = problem.blocks[b];
+    std::vector<double> v, p;
+    for (std::size_t k = 0; k < block.rows; ++k) {
+      v.push_back(problem.rows[block.row + k].offset + problem.product(block.row + k, y));
+      p.push_back(impulses[block.row + k]);
+    }
+    if (!block.is_contact) {
+      for (std::size_t k = 0; k < block.rows; ++k)
+        EXPECT_NEAR(v[k] + block.compliance * p[k], 0, length);
+      continue;
+    }
+    const double impulse = length / w[block.row];
+    EXPECT_GE(v[0], -length);
+    EXPECT_GE(p[0], block.lowest - impulse);
+    if (block.rows == 1) {
+      if (v[0] > length) {
+        EXPECT_NEAR(p[0], block.lowest, impulse);
+      }
+      continue;
+    }
+    const double slip = D == 3 ? std::hypot(v[1], v[2]) : std::abs(v[1]);
+    const double rubbing = D == 3 ? std::hypot(p[1], p[2]) : std::abs(p[1]);
+    const double load = std::max(p[0] - block.capacity, 0.0), bound = block.friction * load;
+    EXPECT_LE(rubbing, bound + impulse);
+    const double lift = problem.lifts_sliding && load > impulse ? block.friction * slip : 0;
+    if (v[0] > lift + length && !(problem.lifts_sliding && load > 0)) {
+      EXPECT_NEAR(p[0], block.lowest, impulse);
+    }
+    if (load > impulse && problem.lifts_sliding) {
+      EXPECT_NEAR(v[0], lift, length);
+    }
+    if (slip > length && load > impulse) {
+      // Friction is at its bound, and against the slip.
+      EXPECT_NEAR(rubbing, bound, impulse);
+      for (std::size_t k = 1; k < block.rows; ++k)
+        EXPECT_NEAR(p[k], -bound * v[k] / slip, impulse + bound * length / slip);
+    }
+  }
+  // No impulse does work.
+  std::vector<Motion<D>> free;
+  for (const auto& unit : problem.units) free.push_back(unit.free);
+  EXPECT_LE(square_of(problem, y), (1 + tolerance) * square_of(problem, free));
+}
+
+template <int D>
+void solve_random_problems(bool lifts_sliding, bool has_films) {
+  unsigned seed = 0;
+  for (const double friction : {0.0, 0.1, 0.5, 1.0, 2.0})
+    for (const double ratio : {1.0, 1e4})
+      for (const bool has_links : {false, true})
+        for (const int contacts : {4, 12, 24}) {
+          ++seed;
+          SCOPED_TRACE(seed);
+          RandomConstraints what;
+          what.contacts = contacts;
+          what.friction = friction;
+          what.largest_mass_ratio = ratio;
+          what.has_links = has_links;
+          what.has_films = has_films;
+          auto problem = random_constraints<D>(what, {}, seed);
+          problem.lifts_sliding = lifts_sliding;
+          allow(problem);
+          const auto solution = solve_constraints(problem, 10000);
+          EXPECT_LE(solution.result.residual, 1);
+          expect_solved(problem, problem.impulses, kTolerance);
+        }
+}
+
+TEST(RandomConstraintProblems, ObeyCoulombsLawInThePlane) {
+  solve_random_problems<2>(false, false);
+}
+TEST(RandomConstraintProblems, ObeyCoulombsLawInSpace) { solve_random_problems<3>(false, false); }
+TEST(RandomConstraintProblems, ObeyCoulombsLawWithFilms) { solve_random_problems<2>(false, true); }
+TEST(RandomConstraintProblems, ObeyTheRelaxationInThePlane) {
+  solve_random_problems<2>(true, false);
+}
+TEST(RandomConstraintProblems, ObeyTheRelaxationInSpace) { solve_random_problems<3>(true, false); }
+
+TEST(InteriorPointsOfFriction, SolveRedundantProblemsInThePlane) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomConstraints what;
+    what.contacts = 24;
+    what.friction = 0.05 * seed;
+    what.has_links = seed % 2 == 0;
+    auto problem = random_constraints<2>(what, {}, seed);
+    problem.lifts_sliding = true;
+    const auto w = row_mobilities<2>(problem);
+    InteriorPoints<2> interior(problem, w);
+    // The method is known for 10 to 40 iterations, whatever the problem is.
+    EXPECT_LE(interior.solve(1e-8, 100), 40);
+    // A residual bounds what is missing from a condition but for a factor below 10, as above.
+    expect_solved(problem, interior.impulses(), 1e-7);
+  }
+}
+
+TEST(InteriorPointsOfFriction, MotionsAreTheSameInAllUnitsAndOrders) {
+  Random random(3);
+  RandomConstraints what;
+  what.contacts = 24;
+  what.largest_mass_ratio = 10;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    auto plain = random_constraints<3>(what, {}, seed);
+    plain.lifts_sliding = true;
+    allow(plain);
+    auto turned = plain;
+    std::ranges::reverse(turned.blocks);
+    const auto decades = [&] { return random.decades(-5, 5); };
+    const ProblemUnits in{decades(), decades(), decades()};
+    auto scaled = random_constraints<3>(what, in, seed);
+    scaled.lifts_sliding = true;
+    allow(scaled);
+    const auto expected = solve_constraints(plain, 10000).motions;
+    const auto reversed = solve_constraints(turned, 10000).motions;
+    const auto other = solve_constraints(scaled, 10000).motions;
+    // Motions are unique. They are the minimum of a quadratic function, along which residuals of
+    // 1e-9 allow about their root times the ratio of the masses' roots where contacts are redundant.
+    constexpr double kUnique = 1e-3;
+    for (std::size_t u = 0; u < expected.size(); ++u)
+      for (std::size_t k = 0; k < 6; ++k) {
+        EXPECT_NEAR(reversed[u][k], expected[u][k], kUnique);
+        EXPECT_NEAR(other[u][k] / (k < 3 ? in.length : 1), expected[u][k], kUnique);
+      }
+  }
+}
+
+}  // namespace
+}  // namespace viscontact::particles
