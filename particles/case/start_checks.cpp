@@ -295,16 +295,14 @@ void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
   }
 }
 
-/// Checks what a fluid with inertia needs of its particles.
+/// Checks what a fluid with inertia needs of its particles. With a penalty the inertia of a particle is
+/// that of a very viscous fluid of uniform density.
 void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
                    const ParticleNames& names) {
   const auto& fluid = *c.setting.fluid;
   if (!fluid.has_inertia()) return;
   const auto& p = c.particles;
-  const auto section = root.section("fluid");
-  section.require(p.bodies.empty() && c.setting.links.empty(), "density",
-                  "is > 0, and the case has rigid bodies or links, which this version computes in "
-                  "Stokes flow only; it must be 0, or bodies and links left out");
+  constexpr double kRounding = 1e-9;
   for (std::size_t k = 0; k < p.count(); ++k) {
     if (is_driven(c, static_cast<std::int32_t>(k))) continue;
     if (!(p.masses[k] > 0))
@@ -321,8 +319,6 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
                                   "gives the particle its velocity; the velocity must be left out, "
                                   "or fluid.start be \"rest\"",
                                   names(k)));
-    // Inertia of a viscous body is that of its density, which is uniform.
-    constexpr double kRounding = 1e-9;
     if (fluid.constraint == RigidConstraint::kRigid || p.inertias.empty()) continue;
     const double uniform = fluid.homogeneous_inertia_of(k, p.masses[k], p.radii[k]);
     if (std::abs(p.inertias[k] - uniform) > kRounding * uniform)
@@ -332,6 +328,22 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
                       "constraint = \"penalty\" it must be that of a uniform particle, {}, "
                       "or the constraint \"rigid\"",
                       names(k), p.inertias[k], uniform));
+  }
+  if (fluid.constraint == RigidConstraint::kRigid) return;
+  for (std::size_t b = 0; b < p.bodies.count(); ++b) {
+    const auto& body = p.bodies.bodies[b];
+    const auto masses = member_masses(body, p);
+    double uniform = 0;
+    for (std::size_t m = 0; m < masses.size(); ++m) {
+      const auto k = index_of(body.members[m]);
+      uniform += masses[m] * dot(body.offsets[m], body.offsets[m]) +
+                 fluid.homogeneous_inertia_of(k, masses[m], p.radii[k]);
+    }
+    root.sections("body")[b].require(
+        std::abs(body.inertia[8] - uniform) <= kRounding * uniform, "moment_of_inertia",
+        "is {}; in a fluid with a density and constraint = \"penalty\" it must be that of uniform "
+        "particles, {}, or the constraint \"rigid\"",
+        body.inertia[8], uniform);
   }
 }
 

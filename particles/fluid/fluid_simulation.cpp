@@ -37,6 +37,12 @@ double largest_of(std::span<const double> numbers) {
   return largest;
 }
 
+/// The times of the links in a step of length h that ends at `next`.
+LinkTimes times_of_links(const StepEquation& equation, double h, double next) {
+  const auto flow = equation.flow_step();
+  return {h, h, next, false, flow.from, flow.to};
+}
+
 /// Adds `numbers` to `sums`, element by element.
 void add(std::span<const double> numbers, std::span<double> sums) {
   for (std::size_t i = 0; i < numbers.size(); ++i) sums[i] += numbers[i];
@@ -74,7 +80,8 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
   }
   state_.flow.clear();
   if (setting_.links.empty() && p.bodies.empty()) return;
-  auto held = std::make_unique<HeldSolver>(std::move(solver_), error_of_answers(*setting_.fluid));
+  auto held = std::make_unique<HeldSolver>(std::move(solver_), error_of_answers(*setting_.fluid),
+                                           setting_.fluid->has_inertia());
   held_ = held.get();
   solver_ = std::move(held);
 }
@@ -97,8 +104,8 @@ void FluidSimulation::begin_flow(double h) {
   bodies.flow_step.order = 0;
   bodies.flow_step.time = state_.time;
   if (held_ != nullptr) {
-    const HeldMotion held(setting_.links, state_.particles, LinkTimes{h, h, state_.time + h},
-                          equation.link_times());
+    const HeldMotion held(setting_.links, state_.particles,
+                          times_of_links(equation, h, state_.time + h), equation.link_times());
     held_->hold(held.rows(), h);
   }
   solver_->place(bodies);
@@ -323,7 +330,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   // An impact changes the inertia of its particles, and with it the problem.
   for (int iterations = 0;;) {
     if (held_ != nullptr) {
-      held.emplace(setting_.links, state_.particles, LinkTimes{h, h, next}, equation.link_times());
+      held.emplace(setting_.links, state_.particles, times_of_links(equation, h, next),
+                   equation.link_times());
       held_->hold(held->rows(), h);
     }
     solver_->place(equation.bodies());

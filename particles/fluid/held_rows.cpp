@@ -116,6 +116,17 @@ void HeldMotion::add_entries(const LinkPart& part, HeldRow& row) const {
 
 std::vector<HeldRow> HeldMotion::rows() const { return rows_of(in_rows_); }
 
+/// The rate of a hinge or an arm in the velocities. Those of a step take away what is left of the
+/// equation; those at its beginning are the rate at that time, because the momentum of the fluid must
+/// not have what corrects a place.
+double HeldMotion::rate_of(const LinkEquations& link, const LinkRow& row) const {
+  if (!(times_.rate_to > times_.rate_from)) return -row.value / times_.h;
+  if (link.kind != LinkEquations::Kind::kArm) return 0;
+  const auto& length = links_.arms[link.number].length;
+  return (length_at(length, times_.rate_to) - length_at(length, times_.rate_from)) /
+         (times_.rate_to - times_.rate_from);
+}
+
 /// The rows of the bodies at their present places, and of the links in these equations.
 std::vector<HeldRow> HeldMotion::rows_of(const std::vector<LinkEquations>& equations) const {
   std::vector<HeldRow> rows;
@@ -130,7 +141,7 @@ std::vector<HeldRow> HeldMotion::rows_of(const std::vector<LinkEquations>& equat
       row.image_rate = image_rate(equation, particles_.cell);
       row.stiffness = equation.stiffness;
       row.extension = equation.extension;
-      if (!(row.stiffness > 0)) row.rate = -equation.value / times_.h;
+      if (!(row.stiffness > 0)) row.rate = rate_of(link, equation);
       rows.push_back(std::move(row));
     }
   }

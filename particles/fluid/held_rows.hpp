@@ -88,6 +88,7 @@ class HeldMotion {
   double link_time(std::int32_t particle) const;
   double link_time(const LinkEquations& link) const;
   std::size_t arm(std::size_t k) const;
+  double rate_of(const LinkEquations& link, const LinkRow& row) const;
   double sum_of(const LinkRow& row, std::span<const double> velocities) const;
   std::vector<HeldRow> rows_of(const std::vector<LinkEquations>& equations) const;
   void add_entries(const LinkPart& part, HeldRow& row) const;

@@ -21,8 +21,8 @@ constexpr double kAboveErrors = 10;
 
 }  // namespace
 
-HeldSolver::HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error)
-    : solver_(std::move(solver)), relative_error_(relative_error) {}
+HeldSolver::HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error, bool has_inertia)
+    : solver_(std::move(solver)), relative_error_(relative_error), has_inertia_(has_inertia) {}
 
 void HeldSolver::hold(std::vector<HeldRow> rows, double h) {
   rows_ = std::move(rows);
@@ -64,13 +64,19 @@ void HeldSolver::place(const FluidParticles& bodies) {
     responses_.push_back(solver_->velocities(forces, false));
     matrix_.col(r) = sums(responses_.back());
   }
-  matrix_ = (matrix_ + matrix_.transpose().eval()) / 2;
+  if (!has_inertia_) matrix_ = (matrix_ + matrix_.transpose().eval()) / 2;
   if (n > 0) factorise();
 }
 
 double HeldSolver::theta(Index r) const {
   const auto& row = rows_[static_cast<std::size_t>(r)];
   const double of_row = h_ * row.stiffness * matrix_(r, r);
+  if (has_inertia_) {
+    // Keeps 1/theta finite, and changes a force by less than its error.
+    constexpr double kLeast = 1e-9;
+    const double z = of_row * of_row;
+    return std::isfinite(z) ? std::max(kLeast, 2 * z / (2 + z)) : 2;
+  }
   const double z = row.accelerates ? of_row * of_row : of_row;
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
@@ -99,16 +105,18 @@ void HeldSolver::factorise() {
   const double noise = kAboveErrors * relative_error_;
   factor_.setThreshold(noise);
   if (!fixed_.empty()) factor_.compute(fixed_matrix_);
-  coupling_ = scaled(fixed_, springs_);
+  coupling_ = scaled(springs_, fixed_);
   if (springs_.empty()) return;
-  spring_responses_ = solve_fixed(coupling_);
-  spring_matrix_ = scaled(springs_, springs_) - coupling_.transpose() * spring_responses_;
+  spring_responses_ = solve_fixed(scaled(fixed_, springs_));
+  spring_matrix_ = scaled(springs_, springs_) - coupling_ * spring_responses_;
   // Where the other rows leave no motion, a stiff spring must not see the errors of the answers.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
       (spring_matrix_ + spring_matrix_.transpose()) / 2);
   const Eigen::VectorXd kept =
-      modes.eigenvalues().unaryExpr([&](double x) { return x > noise ? x : 0; });
-  spring_matrix_ = modes.eigenvectors() * kept.asDiagonal() * modes.eigenvectors().transpose();
+      modes.eigenvalues().unaryExpr([&](double x) { return x > noise ? 1.0 : 0.0; });
+  const Eigen::MatrixXd projection =
+      modes.eigenvectors() * kept.asDiagonal() * modes.eigenvectors().transpose();
+  spring_matrix_ = projection * spring_matrix_ * projection;
 }
 
 /// The scaled forces of the rows without stiffness that add each column to their scaled sums.
@@ -126,7 +134,7 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
   Eigen::VectorXd of_fixed = solve_fixed(scaled(fixed_));
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(right.size());
   if (with_springs && !springs_.empty()) {
-    const Eigen::VectorXd rest = scaled(springs_) - coupling_.transpose() * of_fixed;
+    const Eigen::VectorXd rest = scaled(springs_) - coupling_ * of_fixed;
     Eigen::MatrixXd matrix = spring_matrix_;
     for (std::size_t i = 0; i < springs_.size(); ++i) {
       const Index r = springs_[i];

@@ -39,14 +39,22 @@ struct HeldRow {
 /// between particles that accelerate z^2 stands for z, because z = (omega h)^2 theta is small there of
 /// second order, and an oscillation that the step resolves must not be damped.
 ///
+/// In a fluid with inertia the velocities are those at the beginning of the step, where the extensions
+/// are known, and theta = 2 z^2/(2 + z^2): a spring that the step resolves has the force at that time
+/// up to the second order of the step, and a stiff one is damped. The limit 2 is above 1 because the
+/// step extrapolates velocities by half of their change: with V = -x/theta, x^{n+1} = x^n + 3/2 V^n -
+/// 1/2 V^{n-1} would not decay with theta = 1. S is not symmetric there, because moving fluid carries
+/// what a force does.
+///
 /// A S A^T of rows that depend on each other is singular but for the errors of the answers. Its
 /// rank is found without the springs, whose compliance 1/(theta h stiffness) may be far larger or
 /// smaller than all other entries: the rows without stiffness are eliminated first, and the springs
 /// see the mobility that is left.
 class HeldSolver : public FluidSolver {
  public:
-  /// `relative_error` > 0 is that of the answers of `solver`.
-  HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error);
+  /// `relative_error` > 0 is that of the answers of `solver`; `has_inertia` says whether its fluid has
+  /// inertia.
+  HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error, bool has_inertia);
 
   /// Sets the rows that hold from the next placement on, in steps of length h > 0 [T].
   void hold(std::vector<HeldRow> rows, double h);
@@ -80,7 +88,8 @@ class HeldSolver : public FluidSolver {
   /// do [L/T, 1/T].
   std::vector<double> row_forces_for(std::span<const double> changes) const;
 
-  /// The theta of each row, 1/2 to 1; of rows without stiffness 1/2.
+  /// The theta of each row, 1/2 to 1, in a fluid with inertia up to 2; of rows without stiffness the
+  /// least one.
   std::vector<double> thetas() const;
 
   /// True if row `r` is a spring whose oscillation is too fast for the step, or whose relaxation is
@@ -113,12 +122,13 @@ class HeldSolver : public FluidSolver {
 
   std::unique_ptr<FluidSolver> solver_;
   double relative_error_;
+  bool has_inertia_;
   double h_ = 0;
   std::vector<HeldRow> rows_;
   std::vector<std::vector<double>> responses_;  // S A^T of each row
   Eigen::MatrixXd matrix_;                      // A S A^T
-  // The parts of the matrix in scaled rows: of the rows without stiffness (fixed), of both kinds,
-  // and what is left of that of the springs while the others hold.
+  // The parts of the matrix in scaled rows: of the rows without stiffness (fixed), of springs for
+  // forces of the fixed rows, and what is left of that of the springs while the others hold.
   std::vector<Eigen::Index> fixed_, springs_;
   Eigen::VectorXd scale_;
   Eigen::MatrixXd fixed_matrix_, coupling_, spring_responses_, spring_matrix_;

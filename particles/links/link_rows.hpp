@@ -63,6 +63,9 @@ struct LinkTimes {
   /// Whether it is the first step of a simulation. There is no step before it, so that Newmark's
   /// method takes the change of an extension in that step from the rate at the start.
   bool is_first = false;
+  /// Times [T] between which arms have their mean rate in the velocities, where these are not those
+  /// of the step but at its beginning (a fluid with inertia); both 0 elsewhere.
+  double rate_from = 0, rate_to = 0;
 };
 
 /// The equations of all links. Springs are integrated by Newmark's method with beta = 1/4 (Newmark
