@@ -27,6 +27,44 @@ TEST(RefusedEllipse, InABodyOrWithASolverThatKnowsDiscsOnly) {
                     "solver", "is a program of the user's own, which knows discs only");
 }
 
+// A very viscous fluid has the inertia of its density.
+TEST(RefusedBody, WithAMomentOfInertiaOfItsOwnByPenaltyInAFluidWithInertia) {
+  const auto with = [](const std::string& fluid, const std::string& body) {
+    return R"(title = "A body"
+[space]
+dimension = 2
+[fluid]
+viscosity = 1.0
+density = 1.0
+)" + fluid +
+           R"([domain]
+box = { from = [0.0, 0.0], to = [8.0, 8.0] }
+[viscous_contact]
+time_step = 0.1
+end_time = 1.0
+[[particle]]
+centre = [2.0, 4.0]
+radius = 1.0
+mass = 2.0
+[[particle]]
+centre = [5.0, 4.0]
+radius = 1.0
+mass = 2.0
+[[body]]
+particles = [0, 1]
+)" + body;
+  };
+  // 2 (1/2 + 1.5^2) for each disc.
+  for (const std::string allowed : {"", "moment_of_inertia = 11.0\n"})
+    EXPECT_EQ(read_particles_text(with("", allowed)).particles.bodies.count(), 1U);
+  EXPECT_EQ(read_particles_text(with("constraint = \"rigid\"\n", "moment_of_inertia = 12.0\n"))
+                .particles.bodies.count(),
+            1U);
+  expect_refused_at(with("", "moment_of_inertia = 12.0\n"), "moment_of_inertia",
+                    "is 12; in a fluid with a density and constraint = \"penalty\" it must be that "
+                    "of uniform particles, 11, or the constraint \"rigid\"");
+}
+
 TEST(RefusedVelocity, AtTheStartOfAStokesFlow) {
   const auto text = changed(kDiscsInDisc, "viscosity = 2.0",
                             "viscosity = 2.0\ndensity = 1.0\nstart = \"stokes\"");
