@@ -108,6 +108,13 @@ Eigen::VectorXd MembraneCurve::area_row(const Eigen::VectorXd& positions) const 
   return row;
 }
 
+Eigen::MatrixXd MembraneCurve::area_hessian() const {
+  Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(2 * n_, 2 * n_);
+  hessian.topRightCorner(n_, n_) = kTwoPi / n_ * first_;
+  hessian.bottomLeftCorner(n_, n_) = -kTwoPi / n_ * first_;
+  return hessian;
+}
+
 Eigen::MatrixXd MembraneCurve::tangents(const Eigen::VectorXd& positions) const {
   Eigen::MatrixXd tangents(n_, 2);
   tangents.col(0) = first_ * positions.head(n_);

@@ -43,6 +43,9 @@ class MembraneCurve {
   /// Derivatives of the area, 2 N numbers [L].
   Eigen::VectorXd area_row(const Eigen::VectorXd& positions) const;
 
+  /// Its second derivatives, a symmetric matrix that does not depend on the positions.
+  Eigen::MatrixXd area_hessian() const;
+
   /// Integral of (curvature^2)/2 along the curve [1/L], by the values at the beads.
   double bending_energy(const Eigen::VectorXd& positions) const;
   /// Its derivatives, 2 N numbers [1/L^2].

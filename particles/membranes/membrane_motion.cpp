@@ -92,15 +92,17 @@ Eigen::VectorXd Membranes::bending_forces(const Eigen::VectorXd& positions) cons
   return forces;
 }
 
-/// Second derivatives of the bending energy and of the tensions times the speeds.
+/// Second derivatives of the bending energy, of the tensions times the speeds, and of the pressures times
+/// the areas.
 Eigen::MatrixXd Membranes::stiffness(const Eigen::VectorXd& positions,
-                                     const Eigen::VectorXd& tension) const {
+                                     const MembraneMotion& motion) const {
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(2 * beads(), 2 * beads());
   for (std::size_t m = 0; m < curves_.size(); ++m) {
     const auto n = first_[m + 1] - first_[m];
     const Eigen::MatrixXd own =
         membranes_[m].bending_rigidity * curves_[m].bending_hessian(of(m, positions)) +
-        curves_[m].speeds_hessian(of(m, positions), tension.segment(first_[m], n));
+        curves_[m].speeds_hessian(of(m, positions), motion.tension.segment(first_[m], n)) +
+        motion.pressure(static_cast<Eigen::Index>(m)) * curves_[m].area_hessian();
     for (Eigen::Index i = 0; i < 2; ++i)
       for (Eigen::Index j = 0; j < 2; ++j)
         stiffness.block(i * beads() + first_[m], j * beads() + first_[m], n, n) =
@@ -125,14 +127,54 @@ MembraneMotion Membranes::motion_at(const Eigen::VectorXd& positions,
   return motion;
 }
 
-/// Newton's method for step(): returns whether it has found `positions` and the `tension`, of which both
-/// are first guesses.
+/// Derivatives of the area of each membrane, a column for each.
+Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const {
+  const auto count = static_cast<Eigen::Index>(curves_.size());
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(2 * beads(), count);
+  for (std::size_t m = 0; m < curves_.size(); ++m) {
+    Eigen::VectorXd column = Eigen::VectorXd::Zero(2 * beads());
+    put(m, curves_[m].area_row(of(m, positions)), column);
+    columns.col(static_cast<Eigen::Index>(m)) = column;
+  }
+  return columns;
+}
+
+/// The matrix of Newton's method for step(). The unknowns are positions, tensions in units of `unit`, and
+/// pressures in units of `unit` over the length of the column of the area.
+Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
+                                       const Eigen::VectorXd& positions,
+                                       const MembraneMotion& motion, double unit) const {
+  const auto n = beads(), count = static_cast<Eigen::Index>(curves_.size());
+  const Eigen::MatrixXd moves = time * answer.mobility;
+  const Eigen::MatrixXd rows = speed_rows(positions), areas = area_columns(positions);
+  const Eigen::MatrixXd of_forces = stiffness(positions, motion);
+  const Eigen::VectorXd lengths = areas.colwise().norm();
+  const Eigen::MatrixXd scaled_areas = areas * lengths.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(3 * n + count, 3 * n + count);
+  matrix.topLeftCorner(2 * n, 2 * n) = Eigen::MatrixXd::Identity(2 * n, 2 * n) + moves * of_forces;
+  matrix.block(0, 2 * n, 2 * n, n) = unit * moves * rows.transpose();
+  matrix.topRightCorner(2 * n, count) = unit * moves * scaled_areas;
+  matrix.block(2 * n, 0, n, 2 * n) = rows;
+  // The forces of each membrane do not act on its area.
+  matrix.bottomLeftCorner(count, 2 * n) = scaled_areas.transpose() * of_forces / unit;
+  for (std::size_t m = 0; m < curves_.size(); ++m) {
+    const auto row = static_cast<Eigen::Index>(m);
+    Eigen::VectorXd turned = Eigen::VectorXd::Zero(2 * n);
+    put(m, curves_[m].area_hessian() * of(m, motion.flow_forces), turned);
+    matrix.row(3 * n + row).head(2 * n) -= turned.transpose() / (unit * lengths(row));
+  }
+  matrix.block(3 * n, 2 * n, count, n) = scaled_areas.transpose() * rows.transpose();
+  matrix.bottomRightCorner(count, count).setIdentity();
+  return matrix;
+}
+
+/// Newton's method for step(): returns whether it has found `positions` and the tensions and pressures of
+/// `motion`, of which both are first guesses.
 bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
-                           Eigen::VectorXd& positions, Eigen::VectorXd& tension) const {
-  const auto n = beads();
+                           Eigen::VectorXd& positions, MembraneMotion& motion) const {
+  const auto n = beads(), count = static_cast<Eigen::Index>(curves_.size());
   // In the matrix, tensions are in units in which a tension moves a bead by about its own number.
   const double unit = static_cast<double>(2 * n) / (time * answer.mobility.trace());
-  const Eigen::MatrixXd moves = time * answer.mobility;
   Eigen::VectorXd wanted(n);
   double size = 0;
   for (std::size_t m = 0; m < curves_.size(); ++m) {
@@ -146,25 +188,25 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
   constexpr double kExact = 1e-9, kRounding = 1e-6;
   double last = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds; ++round) {
-    const Eigen::MatrixXd rows = speed_rows(positions);
-    const Eigen::MatrixXd moves_by_tension = moves * rows.transpose();
-    Eigen::VectorXd missing(3 * n);
-    missing.head(2 * n) = from + time * answer.flow + moves * bending_forces(positions) -
-                          moves_by_tension * tension - positions;
+    const Eigen::MatrixXd areas = area_columns(positions);
+    const Eigen::VectorXd lengths = areas.colwise().norm();
+    motion.forces = bending_forces(positions) - speed_rows(positions).transpose() * motion.tension;
+    motion.flow_forces = motion.forces - areas * motion.pressure;
+    Eigen::VectorXd missing(3 * n + count);
+    missing.head(2 * n) =
+        from + time * (answer.flow + answer.mobility * motion.flow_forces) - positions;
     for (std::size_t m = 0; m < curves_.size(); ++m) {
       const auto beads_of_m = first_[m + 1] - first_[m];
       missing.segment(2 * n + first_[m], beads_of_m) =
           wanted.segment(first_[m], beads_of_m) - curves_[m].speeds(of(m, positions));
     }
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(3 * n, 3 * n);
-    matrix.topLeftCorner(2 * n, 2 * n) =
-        Eigen::MatrixXd::Identity(2 * n, 2 * n) + moves * stiffness(positions, tension);
-    matrix.topRightCorner(2 * n, n) = unit * moves_by_tension;
-    matrix.bottomLeftCorner(n, 2 * n) = rows;
-    const Eigen::VectorXd change = matrix.partialPivLu().solve(missing);
+    missing.tail(count) = (areas.transpose() * motion.flow_forces).cwiseQuotient(lengths) / unit;
+    const Eigen::VectorXd change =
+        step_matrix(time, answer, positions, motion, unit).partialPivLu().solve(missing);
     if (!change.allFinite()) return false;
     positions += change.head(2 * n);
-    tension += unit * change.tail(n);
+    motion.tension += unit * change.segment(2 * n, n);
+    motion.pressure += unit * change.tail(count).cwiseQuotient(lengths);
     const double changed = change.head(2 * n).lpNorm<Eigen::Infinity>() / size;
     if (changed < kExact || (changed < kRounding && changed > last / 2)) return true;
     last = changed;
@@ -177,19 +219,24 @@ MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const F
   const Eigen::VectorXd guess = positions;
   const FluidAnswer loaded{answer.flow + answer.mobility * loads, answer.mobility};
   MembraneMotion motion;
-  auto& tension = motion.tension;
-  tension = Eigen::VectorXd::Zero(beads());
-  bool is_solved = solve_step(from, time, loaded, positions, tension);
+  const auto begin = [&] {
+    positions = guess;
+    motion.tension = Eigen::VectorXd::Zero(beads());
+    motion.pressure = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(curves_.size()));
+  };
+  begin();
+  bool is_solved = solve_step(from, time, loaded, positions, motion);
   if (!is_solved) {
     // A stiff membrane that is far from its equilibrium: solutions of shorter times lead to it.
-    positions = guess;
-    tension.setZero();
+    begin();
     is_solved = true;
     for (int halvings = 12; halvings >= 0 && is_solved; --halvings)
-      is_solved = solve_step(from, std::ldexp(time, -halvings), loaded, positions, tension);
+      is_solved = solve_step(from, std::ldexp(time, -halvings), loaded, positions, motion);
   }
-  motion.forces = loads + bending_forces(positions) - speed_rows(positions).transpose() * tension;
-  motion.velocities = answer.flow + answer.mobility * motion.forces;
+  motion.forces =
+      loads + bending_forces(positions) - speed_rows(positions).transpose() * motion.tension;
+  motion.flow_forces = motion.forces - area_columns(positions) * motion.pressure;
+  motion.velocities = answer.flow + answer.mobility * motion.flow_forces;
   for (std::size_t m = 0; m < curves_.size() && is_solved; ++m) {
     auto own = of(m, positions);
     is_solved =
@@ -208,13 +255,8 @@ Eigen::MatrixXd Membranes::response(double time, const FluidAnswer& answer,
   const auto n = beads();
   const Eigen::MatrixXd moves = time * answer.mobility;
   const double unit = static_cast<double>(2 * n) / moves.trace();
-  const Eigen::MatrixXd rows = speed_rows(positions);
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(3 * n, 3 * n);
-  matrix.topLeftCorner(2 * n, 2 * n) =
-      Eigen::MatrixXd::Identity(2 * n, 2 * n) + moves * stiffness(positions, motion.tension);
-  matrix.topRightCorner(2 * n, n) = unit * moves * rows.transpose();
-  matrix.bottomLeftCorner(n, 2 * n) = rows;
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(3 * n, 2 * n);
+  const Eigen::MatrixXd matrix = step_matrix(time, answer, positions, motion, unit);
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(matrix.rows(), 2 * n);
   right.topRows(2 * n) = moves;
   const Eigen::MatrixXd solved = matrix.partialPivLu().solve(right).topRows(2 * n);
   // Rounding errors are not symmetric.

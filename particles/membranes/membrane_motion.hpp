@@ -25,6 +25,9 @@ struct MembraneMotion {
   Eigen::VectorXd forces;      ///< bending, tension and loads [M L/T^2]
   Eigen::VectorXd velocities;  ///< [L/T]
   Eigen::VectorXd tension;     ///< of each length, as it enters the forces [M L/T^2]
+  // Of step():
+  Eigen::VectorXd pressure;     ///< that the forces of each membrane hold [M/(L T^2)], times L
+  Eigen::VectorXd flow_forces;  ///< the forces without this pressure, which makes no flow
 };
 
 /// All membranes of a case.
@@ -58,7 +61,7 @@ class Membranes {
 
   /// Solves a step that is implicit in bending and lengths: positions z, forces f and the velocities
   ///
-  ///     (z - from)/time = flow + mobility f,   f = loads - grad E(z) - G(z)^T T,   lengths(z) kept,
+  ///     (z - from)/time = flow + mobility (loads + P f),   f = -grad E(z) - G(z)^T T,   lengths kept,
   ///
   /// and then moves z so little that lengths and areas are exact. `positions` is a first guess, and z
   /// afterwards. Throws Error(kNotConverged) if Newton's method fails.
@@ -72,10 +75,14 @@ class Membranes {
 
  private:
   bool solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
-                  Eigen::VectorXd& positions, Eigen::VectorXd& tension) const;
+                  Eigen::VectorXd& positions, MembraneMotion& motion) const;
+  Eigen::MatrixXd step_matrix(double time, const FluidAnswer& answer,
+                              const Eigen::VectorXd& positions, const MembraneMotion& motion,
+                              double unit) const;
+  Eigen::MatrixXd area_columns(const Eigen::VectorXd& positions) const;
   Eigen::MatrixXd speed_rows(const Eigen::VectorXd& positions) const;
   Eigen::VectorXd bending_forces(const Eigen::VectorXd& positions) const;
-  Eigen::MatrixXd stiffness(const Eigen::VectorXd& positions, const Eigen::VectorXd& tension) const;
+  Eigen::MatrixXd stiffness(const Eigen::VectorXd& positions, const MembraneMotion& motion) const;
 
   std::span<const Membrane> membranes_;
   std::vector<MembraneCurve> curves_;

@@ -188,8 +188,9 @@ StepReport MembraneSimulation::Implementation::step(double end) {
   const auto loads = membranes_.from_particles(contacts.loads, kComponents);
   if (loads.squaredNorm() > 0) motion = membranes_.step(from, time, answer, loads, positions);
   auto forces = state_.earlier_forces;
-  membranes_.to_particles(motion.forces, kComponents, forces);
+  membranes_.to_particles(motion.flow_forces, kComponents, forces);
   solver_->velocities(forces, true);
+  membranes_.to_particles(motion.forces, kComponents, forces);
   const auto quantities = solver_->quantities();
   report.fluid.dissipation = quantities.dissipation;
   report.fluid.apparent_viscosity = quantities.apparent_viscosity;
