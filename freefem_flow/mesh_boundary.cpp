@@ -89,8 +89,8 @@ class BoundaryMaker {
     add_curve(line(from, to, edge_length), label);
   }
 
-  /// `edge_length(t)`: at the point outline.at(t). The curve is cut along s = radius t, which is the
-  /// length of the curve on a circle.
+  /// `edge_length(t)`: at the point outline.at(t). The curve is cut along s = radius t, which is
+  /// the length of the curve on a circle.
   template <class EdgeLength>
   void add_outline(const particles::Outline& outline, int label, bool is_hole,
                    const EdgeLength& edge_length) {
@@ -108,8 +108,8 @@ class BoundaryMaker {
   }
 
   /// The surfaces of the particles. A body that is meshed gets a polygon inside, around which the
-  /// mesh is coarse: FreeFEM takes the size of triangles from the nearest curves, and a few triangles
-  /// represent a rigid motion exactly.
+  /// mesh is coarse: FreeFEM takes the size of triangles from the nearest curves, and a few
+  /// triangles represent a rigid motion exactly.
   void add_particles() {
     if (!fitted_) return;
     for (std::size_t k = 0; k < lengths_.outlines().size(); ++k) {

@@ -3,7 +3,8 @@
 // struct Row it needs, in the namespace of the Row:
 //   static constexpr bool Row::kIsOfLine: if the head has the radii of several spheres;
 //   void prepare(const TableHead&, Row&): gives vectors the sizes of the table;
-//   std::vector<Column> columns_of(const TableHead&, Row&): in the order of the file; the first ones
+//   std::vector<Column> columns_of(const TableHead&, Row&): in the order of the file; the first
+//   ones
 //     say which row it is;
 //   void complete(const TableHead&, Row&): computes what follows from other numbers;
 //   void check(const TableHead&, const Row&, const FilePosition&): throws Error(kBadInput) if the

@@ -28,8 +28,9 @@ constexpr double kNarrow = 0.3, kFurtherAt24Edges = 0.35;
 /// proportional to the edge length, so that all lengths of a mesh shrink together.
 constexpr double kGrowthAt24Edges = 0.1;
 /// In a fluid with inertia the largest error is that of the layer of fluid around a particle. More
-/// edges on the particle are therefore spent near it: the edges grow faster by the first factor, but
-/// not beyond the second number, with which meshes of up to 24 edges are those of a Stokes flow.
+/// edges on the particle are therefore spent near it: the edges grow faster by the first factor,
+/// but not beyond the second number, with which meshes of up to 24 edges are those of a Stokes
+/// flow.
 constexpr double kFasterWithInertia = 2, kFastestWithInertia = 0.1;
 
 }  // namespace

@@ -33,12 +33,12 @@ class EdgeLengths {
   /// most a fraction of the distance to the nearest other surface.
   double on_particle(std::size_t k, const Point& x) const;
 
-  /// The same at the point outlines()[k].at(t). On an ellipse the length is shorter where it is more
-  /// curved than the smallest particle.
+  /// The same at the point outlines()[k].at(t). On an ellipse the length is shorter where it is
+  /// more curved than the smallest particle.
   double on_outline(std::size_t k, double t) const;
 
-  /// At a point on a wall: longer the further the nearest particle is, and at most a fraction of the
-  /// distance to it.
+  /// At a point on a wall: longer the further the nearest particle is, and at most a fraction of
+  /// the distance to it.
   double on_wall(const Point& x) const;
 
   /// At a point on the axis or on a periodic side, in the gap between the two nearest surfaces.

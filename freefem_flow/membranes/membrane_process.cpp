@@ -44,8 +44,8 @@ void append_line(std::string& text, const Numbers& numbers) {
   text += '\n';
 }
 
-/// The two matrices between the N beads of a membrane and the 2 E nodes of its E edges, at which the
-/// velocity is known: quadratic on each edge.
+/// The two matrices between the N beads of a membrane and the 2 E nodes of its E edges, at which
+/// the velocity is known: quadratic on each edge.
 struct MembraneNodes {
   /// From positions of beads to those of nodes, by trigonometric interpolation: 2 E rows.
   Eigen::MatrixXd sampling;

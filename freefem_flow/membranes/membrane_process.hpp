@@ -1,5 +1,5 @@
-// Starts FreeFEM with membranes.edp, which computes Stokes flow with membranes. Units are those of the
-// case.
+// Starts FreeFEM with membranes.edp, which computes Stokes flow with membranes. Units are those of
+// the case.
 #pragma once
 
 #include <memory>
@@ -9,15 +9,16 @@
 
 namespace viscontact::freefem_flow {
 
-/// Starts the process and waits until it is ready. `domain` is a disc, or a box that is not periodic
-/// along y; `fluid` has membranes, no inertia, and no solver of the user's own. The particles are the
-/// beads of the membranes, which feel no torque. The solver computes no second mesh and no quantities
-/// but the dissipation. Throws Error(kExternalProgram) if FreeFEM cannot be run.
+/// Starts the process and waits until it is ready. `domain` is a disc, or a box that is not
+/// periodic along y; `fluid` has membranes, no inertia, and no solver of the user's own. The
+/// particles are the beads of the membranes, which feel no torque. The solver computes no second
+/// mesh and no quantities but the dissipation. Throws Error(kExternalProgram) if FreeFEM cannot be
+/// run.
 ///
-/// The mesh has `edges_per_particle` edges on each membrane, at least two thirds of its beads. Edges
-/// grow with the distance from the membranes. Where the box is periodic along x, the mesh ends at a
-/// straight line that no membrane crosses; place() throws Error(kNotConverged) if there is no such
-/// line, and if a membrane leaves the domain.
+/// The mesh has `edges_per_particle` edges on each membrane, at least two thirds of its beads.
+/// Edges grow with the distance from the membranes. Where the box is periodic along x, the mesh
+/// ends at a straight line that no membrane crosses; place() throws Error(kNotConverged) if there
+/// is no such line, and if a membrane leaves the domain.
 std::unique_ptr<particles::FluidSolver> start_membrane_solver(const particles::Fluid& fluid,
                                                               const particles::Domain& domain,
                                                               const StopToken& stop = {});

@@ -18,8 +18,8 @@
 namespace viscontact::freefem_flow {
 
 /// All functions but the destructor throw Error(kExternalProgram) if the solver fails, and
-/// Error(kInterrupted) if a stop is requested. After an error the process of the solver is gone, and
-/// every further request is an error.
+/// Error(kInterrupted) if a stop is requested. After an error the process of the solver is gone,
+/// and every further request is an error.
 class SolverDialogue {
  public:
   /// Starts the solver. `time_limit` is that of each answer, `first_limit` that of the first one.

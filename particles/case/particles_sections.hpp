@@ -24,11 +24,11 @@ Domain read_domain(const case_file::TomlSection& section, int dimension);
 /// Reads [fluid]. `domain` holds the fluid and must not be empty. If the section does not give
 /// threshold_gap, it is 0 in the result, and set_default_threshold_gap() sets its default.
 ///
-/// Also throws for keys of a fluid with inertia if the density is 0; for a solver of the user's own,
-/// or a sheared cell, if it is > 0; for `constraint = "rigid"` together with `mesh = "fixed"`; and for
-/// a velocity of the boundary that does not fit the domain: a shear or strain that is not the same on both sides of a period, an entry for a side that is
-/// periodic, a net flux through walls without an open side, and any velocity of the walls of a
-/// cylinder.
+/// Also throws for keys of a fluid with inertia if the density is 0; for a solver of the user's
+/// own, or a sheared cell, if it is > 0; for `constraint = "rigid"` together with `mesh = "fixed"`;
+/// and for a velocity of the boundary that does not fit the domain: a shear or strain that is not
+/// the same on both sides of a period, an entry for a side that is periodic, a net flux through
+/// walls without an open side, and any velocity of the walls of a cylinder.
 Fluid read_fluid(const case_file::TomlSection& section, const Domain& domain);
 /// Describes these sections.
 std::vector<case_file::KeyTable> domain_and_fluid_tables();
@@ -56,10 +56,10 @@ struct ParticleLines {
 /// box; and if its discs do not fit.
 ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c);
 
-/// Reads [[membrane]], called by read_particles_of_case(): makes the beads, which become particles, and
-/// the membranes of c.setting.fluid. Also throws if the case has other particles, planes, bodies, links
-/// or forces, or a fluid that cannot have membranes; if so few beads cannot have the reduced area; and
-/// for membranes that cross.
+/// Reads [[membrane]], called by read_particles_of_case(): makes the beads, which become particles,
+/// and the membranes of c.setting.fluid. Also throws if the case has other particles, planes,
+/// bodies, links or forces, or a fluid that cannot have membranes; if so few beads cannot have the
+/// reduced area; and for membranes that cross.
 void read_membranes(const case_file::TomlSection& root, ParticlesCase& c, ParticleLines& lines);
 /// Describes this section.
 std::vector<case_file::KeyTable> membrane_tables();

@@ -295,8 +295,8 @@ void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
   }
 }
 
-/// Checks what a fluid with inertia needs of its particles. With a penalty the inertia of a particle is
-/// that of a very viscous fluid of uniform density.
+/// Checks what a fluid with inertia needs of its particles. With a penalty the inertia of a
+/// particle is that of a very viscous fluid of uniform density.
 void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
                    const ParticleNames& names) {
   const auto& fluid = *c.setting.fluid;

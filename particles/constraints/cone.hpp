@@ -126,9 +126,9 @@ struct SecondOrderCone {
   static ConePoint coordinates(const ConePoint& x) { return x; }
 };
 
-/// The same for the cone of the plane, |x_1| <= x_0, in the coordinates (x_0 + x_1, x_0 - x_1)/2^0.5,
-/// which are positive numbers. Points near its boundary lose no digits in them. What is a half-line
-/// has the first coordinate only, and no change of coordinates.
+/// The same for the cone of the plane, |x_1| <= x_0, in the coordinates (x_0 + x_1, x_0 -
+/// x_1)/2^0.5, which are positive numbers. Points near its boundary lose no digits in them. What is
+/// a half-line has the first coordinate only, and no change of coordinates.
 struct LinearCones {
   /// W of a point u and a dual point r: the roots of the ratios of their coordinates.
   class Scaling {

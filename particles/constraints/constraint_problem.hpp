@@ -136,8 +136,8 @@ struct ConstraintProblem {
   /// Whether contacts obey the convex relaxation (5.9): a contact in the FrictionCone that slides
   /// opens by h mu_s |v_t|.
   bool lifts_sliding = false;
-  /// Whether a rough solution of (5.9) is enough, which shows about how units move and which contacts
-  /// carry load.
+  /// Whether a rough solution of (5.9) is enough, which shows about how units move and which
+  /// contacts carry load.
   bool is_rough = false;
 
   /// Adds a row with these parts and a guess of its impulse [M L/T].

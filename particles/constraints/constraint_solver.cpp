@@ -196,9 +196,9 @@ class Iteration {
     update();
   }
 
-  /// A sweep costs a small part of a factorisation, so that sweeps go on as long as they gain. Before
-  /// interior points, which need the same time whatever they begin with, only sweeps that are about to
-  /// solve the problem are worth their time.
+  /// A sweep costs a small part of a factorisation, so that sweeps go on as long as they gain.
+  /// Before interior points, which need the same time whatever they begin with, only sweeps that
+  /// are about to solve the problem are worth their time.
   void sweep_while_it_gains(int max_iterations) {
     const double gain = problem_.lifts_sliding ? 0.1 : 0.7;
     double before = std::numeric_limits<double>::infinity();
@@ -237,9 +237,9 @@ class Iteration {
     proximal_->set_epsilon(epsilon_);
   }
 
-  /// Solves the convex relaxation (5.9) by interior points. A solution shows where films give way to
-  /// solids, and another follows with these, at most kMostChanges times: a contact that would go on
-  /// changing keeps the law that it has. Proximal steps make the solution accurate, in a few
+  /// Solves the convex relaxation (5.9) by interior points. A solution shows where films give way
+  /// to solids, and another follows with these, at most kMostChanges times: a contact that would go
+  /// on changing keeps the law that it has. Proximal steps make the solution accurate, in a few
   /// iterations, because it shows which contacts stick and slide.
   void solve_convex(int max_iterations) {
     constexpr int kMostChanges = 2, kMostIterations = 60;
@@ -297,9 +297,9 @@ class Iteration {
   }
 
   /// Takes a proximal step for the convex relaxation (5.9). Each step leads nearer to the solution
-  /// but for rounding errors, which are those of the gaps divided by epsilon. Therefore epsilon rises
-  /// until the errors are gone. Where impulses between jammed particles must grow, it falls and rises
-  /// again.
+  /// but for rounding errors, which are those of the gaps divided by epsilon. Therefore epsilon
+  /// rises until the errors are gone. Where impulses between jammed particles must grow, it falls
+  /// and rises again.
   void take_convex_step(int max_iterations) {
     constexpr int kMostIterations = 50;
     constexpr double kLeastEpsilon = 1e-8, kFactor = 10, kLittle = 0.9;

@@ -52,8 +52,8 @@ class ConstraintSystem {
   /// Makes the particles of all links take part. Call it before the first contact is added.
   void join_linked(ContactSystem<D>& system) const;
 
-  /// Adds the contact that is next in the ContactSystem, which is that of `pair`. Its memory holds the
-  /// guess of the friction.
+  /// Adds the contact that is next in the ContactSystem, which is that of `pair`. Its memory holds
+  /// the guess of the friction.
   void add(const Contact<D>& contact, const Pair& pair, const PairMemory& memory);
 
   /// The equations of the links, and what their residuals may be [L], to be set before solve().

@@ -32,8 +32,8 @@ class InteriorPoints {
   InteriorPoints(const ConstraintProblem<D>& problem, const std::vector<double>& w);
 
   /// Solves the problem until what is left of all its conditions is `accuracy` of what they are
-  /// without impulses, in (0, 1), and returns the number of factorisations. Stops early where rounding errors make a
-  /// matrix singular, or after `max_iterations`.
+  /// without impulses, in (0, 1), and returns the number of factorisations. Stops early where
+  /// rounding errors make a matrix singular, or after `max_iterations`.
   int solve(double accuracy, int max_iterations);
 
   /// Impulses of the rows that the last solve() found [M L/T].
@@ -59,7 +59,8 @@ class InteriorPoints {
     typename Cone::Scaling scaling;
     std::array<ConePoint, 3> inverse{};  // d(r)/d(goal - error)
   };
-  // Number of linear conditions that a cone is, and the share of a second-order cone in the mean u.r.
+  // Number of linear conditions that a cone is, and the share of a second-order cone in the mean
+  // u.r.
   static double degree(const Part& part) {
     return inner(Cone::unit(part.rows), Cone::unit(part.rows));
   }

@@ -35,9 +35,10 @@ namespace viscontact::particles {
 ///
 /// In the plane the equation is linear between changes of branches. Where no step along the
 /// direction of Newton's method makes the error smaller, the path on which the error is a multiple
-/// of what it was is followed from branch to branch, also where it turns back (Katzenelson 1965, "An
-/// algorithm for solving nonlinear resistor networks"; Chien & Kuh 1976, "Solving piecewise-linear
-/// equations for resistive networks"). Coulomb's law of jammed particles has such turns.
+/// of what it was is followed from branch to branch, also where it turns back (Katzenelson 1965,
+/// "An algorithm for solving nonlinear resistor networks"; Chien & Kuh 1976, "Solving
+/// piecewise-linear equations for resistive networks"). Coulomb's law of jammed particles has such
+/// turns.
 template <int D>
 class ProximalStep {
  public:

@@ -112,8 +112,9 @@ class FluidDualProblem : public DualProblem {
   mutable ThreadPool pool_{1};
 };
 
-/// W of contacts [T/M], by which an impulse of one changes the rate of the gap of another: row `other`
-/// and column c belong to the response of contact c, the velocities that a unit force of it causes.
+/// W of contacts [T/M], by which an impulse of one changes the rate of the gap of another: row
+/// `other` and column c belong to the response of contact c, the velocities that a unit force of it
+/// causes.
 Eigen::MatrixXd dense_w(std::span<const Contact<2>> contacts,
                         std::span<const std::vector<double>> responses,
                         const MotionLayout& layout) {
@@ -126,11 +127,12 @@ Eigen::MatrixXd dense_w(std::span<const Contact<2>> contacts,
   return w;
 }
 
-/// The dual problem of few contacts, with the matrix W itself. A vector y = B z holds W z, and then z.
+/// The dual problem of few contacts, with the matrix W itself. A vector y = B z holds W z, and then
+/// z.
 class DenseDualProblem : public DualProblem {
  public:
-  /// The problem has the symmetric part of `full_w`, dense_w() of the contacts. If `conditions` say that
-  /// W is not symmetric, its gaps contain what the skew part does with the present impulses.
+  /// The problem has the symmetric part of `full_w`, dense_w() of the contacts. If `conditions` say
+  /// that W is not symmetric, its gaps contain what the skew part does with the present impulses.
   DenseDualProblem(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
                    const Eigen::MatrixXd& full_w)
       : DualProblem(contacts.size()) {

@@ -25,8 +25,8 @@ double drift_of(const Contact<2>& contact, const BlowStep& step, double h) {
   return (gap_at(step.end) - gap_at(step.state.time)) / h;
 }
 
-/// One blow, from its hits to its displacements. solve() may be called once. Each function needs what
-/// those before it in solve() have found of `parts_`.
+/// One blow, from its hits to its displacements. solve() may be called once. Each function needs
+/// what those before it in solve() have found of `parts_`.
 class Blow {
  public:
   /// All arguments must outlive the object.
@@ -149,8 +149,8 @@ bool Blow::find_hits() {
 }
 
 /// The contacts over the time `kick` in which impulses act, with impulses that are not scaled. Hit
-/// contacts are closed. The gaps of the others are stretched, so that they close at the same velocity
-/// as in the step.
+/// contacts are closed. The gaps of the others are stretched, so that they close at the same
+/// velocity as in the step.
 StepContacts Blow::problem() const {
   const double kick = step_.kick;
   StepContacts problem;

@@ -70,14 +70,15 @@ struct ContactConditions {
   MotionLayout layout;                      ///< of all velocities and forces
   SolverSettings solver;                    ///< tolerances, and the largest number of iterations
   double mean_radius = 0;                   ///< [L], > 0
-  /// Relative error of velocities, and of the mobility, which is otherwise linear; >= 0. It limits how small residuals can be.
+  /// Relative error of velocities, and of the mobility, which is otherwise linear; >= 0. It limits
+  /// how small residuals can be.
   double velocity_error = 0;
   /// The length of the step in which forces change the momentum, over h; 1 but in a fluid with
   /// inertia. The impulse of a force lambda is h lambda times this share.
   double share_of_impulse = 1;
   double least_reach = 0;  ///< pairs are listed up to this gap at least [L]
-  /// Whether the mobility is symmetric. Moving fluid carries what a contact does to the contacts behind
-  /// it, so that the mobility of a fluid with inertia is not.
+  /// Whether the mobility is symmetric. Moving fluid carries what a contact does to the contacts
+  /// behind it, so that the mobility of a fluid with inertia is not.
   bool is_symmetric = true;
 };
 

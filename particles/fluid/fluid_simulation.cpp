@@ -95,8 +95,8 @@ State FluidSimulation::state_to_save() {
   return state;
 }
 
-/// Lets the solver keep the flow at the start, in which free particles have their velocities at time
-/// 0 and, in a Stokes flow, those that it gives them.
+/// Lets the solver keep the flow at the start, in which free particles have their velocities at
+/// time 0 and, in a Stokes flow, those that it gives them.
 void FluidSimulation::begin_flow(double h) {
   if (!setting_.fluid->has_inertia() || has_flow_) return;
   const StepEquation equation(setting_, state_, h, state_.time + h);
@@ -186,8 +186,8 @@ bool FluidSimulation::is_computed_twice() const {
   return setting_.fluid->has_inertia() && !(state_.earlier_step > 0);
 }
 
-/// Solves the contacts of a step of length h that ends at `next` without restitution, and returns the
-/// blow if solids rebound.
+/// Solves the contacts of a step of length h that ends at `next` without restitution, and returns
+/// the blow if solids rebound.
 std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& equation,
                                                             std::span<const double> free, double h,
                                                             double next, StepContacts& contacts) {
@@ -240,11 +240,11 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
   }
 }
 
-/// Changes velocities until hinges and arms, and the springs of particles that accelerate, hold after
-/// the step, in which bodies turn by finite angles; `holds` says whether they do within the tolerance.
-/// Returns the forces in the rows that this takes beside those of the last velocities(..., true) of
-/// the solver. Throws Error(kNotConverged) if a length or place would be off by more than a mean
-/// radius.
+/// Changes velocities until hinges and arms, and the springs of particles that accelerate, hold
+/// after the step, in which bodies turn by finite angles; `holds` says whether they do within the
+/// tolerance. Returns the forces in the rows that this takes beside those of the last
+/// velocities(..., true) of the solver. Throws Error(kNotConverged) if a length or place would be
+/// off by more than a mean radius.
 std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equation,
                                                      const HeldMotion& held,
                                                      std::span<const double> flow,
@@ -281,9 +281,9 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
   return forces;
 }
 
-/// Changes the velocities at the end of a step, after which particles have moved with `moved`, until
-/// hinges and arms hold at that time: a velocity across a link that is left would change its sign in
-/// each step. Only accelerating particles change. Returns the mean forces in the rows.
+/// Changes the velocities at the end of a step, after which particles have moved with `moved`,
+/// until hinges and arms hold at that time: a velocity across a link that is left would change its
+/// sign in each step. Only accelerating particles change. Returns the mean forces in the rows.
 std::vector<double> FluidSimulation::hold_at_end(const StepEquation& equation,
                                                  const HeldMotion& held,
                                                  std::span<const double> moved,
@@ -298,7 +298,8 @@ std::vector<double> FluidSimulation::hold_at_end(const StepEquation& equation,
   return forces;
 }
 
-/// Sets the velocities that a fluid with inertia keeps, and extrapolates them to the end of the step.
+/// Sets the velocities that a fluid with inertia keeps, and extrapolates them to the end of the
+/// step.
 void FluidSimulation::keep_and_extrapolate(const StepEquation& equation, Motion& motion) const {
   // The splitting changes the velocities of the particles, and not those of the fluid.
   motion.kept = motion.flow;
@@ -442,8 +443,8 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
     hold_at_end(equation, *held, moved, motion.reported);
 }
 
-/// Throws Error(kNotConverged) if an ellipse is closer to a wall, a plane or another particle than the
-/// threshold gap: contacts of ellipses are not computed. The motions of both may not be given.
+/// Throws Error(kNotConverged) if an ellipse is closer to a wall, a plane or another particle than
+/// the threshold gap: contacts of ellipses are not computed. The motions of both may not be given.
 void FluidSimulation::check_ellipses() const {
   const auto& fluid = *setting_.fluid;
   if (fluid.semi_axes.empty()) return;

@@ -50,8 +50,8 @@ struct ForceErrors {
 /// that was in contact in the step before moves with U, of first order, and so do all where a given
 /// motion jumps.
 ///
-/// In a fluid with inertia (docs/physics.md (6.9)) the solver has the masses, and U^n is the velocity
-/// at the time t^n of x^n. Away from contact the particles move with
+/// In a fluid with inertia (docs/physics.md (6.9)) the solver has the masses, and U^n is the
+/// velocity at the time t^n of x^n. Away from contact the particles move with
 ///
 ///     U^+ = U^n + (h^n/(2 h^{n-1})) (U^n - U^{n-1}).
 ///

@@ -117,8 +117,8 @@ void HeldMotion::add_entries(const LinkPart& part, HeldRow& row) const {
 std::vector<HeldRow> HeldMotion::rows() const { return rows_of(in_rows_); }
 
 /// The rate of a hinge or an arm in the velocities. Those of a step take away what is left of the
-/// equation; those at its beginning are the rate at that time, because the momentum of the fluid must
-/// not have what corrects a place.
+/// equation; those at its beginning are the rate at that time, because the momentum of the fluid
+/// must not have what corrects a place.
 double HeldMotion::rate_of(const LinkEquations& link, const LinkRow& row) const {
   if (!(times_.rate_to > times_.rate_from)) return -row.value / times_.h;
   if (link.kind != LinkEquations::Kind::kArm) return 0;

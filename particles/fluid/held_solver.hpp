@@ -30,21 +30,22 @@ struct HeldRow {
   std::string name{};  ///< in messages
 };
 
-/// Answers as the fluid solver that it owns, with forces in the rows added that keep the conditions.
+/// Answers as the fluid solver that it owns, with forces in the rows added that keep the
+/// conditions.
 ///
 /// With the mobility S of the fluid, the forces l of the rows A v = rate solve A S A^T l = rate -
 /// A S f, so that one question to the fluid for each row is asked at each placement, and then one
 /// for each question to this solver, and another one where walls and driven particles move. Springs
 /// have theta = (1 + z)/(2 + z) with z = h stiffness (A S A^T)_rr, as masses have in StepEquation;
-/// between particles that accelerate z^2 stands for z, because z = (omega h)^2 theta is small there of
-/// second order, and an oscillation that the step resolves must not be damped.
+/// between particles that accelerate z^2 stands for z, because z = (omega h)^2 theta is small there
+/// of second order, and an oscillation that the step resolves must not be damped.
 ///
-/// In a fluid with inertia the velocities are those at the beginning of the step, where the extensions
-/// are known, and theta = 2 z^2/(2 + z^2): a spring that the step resolves has the force at that time
-/// up to the second order of the step, and a stiff one is damped. The limit 2 is above 1 because the
-/// step extrapolates velocities by half of their change: with V = -x/theta, x^{n+1} = x^n + 3/2 V^n -
-/// 1/2 V^{n-1} would not decay with theta = 1. S is not symmetric there, because moving fluid carries
-/// what a force does.
+/// In a fluid with inertia the velocities are those at the beginning of the step, where the
+/// extensions are known, and theta = 2 z^2/(2 + z^2): a spring that the step resolves has the force
+/// at that time up to the second order of the step, and a stiff one is damped. The limit 2 is above
+/// 1 because the step extrapolates velocities by half of their change: with V = -x/theta, x^{n+1} =
+/// x^n + 3/2 V^n - 1/2 V^{n-1} would not decay with theta = 1. S is not symmetric there, because
+/// moving fluid carries what a force does.
 ///
 /// A S A^T of rows that depend on each other is singular but for the errors of the answers. Its
 /// rank is found without the springs, whose compliance 1/(theta h stiffness) may be far larger or
@@ -52,8 +53,8 @@ struct HeldRow {
 /// see the mobility that is left.
 class HeldSolver : public FluidSolver {
  public:
-  /// `relative_error` > 0 is that of the answers of `solver`; `has_inertia` says whether its fluid has
-  /// inertia.
+  /// `relative_error` > 0 is that of the answers of `solver`; `has_inertia` says whether its fluid
+  /// has inertia.
   HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error, bool has_inertia);
 
   /// Sets the rows that hold from the next placement on, in steps of length h > 0 [T].
@@ -79,8 +80,9 @@ class HeldSolver : public FluidSolver {
   std::vector<double> velocities_without_springs(std::span<const double> forces);
 
   /// Adds forces in the rows that change the sum of each row without stiffness by `changes`, one
-  /// number for each row [L/T, 1/T], and, `with_springs`, the sum and compliance times force of each
-  /// spring, whose force is else kept. Returns the forces [M L/T^2, M L^2/T^2]. No question is asked.
+  /// number for each row [L/T, 1/T], and, `with_springs`, the sum and compliance times force of
+  /// each spring, whose force is else kept. Returns the forces [M L/T^2, M L^2/T^2]. No question is
+  /// asked.
   std::vector<double> change(std::span<double> velocities, std::span<const double> changes,
                              bool with_springs) const;
 
@@ -88,8 +90,8 @@ class HeldSolver : public FluidSolver {
   /// do [L/T, 1/T].
   std::vector<double> row_forces_for(std::span<const double> changes) const;
 
-  /// The theta of each row, 1/2 to 1, in a fluid with inertia up to 2; of rows without stiffness the
-  /// least one.
+  /// The theta of each row, 1/2 to 1, in a fluid with inertia up to 2; of rows without stiffness
+  /// the least one.
   std::vector<double> thetas() const;
 
   /// True if row `r` is a spring whose oscillation is too fast for the step, or whose relaxation is
@@ -99,9 +101,9 @@ class HeldSolver : public FluidSolver {
   /// The forces of the rows in the last velocities(forces, true) [M L/T^2, M L^2/T^2].
   const std::vector<double>& row_forces() const { return row_forces_; }
 
-  /// The forces on all particles of the springs and of the rows with a particle that accelerates, in
-  /// the last velocities(forces, true). The extrapolation of FluidSimulation takes them for forces
-  /// from outside, because they are those of the whole step.
+  /// The forces on all particles of the springs and of the rows with a particle that accelerates,
+  /// in the last velocities(forces, true). The extrapolation of FluidSimulation takes them for
+  /// forces from outside, because they are those of the whole step.
   std::vector<double> forces_of_step() const;
 
   /// Adds forces in the rows until the rows without stiffness hold. No question is asked.

@@ -70,7 +70,8 @@ bool has_kink(const Arm& arm, double from, double to) {
   if (length == nullptr) return false;
   const auto& points = length->points;
   const std::size_t n = points.size();
-  // Rate of the length [L/T] in the interval that begins at point i, or that ends at the first point.
+  // Rate of the length [L/T] in the interval that begins at point i, or that ends at the first
+  // point.
   const auto rate_after = [&](std::size_t i) {
     if (i + 1 < n) return (points[i + 1][1] - points[i][1]) / (points[i + 1][0] - points[i][0]);
     if (!(length->period > 0)) return 0.0;
@@ -216,9 +217,9 @@ double StepEquation::earlier_drag(std::size_t k, std::size_t component) const {
   return speed > 0 ? std::sqrt(force / speed) : 0;
 }
 
-/// The theta of all components of a body, which moves as one. Its drag over its mass is the power of
-/// the drag in the step before over twice the kinetic energy, which lies between those of its slowest
-/// and its stiffest motion, whatever forces its members exert on each other.
+/// The theta of all components of a body, which moves as one. Its drag over its mass is the power
+/// of the drag in the step before over twice the kinetic energy, which lies between those of its
+/// slowest and its stiffest motion, whatever forces its members exert on each other.
 double StepEquation::theta_of_body(const RigidBody& body) const {
   if (!(body.mass > 0) || in_contact_[index_of(body.members.front())] != 0) return 1;
   const auto &u = state_.earlier_velocities, &f = state_.earlier_forces;
@@ -236,8 +237,8 @@ double StepEquation::theta_of_body(const RigidBody& body) const {
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
-/// Of a sphere; of a disc that turns; and of a disc that moves, which has no Stokes drag: the factor
-/// of its torque stands for it.
+/// Of a sphere; of a disc that turns; and of a disc that moves, which has no Stokes drag: the
+/// factor of its torque stands for it.
 double StepEquation::stokes_drag(std::size_t k, std::size_t component) const {
   const double r = state_.particles.radii[k], mu = setting_.fluid->viscosity;
   constexpr double kPi = std::numbers::pi;
@@ -350,8 +351,8 @@ std::vector<double> StepEquation::velocities_of_work(std::span<const double> flo
     const double accelerating = masses_[i] / h_ * (at_end[i] - before);
     const double all = accelerating + drag[i];
     // Where drag and acceleration nearly balance, several links may exert forces that cancel, of
-    // which no share is meaningful. The bound keeps their powers finite; its value changes only what
-    // such links report.
+    // which no share is meaningful. The bound keeps their powers finite; its value changes only
+    // what such links report.
     constexpr double kLargestShare = 10;
     const double share =
         all != 0 ? std::clamp(accelerating / all, -kLargestShare, kLargestShare) : 0;

@@ -89,8 +89,8 @@ class StepEquation {
   /// particles.
   std::vector<double> mobility_of_step() const;
 
-  /// In a fluid with inertia, without contact: U^+ = U + this share of the change of U since the step
-  /// before. It is 0 after a step that was much shorter, whose change says little.
+  /// In a fluid with inertia, without contact: U^+ = U + this share of the change of U since the
+  /// step before. It is 0 after a step that was much shorter, whose change says little.
   double share_of_change() const;
 
   /// The mean of the given motion of a driven particle in the step, with which it moves.

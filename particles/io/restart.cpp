@@ -20,9 +20,9 @@ namespace viscontact::particles {
 namespace {
 
 // Version 7 differs from version 6 by memories that version 6 has no array for. It is written only
-// where a pair has such a memory. Version 8 has the flow of a fluid with inertia, and is written only
-// where there is one. Version 9 has the positions before the last step, and is written only with
-// membranes.
+// where a pair has such a memory. Version 8 has the flow of a fluid with inertia, and is written
+// only where there is one. Version 9 has the positions before the last step, and is written only
+// with membranes.
 constexpr int kVersion = 9;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";

@@ -65,7 +65,8 @@ struct LinkTimes {
   bool is_first = false;
   /// Times [T] between which arms have their mean rate in the velocities, where these are not those
   /// of the step but at its beginning (a fluid with inertia); both 0 elsewhere.
-  double rate_from = 0, rate_to = 0;
+  double rate_from = 0;
+  double rate_to = 0;  ///< see rate_from
 };
 
 /// The equations of all links. Springs are integrated by Newmark's method with beta = 1/4 (Newmark

@@ -1,7 +1,7 @@
 // Membranes in a fluid, as a case describes them. A membrane is a closed necklace of particles, its
-// beads. The curve through them bends; it does not change its length, nor that of any of its parts, nor
-// the area inside (docs/physics.md, section 8). Lengths, masses and times are in the units of the case;
-// in the plane masses and forces are per unit length of the third dimension.
+// beads. The curve through them bends; it does not change its length, nor that of any of its parts,
+// nor the area inside (docs/physics.md, section 8). Lengths, masses and times are in the units of
+// the case; in the plane masses and forces are per unit length of the third dimension.
 #pragma once
 
 #include <cstdint>
@@ -45,8 +45,8 @@ struct MembraneMeasures {
   double tank_treading_frequency = 0;
 };
 
-/// Measures a membrane by the centres and the velocities of all particles, two numbers for each. In a
-/// periodic domain the centre is that of the image in which its first bead is.
+/// Measures a membrane by the centres and the velocities of all particles, two numbers for each. In
+/// a periodic domain the centre is that of the image in which its first bead is.
 MembraneMeasures measure(const Membrane& membrane, const PeriodicCell& cell,
                          std::span<const double> positions, std::span<const double> velocities);
 

@@ -247,8 +247,8 @@ MembraneMeasures measure(const MembraneCurve& curve, const Eigen::VectorXd& posi
     circulation += kTwoPi / n * (vx * tangents(i, 0) + vy * tangents(i, 1));
   }
   if (measures.membrane_speed == 0) return measures;
-  // The rate of the inclination, by a central difference over a time in which the beads move by this
-  // fraction of the perimeter: truncation and rounding are then below 1e-9 of the rate.
+  // The rate of the inclination, by a central difference over a time in which the beads move by
+  // this fraction of the perimeter: truncation and rounding are then below 1e-9 of the rate.
   constexpr double kOfPerimeter = 1e-6;
   const double time = kOfPerimeter * measures.perimeter / measures.membrane_speed;
   const double turn = moments_of(curve, positions + time * velocities).inclination() -

@@ -1,5 +1,6 @@
-// The closed curve through the beads of a membrane, docs/physics.md (8.2) and (8.3): its lengths, its
-// area, and its bending energy with the first and second derivatives. For sources of this folder and
+// The closed curve through the beads of a membrane, docs/physics.md (8.2) and (8.3): its lengths,
+// its area, and its bending energy with the first and second derivatives. For sources of this
+// folder and
 // tests: it needs Eigen. Lengths are in the unit of the case.
 #pragma once
 
@@ -17,8 +18,8 @@ inline constexpr double kTwoPi = 2 * std::numbers::pi;  ///< range of the parame
 /// interpolation of f_k at 2 pi k/beads is sum_k f_k cardinal(beads, theta - 2 pi k/beads).
 double cardinal(int beads, double theta, int derivative);
 
-/// Curves through N beads. The parameter of a curve is s in [0, 2 pi), and bead k is at 2 pi k/N. An
-/// array of positions has x of all beads and then y of all, so that its size is 2 N.
+/// Curves through N beads. The parameter of a curve is s in [0, 2 pi), and bead k is at 2 pi k/N.
+/// An array of positions has x of all beads and then y of all, so that its size is 2 N.
 class MembraneCurve {
  public:
   /// `beads` >= 3 is N.
@@ -26,9 +27,9 @@ class MembraneCurve {
 
   int beads() const { return n_; }  ///< N
 
-  /// The speeds |dx/ds| at the parameters halfway between beads, N numbers [L]. A curve of perimeter
-  /// P that keeps them at P/(2 pi) does not stretch. Halfway, because the derivative of the wave that
-  /// changes its sign from bead to bead is 0 at the beads.
+  /// The speeds |dx/ds| at the parameters halfway between beads, N numbers [L]. A curve of
+  /// perimeter P that keeps them at P/(2 pi) does not stretch. Halfway, because the derivative of
+  /// the wave that changes its sign from bead to bead is 0 at the beads.
   Eigen::VectorXd speeds(const Eigen::VectorXd& positions) const;
   /// Derivatives of the speeds: N rows, 2 N columns.
   Eigen::MatrixXd speed_rows(const Eigen::VectorXd& positions) const;
@@ -58,8 +59,8 @@ class MembraneCurve {
 
  private:
   int n_;
-  // Derivatives with respect to s at the beads, of first and second order, and of first order halfway
-  // between them.
+  // Derivatives with respect to s at the beads, of first and second order, and of first order
+  // halfway between them.
   Eigen::MatrixXd first_, second_, first_halfway_;
 };
 

@@ -1,5 +1,5 @@
-// Reads [[membrane]] of a case (particles/case/particles_sections.hpp), and makes the beads. Lengths
-// and masses are in the units of the case.
+// Reads [[membrane]] of a case (particles/case/particles_sections.hpp), and makes the beads.
+// Lengths and masses are in the units of the case.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -100,8 +100,8 @@ std::span<const double> beads_of(const ParticlesCase& c, const Membrane& membran
       .subspan(2 * index_of(membrane.first), 2 * index_of(membrane.beads));
 }
 
-/// Throws if beads of the last membrane that are no neighbours overlap, or if it crosses or contains
-/// another one.
+/// Throws if beads of the last membrane that are no neighbours overlap, or if it crosses or
+/// contains another one.
 void check_place(const case_file::TomlSection& section, const ParticlesCase& c) {
   const auto& membranes = c.setting.fluid->membranes;
   const auto& membrane = membranes.back();

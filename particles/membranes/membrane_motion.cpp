@@ -92,8 +92,8 @@ Eigen::VectorXd Membranes::bending_forces(const Eigen::VectorXd& positions) cons
   return forces;
 }
 
-/// Second derivatives of the bending energy, of the tensions times the speeds, and of the pressures times
-/// the areas.
+/// Second derivatives of the bending energy, of the tensions times the speeds, and of the pressures
+/// times the areas.
 Eigen::MatrixXd Membranes::stiffness(const Eigen::VectorXd& positions,
                                      const MembraneMotion& motion) const {
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(2 * beads(), 2 * beads());
@@ -118,8 +118,8 @@ MembraneMotion Membranes::motion_at(const Eigen::VectorXd& positions,
   motion.forces = bending_forces(positions);
   const Eigen::VectorXd free = answer.flow + answer.mobility * motion.forces;
   const Eigen::MatrixXd answers = answer.mobility * rows.transpose();
-  // The tension of a circle is not unique, because it acts like a pressure inside: the decomposition
-  // then chooses the smallest one.
+  // The tension of a circle is not unique, because it acts like a pressure inside: the
+  // decomposition then chooses the smallest one.
   const Eigen::VectorXd tension =
       (rows * answers).completeOrthogonalDecomposition().solve(rows * free);
   motion.forces -= rows.transpose() * tension;
@@ -139,8 +139,8 @@ Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const 
   return columns;
 }
 
-/// The matrix of Newton's method for step(). The unknowns are positions, tensions in units of `unit`, and
-/// pressures in units of `unit` over the length of the column of the area.
+/// The matrix of Newton's method for step(). The unknowns are positions, tensions in units of
+/// `unit`, and pressures in units of `unit` over the length of the column of the area.
 Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
                                        const Eigen::VectorXd& positions,
                                        const MembraneMotion& motion, double unit) const {
@@ -168,8 +168,8 @@ Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
   return matrix;
 }
 
-/// Newton's method for step(): returns whether it has found `positions` and the tensions and pressures of
-/// `motion`, of which both are first guesses.
+/// Newton's method for step(): returns whether it has found `positions` and the tensions and
+/// pressures of `motion`, of which both are first guesses.
 bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                            Eigen::VectorXd& positions, MembraneMotion& motion) const {
   const auto n = beads(), count = static_cast<Eigen::Index>(curves_.size());
@@ -183,8 +183,8 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
     size = std::max(size, speed);
   }
   constexpr int kMostRounds = 30;
-  // Newton's method is quadratic: after a change of this size the next one would be a rounding error.
-  // Rounding errors of stiff membranes are larger; then changes no longer become smaller.
+  // Newton's method is quadratic: after a change of this size the next one would be a rounding
+  // error. Rounding errors of stiff membranes are larger; then changes no longer become smaller.
   constexpr double kExact = 1e-9, kRounding = 1e-6;
   double last = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds; ++round) {

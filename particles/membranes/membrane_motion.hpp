@@ -1,7 +1,7 @@
 // The motion of membranes in a Stokes flow whose answer to forces on the beads is known,
-// docs/physics.md (8.4) to (8.6). For sources of this folder and tests: it needs Eigen. Units are those
-// of the case. An array of all beads has x of the beads of the first membrane, those of the second one
-// and so on, and then all y.
+// docs/physics.md (8.4) to (8.6). For sources of this folder and tests: it needs Eigen. Units are
+// those of the case. An array of all beads has x of the beads of the first membrane, those of the
+// second one and so on, and then all y.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,9 +38,10 @@ class Membranes {
 
   Eigen::Index beads() const { return first_.back(); }  ///< of all membranes
 
-  /// Positions of all beads, from those of all particles, two numbers for each. In a periodic domain
-  /// beads may be in different periods; each one is taken at the image nearest to the bead before it
-  /// and, with `near`, the first bead of each membrane at that nearest to its place in `near`.
+  /// Positions of all beads, from those of all particles, two numbers for each. In a periodic
+  /// domain beads may be in different periods; each one is taken at the image nearest to the bead
+  /// before it and, with `near`, the first bead of each membrane at that nearest to its place in
+  /// `near`.
   Eigen::VectorXd places(std::span<const double> positions, const PeriodicCell& cell,
                          const Eigen::VectorXd* near = nullptr) const;
 
@@ -59,12 +60,14 @@ class Membranes {
   /// lengths at this moment.
   MembraneMotion motion_at(const Eigen::VectorXd& positions, const FluidAnswer& answer) const;
 
-  /// Solves a step that is implicit in bending and lengths: positions z, forces f and the velocities
+  /// Solves a step that is implicit in bending and lengths: positions z, forces f and the
+  /// velocities
   ///
-  ///     (z - from)/time = flow + mobility (loads + P f),   f = -grad E(z) - G(z)^T T,   lengths kept,
+  ///     (z - from)/time = flow + mobility (loads + P f),   f = -grad E(z) - G(z)^T T,   lengths
+  ///     kept,
   ///
-  /// and then moves z so little that lengths and areas are exact. `positions` is a first guess, and z
-  /// afterwards. Throws Error(kNotConverged) if Newton's method fails.
+  /// and then moves z so little that lengths and areas are exact. `positions` is a first guess, and
+  /// z afterwards. Throws Error(kNotConverged) if Newton's method fails.
   MembraneMotion step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                       const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const;
 

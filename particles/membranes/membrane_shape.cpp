@@ -10,8 +10,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// Points of an ellipse for integrals along it. The trapezoidal rule converges exponentially; for an
-/// ellipse of axes 1:20 this number leaves errors near rounding.
+/// Points of an ellipse for integrals along it. The trapezoidal rule converges exponentially; for
+/// an ellipse of axes 1:20 this number leaves errors near rounding.
 constexpr int kPoints = 4096;
 
 /// Lengths of an ellipse of semi-axes a and b from parameter 0 to 2 pi i/kPoints.

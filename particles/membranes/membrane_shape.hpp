@@ -16,8 +16,8 @@ namespace viscontact::particles {
 std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Vector& centre,
                                               double angle);
 
-/// True if two closed polygons, two numbers for each corner, cross each other, or if one is inside the
-/// other.
+/// True if two closed polygons, two numbers for each corner, cross each other, or if one is inside
+/// the other.
 bool do_meet(std::span<const double> first, std::span<const double> second);
 
 }  // namespace viscontact::particles

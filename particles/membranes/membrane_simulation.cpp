@@ -101,9 +101,9 @@ FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& posit
   return answer;
 }
 
-/// Solves the contacts of beads of different membranes, and of beads and walls, in a step of length h
-/// that ends at `next`, in which beads have the velocities `free` without contact. `response()` gives
-/// how displacements change per load on the beads.
+/// Solves the contacts of beads of different membranes, and of beads and walls, in a step of length
+/// h that ends at `next`, in which beads have the velocities `free` without contact. `response()`
+/// gives how displacements change per load on the beads.
 StepContacts MembraneSimulation::Implementation::solve_contacts_of(
     const Eigen::VectorXd& free, double h, double next,
     const std::function<Eigen::MatrixXd()>& response, StepReport& report) {

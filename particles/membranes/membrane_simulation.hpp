@@ -1,5 +1,5 @@
-// Simulates membranes in a Stokes flow, docs/physics.md (8.1) to (8.6). Lengths, masses and times are
-// in the units of the case.
+// Simulates membranes in a Stokes flow, docs/physics.md (8.1) to (8.6). Lengths, masses and times
+// are in the units of the case.
 #pragma once
 
 #include <memory>
@@ -16,17 +16,18 @@ namespace viscontact::particles {
 ///
 ///     (z - from)/time = S(at) f(z),   f(z) = -grad E(z) - G(z)^T tension,   lengths(z) kept,
 ///
-/// where S(at) f are the velocities of the beads that the fluid gives with membranes at `at` under the
-/// forces f, E is the bending energy and G the derivative of the lengths. With the positions x^n and
-/// x^{n-1} and the step k before, r = h/k, at = (1 + r) x^n - r x^{n-1}, and `from` and `time` are
-/// those of the backward difference of second order; the first step is of first order (docs/physics.md
-/// (8.6)). Beads of different membranes, and beads and walls, make viscous contact as particles do: the
-/// impulses are loads on the beads in f, and the displacements without contact are the free motion.
+/// where S(at) f are the velocities of the beads that the fluid gives with membranes at `at` under
+/// the forces f, E is the bending energy and G the derivative of the lengths. With the positions
+/// x^n and x^{n-1} and the step k before, r = h/k, at = (1 + r) x^n - r x^{n-1}, and `from` and
+/// `time` are those of the backward difference of second order; the first step is of first order
+/// (docs/physics.md (8.6)). Beads of different membranes, and beads and walls, make viscous contact
+/// as particles do: the impulses are loads on the beads in f, and the displacements without contact
+/// are the free motion.
 class MembraneSimulation {
  public:
   /// `setting.fluid` has membranes, whose beads are all particles of `state`; `state` is what
-  /// read_restart returned, or a state of which only the particles are set. Before the first step the
-  /// fluid is asked for the motion at the start, and its errors are thrown.
+  /// read_restart returned, or a state of which only the particles are set. Before the first step
+  /// the fluid is asked for the motion at the start, and its errors are thrown.
   MembraneSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
   ~MembraneSimulation();
 

@@ -1,5 +1,5 @@
-// Each command of the gallery in docs/README.md succeeds. The cases whose computation takes minutes are
-// made shorter or coarser first; each such change must find what it changes.
+// Each command of the gallery in docs/README.md succeeds. The cases whose computation takes minutes
+// are made shorter or coarser first; each such change must find what it changes.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// The boundary of a mesh as the fluid solver gets it: closed loops with the fluid on their left, and
-// labels. Lengths are in one unit.
+// The boundary of a mesh as the fluid solver gets it: closed loops with the fluid on their left,
+// and labels. Lengths are in one unit.
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 
 #include <gmock/gmock.h>
@@ -58,7 +58,8 @@ std::multiset<int> labels_of(const MeshBoundary& boundary) {
   return labels;
 }
 
-/// Expects that as many curves begin at each point as end there, at the same coordinates to the bit.
+/// Expects that as many curves begin at each point as end there, at the same coordinates to the
+/// bit.
 void expect_closed(const MeshBoundary& boundary) {
   std::map<Point, int> ends;
   for (const auto& curve : boundary.curves) {

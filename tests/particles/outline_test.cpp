@@ -1,5 +1,5 @@
-// Distances to discs and ellipses against closed forms and a search over many points of the outline.
-// Lengths are in one unit.
+// Distances to discs and ellipses against closed forms and a search over many points of the
+// outline. Lengths are in one unit.
 #include "viscontact/particles/outline.hpp"
 
 #include <gtest/gtest.h>
@@ -53,8 +53,8 @@ TEST(Outline, DistancesOnTheAxesAreExact) {
     EXPECT_NEAR(distance_to(e, {5 * unit, 0}), 3 * unit, 1e-14 * unit);
     EXPECT_NEAR(distance_to(e, {0, 5 * unit}), 4 * unit, 1e-14 * unit);
     EXPECT_NEAR(distance_to(e, {0, 0}), -1 * unit, 1e-14 * unit);
-    // Within the evolute the nearest point of the long axis is beside the axis: b sqrt(1 - x^2/(a^2 -
-    // b^2)).
+    // Within the evolute the nearest point of the long axis is beside the axis: b sqrt(1 - x^2/(a^2
+    // - b^2)).
     EXPECT_NEAR(distance_to(e, {unit, 0}), -unit * std::sqrt(1 - 1 / 3.0), 1e-14 * unit);
   }
   const auto circle = ellipse({1, 2}, {3, 3}, 0.7);

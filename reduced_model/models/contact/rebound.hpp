@@ -31,7 +31,8 @@ struct Impact {
 /// e_d s (Poisson's law). The sphere must then pull the film open, which takes the impulse that the
 /// film has absorbed:
 ///
-///     s = max(-m u + gamma_min, 0),   m u+ = max(gamma_c + e_d s, 0),   gamma+ = min(gamma_c + e_d s, 0),
+///     s = max(-m u + gamma_min, 0),   m u+ = max(gamma_c + e_d s, 0),   gamma+ = min(gamma_c + e_d
+///     s, 0),
 ///
 /// where gamma_c = m u + s is gamma at the end of the compression. `gamma_min` <= 0 may be
 /// -infinity; `restitution` = e_d is 0 to 1 [1]. If m u+ is below `least` >= 0 [M L/T], the sphere

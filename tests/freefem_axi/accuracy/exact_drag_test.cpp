@@ -48,8 +48,8 @@ TEST(HalfSpace, DragNearContactIsBrennersInAWideContainerAndWithoutOne) {
             kAccuracy);
 }
 
-// Solutions on one mesh are compared with each other, so the coarsest meshes will do. That the force
-// does not depend on the units, any_row_test.cpp checks.
+// Solutions on one mesh are compared with each other, so the coarsest meshes will do. That the
+// force does not depend on the units, any_row_test.cpp checks.
 constexpr double kCoarse = 1e-2;
 
 TEST(Scaling, ForceOfAMovingPairIsLinearInItsVelocity) {

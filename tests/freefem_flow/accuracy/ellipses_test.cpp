@@ -1,7 +1,8 @@
 // Ellipses in Stokes flow, solved by FreeFEM, against the exact flows in unbounded fluid of G. B.
-// Jeffery (1922, Proc. R. Soc. Lond. A 102, 161), in the plane: without a torque the ellipse turns in
-// the flow (s y, 0) at -s (a^2 sin^2 + b^2 cos^2)/(a^2 + b^2), and it turns at omega against the torque
-// 2 pi mu (a^2 + b^2) omega. A round wall at the distance R changes both by about (a/R)^2. Viscosity 1.
+// Jeffery (1922, Proc. R. Soc. Lond. A 102, 161), in the plane: without a torque the ellipse turns
+// in the flow (s y, 0) at -s (a^2 sin^2 + b^2 cos^2)/(a^2 + b^2), and it turns at omega against the
+// torque 2 pi mu (a^2 + b^2) omega. A round wall at the distance R changes both by about (a/R)^2.
+// Viscosity 1.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -98,8 +99,8 @@ TEST(Ellipse, TurnsAgainstItsTorque) {
   EXPECT_NEAR(found.velocities[1], 0, 1e-5);
 }
 
-// The error of the mesh falls nearly as the fourth power of the edges, as with discs; straight edges
-// would make it fall as the second power.
+// The error of the mesh falls nearly as the fourth power of the edges, as with discs; straight
+// edges would make it fall as the second power.
 TEST(Ellipse, HasCurvedEdges) {
   auto error = [](int edges) {
     auto fluid = fluid_of({1, 0.5}, edges);

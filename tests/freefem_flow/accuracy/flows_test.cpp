@@ -151,8 +151,8 @@ TEST(SquareLattice, HasTheExactDragAndViscosities) {
 }
 
 TEST(Forces, DoTheWorkThatIsDissipated) {
-  // Power of the forces on free and driven bodies, walls at rest. On each mesh the two agree but for
-  // rounding, because the dissipation is that of the discrete flow.
+  // Power of the forces on free and driven bodies, walls at rest. On each mesh the two agree but
+  // for rounding, because the dissipation is that of the discrete flow.
   const std::vector<Body> discs = {{1, 1, 0.5}, {3, 2, 0.7}};
   const std::vector<double> forces = {1, -0.5, 0.2, 0, 0, 0};
   for (const auto constraint : kConstraints)

@@ -1,5 +1,5 @@
-// Flows with inertia, solved by FreeFEM, against exact solutions of the Navier-Stokes equations, and
-// invariances that they have.
+// Flows with inertia, solved by FreeFEM, against exact solutions of the Navier-Stokes equations,
+// and invariances that they have.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,8 +38,8 @@ particles::Fluid inertial(double viscosity, double density, int edges) {
 
 // --- Flows without particles, which the solver is asked for directly ---
 
-/// Advances a flow without particles by `steps` steps of length h from time 0, where it is at rest or
-/// `start`, the text of a saved flow. The first step is of first order. Returns the last flow.
+/// Advances a flow without particles by `steps` steps of length h from time 0, where it is at rest
+/// or `start`, the text of a saved flow. The first step is of first order. Returns the last flow.
 FlowField advanced(const particles::Fluid& fluid, const BoxDomain& box, double h, int steps,
                    const std::function<std::string(std::string)>& start = {}) {
   const auto solver = start_fluid_solver(fluid, box, {}, 2);
@@ -153,7 +153,8 @@ TEST(DecayingVortices, HaveErrorsOfSecondOrderInTime) {
 }
 
 TEST(WallThatOscillates, MovesTheFluidByItsVelocityAtEachTime) {
-  // Stokes' second problem between two walls: after three periods hardly anything is left of the start.
+  // Stokes' second problem between two walls: after three periods hardly anything is left of the
+  // start.
   constexpr double kViscosity = 0.1, kPeriod = 2;
   auto fluid = inertial(kViscosity, 1, 12);
   fluid.start = FlowStart::kStokes;
@@ -306,10 +307,10 @@ TEST(StartAtRest, GivesTheFluidNoneOfTheMomentumOfAParticle) {
 }
 
 TEST(DrivenParticle, ThatStartsAtOnceFeelsTheForceOfUnsteadyStokesFlow) {
-  // A step of first order from rest solves the equations of an oscillating sphere with the frequency
-  // 1/(i h): F = 6 pi mu r U (1 + z + z^2/9), z = r sqrt(rho/(mu h)) (Stokes 1851); z^2/9 is the added
-  // mass. The first step is computed again in the second one. The layer around the sphere has the
-  // thickness r/z, two edges; a cylinder 8 times as wide adds half a percent.
+  // A step of first order from rest solves the equations of an oscillating sphere with the
+  // frequency 1/(i h): F = 6 pi mu r U (1 + z + z^2/9), z = r sqrt(rho/(mu h)) (Stokes 1851); z^2/9
+  // is the added mass. The first step is computed again in the second one. The layer around the
+  // sphere has the thickness r/z, two edges; a cylinder 8 times as wide adds half a percent.
   constexpr double kZ = 2, kSpeed = 1e-3;
   for (const auto& method : {kMethods[0], kMethods[1]}) {
     auto run = one_particle(by(method, 1, 1), 1, 1 / (kZ * kZ), 1);
@@ -343,8 +344,8 @@ TEST(DrivenParticle, FeelsTheForceOfTheFluidAndNotItsOwnInertia) {
     }
 }
 
-/// Two discs that fall in a channel: the velocities of the first one, then of the second one, as the
-/// frame sees them that is turned by a right angle if `turned`.
+/// Two discs that fall in a channel: the velocities of the first one, then of the second one, as
+/// the frame sees them that is turned by a right angle if `turned`.
 std::vector<double> velocities_of_two(bool turned, double shift, bool swapped) {
   auto run = one_particle(by(kMethods[0], 0.2, 1), 3, 0.05);
   const auto along = [&](double x, double y) {

@@ -1,5 +1,5 @@
-// What must not change the flow that FreeFEM computes: where the box of a period begins, and the unit
-// of length. And that the estimate of the error is true on the lecture's mesh.
+// What must not change the flow that FreeFEM computes: where the box of a period begins, and the
+// unit of length. And that the estimate of the error is true on the lecture's mesh.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -78,7 +78,8 @@ TEST(Units, DoNotChangeTheForceOnASphere) {
 }
 
 TEST(ShearedCell, MovesADiscWithTheShearAtItsPlace) {
-  // Alone in its cell, a disc moves with the mean flow: docs/physics.md (6.3), centre of the box at 3.
+  // Alone in its cell, a disc moves with the mean flow: docs/physics.md (6.3), centre of the box at
+  // 3.
   for (const auto constraint : {RigidConstraint::kPenalty, RigidConstraint::kRigid})
     for (const double y : {3.0, 4.0, 5.5}) {
       auto fluid = fluid_with(12, constraint);

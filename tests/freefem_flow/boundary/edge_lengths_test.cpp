@@ -72,8 +72,8 @@ TEST(EdgeLengths, AllShrinkTogetherWithMoreEdges) {
   EXPECT_LT(twice.on_wall(far), 0.51 * some.on_wall(far));
 }
 
-// Twice as fast with 48 and more edges; not at all with up to 24, so that no mesh is coarser than one
-// of 24 edges was.
+// Twice as fast with 48 and more edges; not at all with up to 24, so that no mesh is coarser than
+// one of 24 edges was.
 TEST(EdgeLengths, GrowFasterInAFluidWithInertia) {
   const auto growth = [](int edges, double density) {
     const auto particles = particles_of({{0, 0, 1}}, 2);

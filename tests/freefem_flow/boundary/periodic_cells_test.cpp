@@ -1,5 +1,5 @@
-// The region of a fitted periodic mesh: its area is that of the period, its edges come in pairs that
-// are exact translates, and no edge cuts a disc. Lengths are in one unit.
+// The region of a fitted periodic mesh: its area is that of the period, its edges come in pairs
+// that are exact translates, and no edge cuts a disc. Lengths are in one unit.
 #include "viscontact/freefem_flow/boundary/periodic_cells.hpp"
 
 #include <gtest/gtest.h>

@@ -101,8 +101,8 @@ TEST(MembraneProcess, TheMobilityIsSymmetricAndThatOfSingleForces) {
   EXPECT_NEAR(scene.solver->quantities().dissipation, 2 * velocities[3 * 7 + 1], 1e-9 * largest);
 }
 
-// A vesicle anywhere in the period, and in other units, has the same answer up to rounding errors of
-// the mesh.
+// A vesicle anywhere in the period, and in other units, has the same answer up to rounding errors
+// of the mesh.
 TEST(MembraneProcess, PlaceAndUnitsDoNotMatter) {
   const auto answer = [](Scene scene, double force_unit) {
     scene.start(12);
@@ -116,7 +116,8 @@ TEST(MembraneProcess, PlaceAndUnitsDoNotMatter) {
   const auto shifted = answer({.ratio = 4, .centre = {2.7, 0, 0}}, 1);
   const auto scaled = answer({.unit = 1024, .viscosity = 0.25, .ratio = 4, .shear = 8}, 2 * 1024);
   for (std::size_t i = 0; i < first.size(); ++i) {
-    // The same mesh up to rounding errors of its points, but FreeFEM may then choose other triangles.
+    // The same mesh up to rounding errors of its points, but FreeFEM may then choose other
+    // triangles.
     EXPECT_NEAR(shifted[i], first[i], 2e-3);
     EXPECT_NEAR(scaled[i], first[i], 1e-9);
   }

@@ -1,6 +1,6 @@
 // Random problems with friction against the conditions that their solutions obey, docs/physics.md
-// (5.7) and (5.9): in the plane and in space, with films, bilateral rows, redundant contacts, masses
-// in the ratio 1e4, friction up to 2, in other units and in another order.
+// (5.7) and (5.9): in the plane and in space, with films, bilateral rows, redundant contacts,
+// masses in the ratio 1e4, friction up to 2, in other units and in another order.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace {
 // Residuals are allowed up to this part of the size of the problem. It is far above rounding errors
 // of masses in the ratio 1e4.
 constexpr double kAllowed = 1e-9;
-// A residual bounds what is missing from each condition but for a factor that depends on mu_s, which
-// is at most (1 + mu_s)^2 < 10.
+// A residual bounds what is missing from each condition but for a factor that depends on mu_s,
+// which is at most (1 + mu_s)^2 < 10.
 constexpr double kTolerance = 10 * kAllowed;
 
 template <int D>
@@ -154,7 +154,8 @@ TEST(InteriorPointsOfFriction, MotionsAreTheSameInAllUnitsAndOrders) {
     const auto reversed = solve_constraints(turned, 10000).motions;
     const auto other = solve_constraints(scaled, 10000).motions;
     // Motions are unique. They are the minimum of a quadratic function, along which residuals of
-    // 1e-9 allow about their root times the ratio of the masses' roots where contacts are redundant.
+    // 1e-9 allow about their root times the ratio of the masses' roots where contacts are
+    // redundant.
     constexpr double kUnique = 1e-3;
     for (std::size_t u = 0; u < expected.size(); ++u)
       for (std::size_t k = 0; k < 6; ++k) {

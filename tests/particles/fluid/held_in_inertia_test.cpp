@@ -1,5 +1,6 @@
 // Rigid bodies, hinges, springs and arms in a fluid with inertia, whose flow a stand-in replaces by
-// drag: steps of second order against closed forms, lengths and places that hold, and stiff springs.
+// drag: steps of second order against closed forms, lengths and places that hold, and stiff
+// springs.
 // Docs: physics.md (6.7), (6.9).
 #include <gtest/gtest.h>
 

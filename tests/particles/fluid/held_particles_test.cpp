@@ -14,7 +14,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// A body of three particles in the plane, of drag 2 each without inertia, with `force` on the last.
+/// A body of three particles in the plane, of drag 2 each without inertia, with `force` on the
+/// last.
 InFluid body_in_fluid(double h, double mass, const Vector& force) {
   auto system = in_fluid(2, 100, h, 0.01);
   for (const Vector& at : {Vector{49, 50, 0}, Vector{51, 50, 0}, Vector{50, 53, 0}})

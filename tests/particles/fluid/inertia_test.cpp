@@ -13,7 +13,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// (added_mass + m) du/dt = f - R (u - u_driven): backward differences of the motions that were kept.
+/// (added_mass + m) du/dt = f - R (u - u_driven): backward differences of the motions that were
+/// kept.
 class InertialStandIn : public FluidSolver {
  public:
   InertialStandIn(double drag, double added_mass) : drag_(drag), added_mass_(added_mass) {}

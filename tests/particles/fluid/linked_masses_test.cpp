@@ -132,8 +132,8 @@ TEST(LinkedMasses, ABodyOnAHingeTurnsSteadilyAndIsHeldByTheCentripetalForce) {
 }
 
 TEST(LinkedMasses, ABodyOnAHingeSwingsUnderGravityAndDragToSecondOrder) {
-  // I w' = -2 g 0.5 sin(angle) - resistance w, with the angle from below. The resistance of discs of
-  // drag c: c 1^2 of the outer disc, and c of the turning of each.
+  // I w' = -2 g 0.5 sin(angle) - resistance w, with the angle from below. The resistance of discs
+  // of drag c: c 1^2 of the outer disc, and c of the turning of each.
   const double g = 3, drag = 0.3;
   const auto end = [&](double h) {
     auto system = hinged_pair(h, drag);
@@ -194,8 +194,8 @@ TEST(LinkedMasses, ThatCannotHoldAreAnErrorThatSaysSo) {
   }
 }
 
-/// Three discs that turn, with arms of changing lengths between all of them. Returns work of the arms
-/// minus dissipation minus kinetic energy won, divided by the sum of their amounts, at time 4.
+/// Three discs that turn, with arms of changing lengths between all of them. Returns work of the
+/// arms minus dissipation minus kinetic energy won, divided by the sum of their amounts, at time 4.
 double imbalance(double h, double drag, double mass, bool has_kinks) {
   auto system = in_fluid(2, 100, h, 0.01);
   system.setting.fluid->viscosity = drag;

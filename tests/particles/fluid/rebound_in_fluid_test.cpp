@@ -76,8 +76,8 @@ std::size_t rebounds_in(FluidSimulation& simulation, int steps) {
 }
 
 TEST(ReboundInFluid, OfASphereIsThatOfTheFirstIntegral) {
-  // (4.14) with the drag k/q at all gaps, which the fluid resolves above 0.1. It is of first order in
-  // the step, and the film and the solids are exact, so that the error vanishes with the step.
+  // (4.14) with the drag k/q at all gaps, which the fluid resolves above 0.1. It is of first order
+  // in the step, and the film and the solids are exact, so that the error vanishes with the step.
   for (const double stokes : {27.0, 50.0, 152.0}) {
     SCOPED_TRACE(stokes);
     const double expected = kDry - (1 + kDry) * std::log(100.0) / stokes;
@@ -99,9 +99,9 @@ TEST(ReboundInFluid, OfASphereIsThatOfTheFirstIntegral) {
 }
 
 TEST(ReboundInFluid, OfASlowSphereEndsInTheFluid) {
-  // No solids touch below St = ln 100 = 4.6. Below 6.98 they give back less than ln 10, which it takes
-  // to pull the film open to the gap of contact. Below 9.35 the fluid stops the sphere on the way to
-  // the gap at which it started.
+  // No solids touch below St = ln 100 = 4.6. Below 6.98 they give back less than ln 10, which it
+  // takes to pull the film open to the gap of contact. Below 9.35 the fluid stops the sphere on the
+  // way to the gap at which it started.
   const double film = std::log(10.0);
   for (const double stokes : {2.0, 4.5, 6.0, 9.2}) {
     SCOPED_TRACE(stokes);
@@ -243,8 +243,8 @@ TEST(ReboundInFluid, KeepsMomentumAndLosesEnergy) {
         blows += simulation.rebounds().size();
         const auto& now = simulation.state().particles;
         EXPECT_NEAR(norm(momentum(now) - momentum_before), 0, 1e-7);
-        // The film of a pair that turns pulls along a normal that has turned, which may add a little
-        // energy in steps without a blow.
+        // The film of a pair that turns pulls along a normal that has turned, which may add a
+        // little energy in steps without a blow.
         const bool only_solids = gamma_min == 0 || !simulation.rebounds().empty();
         EXPECT_LE(kinetic_energy(now) / energy - 1, only_solids ? 1e-9 : 1e-6) << step;
         energy = kinetic_energy(now);
@@ -328,8 +328,8 @@ TEST(ReboundInFluid, OfAWallThatComesIsRelativeToIt) {
 }
 
 TEST(ReboundInFluid, OfADrivenDiscThatComesIsRelativeToIt) {
-  // A disc at rest, hit by a driven disc at the velocity 1, leaves it at e_d. Later on the driven disc
-  // pushes it against the drag 1 at the velocity 1, which is a load.
+  // A disc at rest, hit by a driven disc at the velocity 1, leaves it at e_d. Later on the driven
+  // disc pushes it against the drag 1 at the velocity 1, which is a load.
   for (const bool pushes : {false, true})
     for (const auto coupling : {Coupling::kConstrained, Coupling::kSplitting}) {
       auto system = flying_disc(0.03, 0.7, 0);

@@ -13,8 +13,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// m = r = 1, gap 1 to the plane below, a force of 1 at 45 degrees down, reversed at t = 5; the film
-/// is smooth. It absorbs 5 sqrt(1/2) and gives it back until t = 10.
+/// m = r = 1, gap 1 to the plane below, a force of 1 at 45 degrees down, reversed at t = 5; the
+/// film is smooth. It absorbs 5 sqrt(1/2) and gives it back until t = 10.
 Simulation release(double h, Scheme scheme) {
   State state = no_particles(2);
   add_particle(state, {0, 2, 0}, 1, 1);

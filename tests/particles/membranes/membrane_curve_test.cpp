@@ -43,8 +43,8 @@ TEST_P(OfBeads, ACircleHasItsPerimeterAreaAndEnergy) {
     EXPECT_NEAR(curve.perimeter(x) / (kTwoPi * radius), 1, 1e-12 * std::max(1.0, 1 / radius));
     EXPECT_NEAR(curve.area(x) / (std::numbers::pi * radius * radius), 1,
                 1e-12 / std::min(1.0, radius * radius));
-    // (1/2) curvature^2 perimeter. Rounding errors of second derivatives are those of positions times
-    // N^2/4, and of the offset (3, -2) over the radius.
+    // (1/2) curvature^2 perimeter. Rounding errors of second derivatives are those of positions
+    // times N^2/4, and of the offset (3, -2) over the radius.
     EXPECT_NEAR(curve.bending_energy(x) * radius / std::numbers::pi, 1,
                 1e-12 * std::max(1.0, 4 / radius) * GetParam() * GetParam());
   }
@@ -54,8 +54,8 @@ TEST_P(OfBeads, DerivativesAreThoseOfDifferences) {
   const int n = GetParam();
   const MembraneCurve curve(n);
   const auto x = wavy(n);
-  // Central differences: truncation grows as step^2 and rounding as 1e-16/step; both are below 1e-7 of
-  // derivatives that grow as n^2 (gradient) and n^4 (Hessian).
+  // Central differences: truncation grows as step^2 and rounding as 1e-16/step; both are below 1e-7
+  // of derivatives that grow as n^2 (gradient) and n^4 (Hessian).
   constexpr double kStep = 1e-5;
   const auto gradient = curve.bending_gradient(x);
   const auto hessian = curve.bending_hessian(x);

@@ -14,8 +14,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// Velocities of points under forces on them, smeared out over a length of 0.3 mean distances from a
-/// centre, in the flow (shear y + strain x, -strain y).
+/// Velocities of points under forces on them, smeared out over a length of 0.3 mean distances from
+/// a centre, in the flow (shear y + strain x, -strain y).
 class Stokeslets : public FluidSolver {
  public:
   Stokeslets(double shear, double smear, double strain = 0)
@@ -139,8 +139,8 @@ TEST(MembraneSimulation, StepsAreOfSecondOrder) {
   EXPECT_NEAR((a - b) / (b - c), 4, 0.8);
 }
 
-// The shortest waves relax 1e5 times within a step: the implicit step is stable, and the shape is that
-// of least energy, which the membrane takes without a flow.
+// The shortest waves relax 1e5 times within a step: the implicit step is stable, and the shape is
+// that of least energy, which the membrane takes without a flow.
 TEST(MembraneSimulation, StiffMembranesAreStable) {
   auto stiff = Vesicle{.rigidity = 100}.simulation(0.1),
        still = Vesicle{.shear = 0}.simulation(0.5);
@@ -175,7 +175,8 @@ TEST(MembraneSimulation, ContinuesBitForBit) {
   EXPECT_EQ(whole.state().particles.velocities, rest.state().particles.velocities);
 }
 
-/// Two vesicles, one above the other, that a straining flow presses together, and the floor of a box.
+/// Two vesicles, one above the other, that a straining flow presses together, and the floor of a
+/// box.
 struct Pressed {
   Setting setting;
   State state;

@@ -1,6 +1,6 @@
-// The shipped cases of a fluid with inertia (data/cases/flow) run with FreeFEM, coarser and shorter,
-// and give the published numbers that docs/fluid.md compares with. The full cases are commands of
-// that page.
+// The shipped cases of a fluid with inertia (data/cases/flow) run with FreeFEM, coarser and
+// shorter, and give the published numbers that docs/fluid.md compares with. The full cases are
+// commands of that page.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -63,9 +63,9 @@ TEST_F(FlowCase, EachHasATest) {
                                           "landing_sphere", "poiseuille_migration", "two_discs"}));
 }
 
-// DFG 2D-1 with 48 edges in place of 64, and until the drag has settled to 2e-5. The mesh makes errors
-// of 1.2e-4 of the drag and less than 1e-3 of the difference of pressures; with edges that grow as
-// slowly as in a Stokes flow that of the pressures is 3e-3.
+// DFG 2D-1 with 48 edges in place of 64, and until the drag has settled to 2e-5. The mesh makes
+// errors of 1.2e-4 of the drag and less than 1e-3 of the difference of pressures; with edges that
+// grow as slowly as in a Stokes flow that of the pressures is 3e-3.
 TEST_F(FlowCase, ASteadyFlowDragsACylinder) {
   compute(with(
       "cylinder_steady",
@@ -83,8 +83,8 @@ TEST_F(FlowCase, ASteadyFlowDragsACylinder) {
   EXPECT_NEAR((pressure_at(0.15, 0.2) - pressure_at(0.25, 0.2)) / 0.11752016697, 1, 1e-3);
 }
 
-// After a few steps from the Stokes flow no vortex has left yet: the wake is shorter than later, and
-// the drag is less than its published largest value.
+// After a few steps from the Stokes flow no vortex has left yet: the wake is shorter than later,
+// and the drag is less than its published largest value.
 TEST_F(FlowCase, AWakeGrowsBehindACylinder) {
   compute(with("cylinder_vortices",
                {{"edges_per_particle", "16"}, {"end_time", "0.4"}, {"time_step", "0.02"}}));
@@ -239,8 +239,8 @@ TEST_F(FlowCase, ContinuesWithTheSameBits) {
   EXPECT_EQ(column("motion.csv", "vy").back(), whole.back());
 }
 
-// The same of two discs by each method: after the first step, whose mesh is new, and later, when it has
-// moved.
+// The same of two discs by each method: after the first step, whose mesh is new, and later, when it
+// has moved.
 TEST_F(FlowCase, ContinuesWithTheSameBitsByEachMethod) {
   const std::string one = R"(title = "Two discs"
 [space]

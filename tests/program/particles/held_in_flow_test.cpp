@@ -1,5 +1,5 @@
-// Rigid bodies and links in a fluid with inertia (FreeFEM): half the step, energy, the penalty, other
-// units, two ways to hold the same discs, and restarts bit for bit.
+// Rigid bodies and links in a fluid with inertia (FreeFEM): half the step, energy, the penalty,
+// other units, two ways to hold the same discs, and restarts bit for bit.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -85,8 +85,8 @@ TEST_F(HeldInFlow, APendulumFallsAndLosesEnergyToTheFluid) {
   const auto x = column("bodies.csv", "x"), y = column("bodies.csv", "y");
   const auto spin = column("bodies.csv", "angular_velocity");
   for (std::size_t n = 0; n < x.size(); ++n) EXPECT_NEAR(std::hypot(x[n] + 0.2, y[n]), 0.55, 1e-6);
-  // What weight less buoyancy gives is in the body, in the fluid, and dissipated. A row of steps.csv has
-  // the flow at the beginning of its step.
+  // What weight less buoyancy gives is in the body, in the fluid, and dissipated. A row of
+  // steps.csv has the flow at the beginning of its step.
   constexpr double kArea = std::numbers::pi * 0.3 * 0.3;
   constexpr double kInertia = 4 * kArea * (0.3 * 0.3 + 0.2 * 0.2 + 0.9 * 0.9);
   const auto of_fluid = column("steps.csv", "kinetic_energy_fluid");
@@ -103,8 +103,8 @@ TEST_F(HeldInFlow, APendulumFallsAndLosesEnergyToTheFluid) {
   const double fine = angle(pendulum);
   pendulum.time_step /= 2;
   const double finest = angle(pendulum);
-  // Steps are of second order; the first one, in which the fluid is set in motion at once, is of first
-  // order in a layer thinner than an edge.
+  // Steps are of second order; the first one, in which the fluid is set in motion at once, is of
+  // first order in a layer thinner than an edge.
   EXPECT_LT(std::abs(fine - finest), 0.45 * std::abs(coarse - fine));
   EXPECT_NEAR(coarse / finest, 1, 0.02);
 }
@@ -113,15 +113,16 @@ TEST_F(HeldInFlow, APendulumIsTheSameByPenaltyAndInOtherUnits) {
   PendulumCase pendulum{.end_time = 0.2, .edges = 16};
   const double rigid = angle(pendulum);
   pendulum.constraint = "penalty";
-  // The difference is that of the meshes with and without elements in the discs: 1.5e-4 with 16 edges,
+  // The difference is that of the meshes with and without elements in the discs: 1.5e-4 with 16
+  // edges,
   // 3.3e-3 with 8.
   EXPECT_NEAR(angle(pendulum) / rigid, 1, 5e-4);
   pendulum = {.end_time = 0.2, .edges = 16, .length = 1e-4, .time = 3e-3, .mass = 7e2};
   EXPECT_NEAR(angle(pendulum) / rigid, 1, 1e-3);
 }
 
-// One above the other in the middle of the box, discs of a body and discs on an arm fall alike: nothing
-// turns them.
+// One above the other in the middle of the box, discs of a body and discs on an arm fall alike:
+// nothing turns them.
 TEST_F(HeldInFlow, DiscsOfABodyFallLikeDiscsOnAnArm) {
   const std::string discs = R"(title = "Two discs that fall together"
 [space]

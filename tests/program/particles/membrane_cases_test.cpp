@@ -1,5 +1,5 @@
-// The shipped cases of membranes (data/cases/membrane) run with FreeFEM, shorter and with fewer beads,
-// and give the numbers that docs/membranes.md compares with.
+// The shipped cases of membranes (data/cases/membrane) run with FreeFEM, shorter and with fewer
+// beads, and give the numbers that docs/membranes.md compares with.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -57,9 +57,9 @@ TEST_F(MembraneCase, EachHasATest) {
             (std::set<std::string>{"poiseuille", "tank_treading", "tumbling", "two_that_meet"}));
 }
 
-// In a box of ten R0 the inclination is 30.6 degrees and the speed 0.444: 0.4 degrees and 1.7 % below
-// those in unbounded flow, 31.04 and 0.452. 24 beads make errors of 0.02 degrees, and what is left of
-// the start after 4 time units is below a tenth of a degree.
+// In a box of ten R0 the inclination is 30.6 degrees and the speed 0.444: 0.4 degrees and 1.7 %
+// below those in unbounded flow, 31.04 and 0.452. 24 beads make errors of 0.02 degrees, and what is
+// left of the start after 4 time units is below a tenth of a degree.
 TEST_F(MembraneCase, AVesicleTankTreads) {
   compute("tank_treading",
           {"end_time = 4.0", "every = 4.0", "perimeter = 6.623059\nbeads = 24", "angle = 0.55"});

@@ -30,9 +30,9 @@ class DirectSwimmer : public ParticlesCommand {
   }
 };
 
-// The exact displacement is that of data/reference/swimmer.csv, in unbounded fluid; the cylinder of 200
-// radii changes it by less than 1e-4 of it. The rest is the error of 20 steps and of the mesh, which
-// falls with its fourth power.
+// The exact displacement is that of data/reference/swimmer.csv, in unbounded fluid; the cylinder of
+// 200 radii changes it by less than 1e-4 of it. The rest is the error of 20 steps and of the mesh,
+// which falls with its fourth power.
 TEST_F(DirectSwimmer, SwimsAsFarAsTheTableSays) {
   constexpr double kExact = 0.1598053403882;
   const double coarse = displacement(12), fine = displacement(24);

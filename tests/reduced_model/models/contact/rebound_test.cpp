@@ -1,5 +1,5 @@
-// Rebounds of a sphere from the solids below its film, physics.md (4.12) to (4.14): closed forms for
-// every step and start, dry bounces, budgets, and the model that resolves the drag.
+// Rebounds of a sphere from the solids below its film, physics.md (4.12) to (4.14): closed forms
+// for every step and start, dry bounces, budgets, and the model that resolves the drag.
 #include "viscontact/reduced_model/models/contact/rebound.hpp"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ namespace {
 const std::vector<std::string> kFilmModels = {"viscous_contact", "viscous_contact_leapfrog",
                                               "viscous_contact_exact"};
 
-/// A sphere of radius and viscosity 1 with the Stokes number St that flies to the wall with the speed
-/// 1 from the gap q0, for three times its time of flight.
+/// A sphere of radius and viscosity 1 with the Stokes number St that flies to the wall with the
+/// speed 1 from the gap q0, for three times its time of flight.
 Motion shot(double stokes, double q0, double roughness, double restitution, double steps) {
   const double k = 6 * std::numbers::pi;
   Motion motion{stokes * k, q0, -1, 3 * q0, ExternalForce({{3 * q0, 0}})};
@@ -124,7 +124,8 @@ void expect_balanced(const Trajectory& trajectory, double mass, double tolerance
 }
 
 TEST(Rebound, HeightsConvergeWithTheStepAndTheBudgetIsBalanced) {
-  // A heavy sphere under gravity: the times of the first three impacts and the heights between them.
+  // A heavy sphere under gravity: the times of the first three impacts and the heights between
+  // them.
   const double k = 6 * std::numbers::pi, m = 100 * k, g = 2;
   const auto at = [&](const std::string& model, double h) {
     Motion motion{m, 1, 0, 8, ExternalForce({{8, -g * m}})};
@@ -172,8 +173,8 @@ TEST(Rebound, WithResolvedDragConvergesToTheModelThatResolvesIt) {
   EXPECT_NEAR(
       exact.budget->film_impulse + exact.budget->external_impulse + exact.budget->solid_impulse,
       m * exact.rows.back().velocity, 1e-9 * m);
-  // The film of the threshold model is carried by gamma below 0.02, which the resolved film does not
-  // do within a finite time: the two differ by that time, of the order of 0.01/u.
+  // The film of the threshold model is carried by gamma below 0.02, which the resolved film does
+  // not do within a finite time: the two differ by that time, of the order of 0.01/u.
   std::vector<double> errors;
   for (const double h : {4e-3, 1e-3, 2.5e-4}) {
     motion.set(kContactTimeStep, h);
