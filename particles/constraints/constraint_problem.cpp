@@ -79,7 +79,7 @@ BlockResidual residual_of(const ConstraintBlock& block, bool lifts_sliding, cons
   BlockResidual residual;
   if (!block.is_contact) {
     for (std::size_t k = 0; k < block.rows; ++k)
-      residual.normal = std::max(residual.normal, std::abs(v[k] + block.compliance * p[k]));
+      residual.normal = largest_or_nan(residual.normal, std::abs(v[k] + block.compliance * p[k]));
     return residual;
   }
   double square = 0;

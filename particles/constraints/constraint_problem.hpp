@@ -12,6 +12,7 @@
 
 #include "viscontact/particles/bodies/body_step.hpp"
 #include "viscontact/particles/contact/friction_law.hpp"
+#include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
 
@@ -188,8 +189,8 @@ struct BlockResidual {
   /// The larger of both, divided by what is allowed.
   double share(const ConstraintBlock& block) const {
     const double of_normal = normal / block.allowed;
-    const double of_slip = tangential > 0 ? tangential / block.allowed_slip : 0;
-    return of_normal > of_slip ? of_normal : of_slip;
+    const double of_slip = tangential == 0 ? 0 : tangential / block.allowed_slip;
+    return largest_or_nan(of_normal, of_slip);
   }
 };
 /// The residual of `block`. `lifts_sliding` is that of ConstraintProblem; `v`, `p` and `w` point to

@@ -310,7 +310,7 @@ class Iteration {
     best_.result.iterations += taken;
     problem_.impulses = proximal_->impulses();
     update();
-    const bool is_solved = !proximal_->failed() && taken < most;
+    const bool is_solved = !proximal_->failed() && taken < most && std::isfinite(residual_);
     const bool is_largest = epsilon_ >= kFirstEpsilon, is_least = epsilon_ <= kLeastEpsilon;
     if (!is_solved) {
       problem_.impulses = center;
