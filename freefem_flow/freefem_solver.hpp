@@ -17,9 +17,6 @@ namespace viscontact::freefem_flow {
 /// to run. Throws Error(kExternalProgram) if there is no such script.
 SolverCommand solver_command(const particles::Fluid& fluid, int dimension);
 
-/// The command of FreeFEM with membranes.edp; see above.
-SolverCommand membrane_solver_command();
-
 /// The limit of an answer, and of the time until the solver is ready, is
 /// VISCONTACT_FREEFEM_TIME_LIMIT in seconds if it is set, for a solver of the user's own as well.
 /// Throws Error(kWrongUsage) if it is not a whole number from 1 to 10 million.
