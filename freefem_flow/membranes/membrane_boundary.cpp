@@ -73,8 +73,8 @@ MeshBoundary membrane_boundary(const particles::Domain& domain, const NodesOfMem
   const auto wanted_at = [&](const Point& x) {
     double wanted = cap;
     for (const auto& own : nodes)
-      for (Eigen::Index i = 0; i + 2 < own.rows(); i += 2) {
-        const double edge = (own.row(i + 2) - own.row(i)).norm();
+      for (Eigen::Index i = 0; i < own.rows(); i += 2) {
+        const double edge = (own.row((i + 2) % own.rows()) - own.row(i)).norm();
         const double distance = std::hypot(own(i, 0) - x[0], own(i, 1) - x[1]);
         wanted =
             std::min({wanted, edge + growth * distance, std::max(edge / 8, kOfGap * distance)});

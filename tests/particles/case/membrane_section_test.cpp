@@ -83,7 +83,8 @@ TEST_F(MembraneSection, MembranesThatMeetOrLeaveTheDomainAreErrors) {
                  18, "membrane[1].centre makes the membrane cross or contain membrane 0");
   // Also across the period of 10: the second membrane is in the image of the first one.
   const std::string small = "perimeter = 2.0\nreduced_area = 0.8\nbending_rigidity = 3.0\n";
-  for (const auto& [first, second] : {std::pair("4.5, 0.0", "-4.9, 0.0"), {"-4.5, 0.0", "4.9, 0.0"}})
+  for (const auto& [first, second] :
+       {std::pair("4.5, 0.0", "-4.9, 0.0"), {"-4.5, 0.0", "4.9, 0.0"}})
     expect_refused(text(membrane(first) + "[[membrane]]\ncentre = [" + second + "]\n" + small), 18,
                    "membrane[1].centre makes the membrane cross or contain membrane 0");
   expect_refused(text(membrane("0.0, 3.5")), 12, "");
