@@ -1,6 +1,6 @@
 // Writes the requests of the protocol and reads the answers (docs/fluid-solver.md, which a change
 // must follow). Units are those of the solver; a wrong answer is an Error(kExternalProgram).
-// Numbers are written so that they read back to the same double. Used by freefem_solver.hpp.
+// Numbers are written so that they read back to the same double.
 #include "viscontact/freefem_flow/process/flow_process.hpp"
 
 #include <fmt/format.h>
