@@ -28,8 +28,8 @@ namespace viscontact::freefem_flow {
 namespace {
 
 /// The units in which the solver computes: in them the smallest particle or membrane has a radius
-/// and the fluid a viscosity between 0.7 and 1.5. Both are powers of 2, so that no digit changes. The unit of
-/// time is that of the case.
+/// and the fluid a viscosity between 0.7 and 1.5. Both are powers of 2, so that no digit changes.
+/// The unit of time is that of the case.
 struct SolverUnits {
   double length = 1;     ///< [L], > 0
   double viscosity = 1;  ///< [M/(L T)], > 0
