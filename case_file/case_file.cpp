@@ -1,7 +1,7 @@
 // Reads the case file of one sphere (case_file.hpp). Numbers are in the units of the case. A wrong
 // value is an Error(kBadInput) with its line. A change must keep the keys and their defaults,
 // because users have written cases with them. A new parameter of a model needs no change here,
-// because the registry of models names them. Used by app/, pipeline/ and more.
+// because the registry of models names them.
 #include "viscontact/case_file/case_file.hpp"
 
 #include <cmath>

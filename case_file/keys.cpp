@@ -1,6 +1,6 @@
 // The tables that declarations of keys make for docs/case-file.md, and the case of `init`
 // (keys.hpp). Examples have the units of the case; nothing is thrown. A change alters that page,
-// whose test says so. Used by particles/, rolling/ and more.
+// whose test says so.
 #include "viscontact/case_file/keys.hpp"
 
 #include <regex>

@@ -1,7 +1,7 @@
 // Reads [tabulation], with gaps, velocities, geometry and container, and keys of [sweep]
 // (shared_sections.hpp). Lengths are in the unit of the case. A wrong value is an Error(kBadInput)
 // with its line. A change must keep the gaps of a grid bit for bit, because finished rows and
-// tables are found again by their gaps. Used by case_file.cpp and rolling/.
+// tables are found again by their gaps.
 #include "viscontact/case_file/shared_sections.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Reads TOML tables with toml++ (toml_section.hpp). Every fault is an Error(kBadInput) with file
 // and line. Every function that reads a key must note it in `asked`, because finish() reports all
-// other keys as unknown. Used by case_template.hpp and keys.hpp.
+// other keys as unknown.
 #include "viscontact/case_file/toml_section.hpp"
 
 #include <toml++/toml.h>

@@ -1,6 +1,6 @@
 // Comparison of quantities that two files give, such as the radius or viscosity of a case and of
 // its fit. Pipeline, sweeps, rolling and fits refuse files that differ; a smaller tolerance would
-// refuse files that have only been rounded. Used by fitting/, motions/ and more.
+// refuse files that have only been rounded.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // A flag by which a long computation is asked to stop. The library that computes is given a
 // StopToken and checks it between two pieces of work; it does not know who requests the stop.
-// app/commands/interrupt.cpp sets the flag at Ctrl-C. Used by app/, system/ and more.
+// app/commands/interrupt.cpp sets the flag at Ctrl-C.
 #pragma once
 
 #include <atomic>

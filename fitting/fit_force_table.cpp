@@ -1,7 +1,7 @@
 // Assembles the equations of a fit, physics.md (3.2), from the rows of a table, solves them, and
 // sets the members of the fit. Numbers are in the units of the table; q is the gap, r the radius of
 // the sphere, F the force and u the velocity of a row. Errors and what a change must keep are in
-// fit_force_table.hpp. Used by app/, case_file/ and more.
+// fit_force_table.hpp.
 #include "viscontact/fitting/fit_force_table.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Iteratively reweighted least squares with the losses of Huber and Cauchy. Residuals are in the
 // unit of the right-hand side. The constants 1.345 and 2.385 are those of Loss in
 // lubrication/fit.hpp. Weights that do not settle are an Error(kNotConverged). A change must keep
-// that without a robust loss the result is that of least_squares.cpp. Used by fit_force_table.cpp.
+// that without a robust loss the result is that of least_squares.cpp.
 #include "viscontact/fitting/robust_least_squares.hpp"
 
 #include <ceres/loss_function.h>

@@ -1,6 +1,6 @@
 // Finds the shift of a rough wall by Gauss-Newton iteration in this one unknown (wall_shift.hpp).
 // Lengths are in the units of the table. A drag outside the range of the smooth force is an
-// Error(kBadInput); a change must keep that check, which names the row. Used by report/.
+// Error(kBadInput); a change must keep that check, which names the row.
 #include "viscontact/fitting/wall_shift.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // The registry of geometries (geometry.hpp). Lengths are in any one unit, and q is the gap. An
 // unknown name or motion is an Error(kBadInput). A change must keep the names, which cases and
-// tables contain. Used by case_file/, tabulation.hpp and rolling/.
+// tables contain.
 #include "viscontact/freefem_axi/geometry.hpp"
 
 #include <fmt/format.h>

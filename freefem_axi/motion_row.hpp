@@ -1,6 +1,6 @@
 // One row of the motions across the axis or around it, solved by FreeFEM (physics.md, section 2),
 // for motion_table_plan.hpp and row_picture.hpp. Lengths, masses and times are in the units of the
-// case. A change must agree with scripts/row.idp. Used by motion_table_plan.hpp and more.
+// case. A change must agree with scripts/row.idp.
 #pragma once
 
 #include <vector>

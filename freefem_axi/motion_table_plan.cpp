@@ -1,6 +1,6 @@
 // The rows of the tables of motions, and what they depend on (motion_table_plan.hpp). Numbers are
 // in the units of the case. The text of all inputs is hashed; a change of this text makes every
-// table out of date. Used by pipeline/.
+// table out of date.
 #include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 #include <fmt/format.h>

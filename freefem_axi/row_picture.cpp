@@ -1,6 +1,6 @@
 // Reads the meshes and the flow that scripts/pictures.idp prints, and writes them for ParaView
 // (row_picture.hpp). Numbers are in the units of the case. An incomplete mesh is an
-// Error(kExternalProgram). A change of the format must be made in both files. Used by report/.
+// Error(kExternalProgram). A change of the format must be made in both files.
 #include "viscontact/freefem_axi/row_picture.hpp"
 
 #include <fmt/format.h>

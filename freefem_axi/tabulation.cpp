@@ -1,7 +1,7 @@
 // The arguments of a row, the call of FreeFEM, and the result (tabulation.hpp). Numbers are in the
 // units of the case, except that FreeFEM writes the force in the units of solve_scale(). A row
 // without a result is an Error(kExternalProgram). A change must agree with the flags in
-// scripts/sphere_arguments.idp. Used by app/, case_file/ and more.
+// scripts/sphere_arguments.idp.
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 #include <fmt/format.h>

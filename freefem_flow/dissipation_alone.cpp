@@ -1,6 +1,6 @@
 // Dissipation without particles (dissipation_alone.hpp): linear flows and plane Couette flow. Units
 // are those of the case; nothing is thrown. The result must be exactly 0 where no closed form is
-// known, because 0 means "not known". Used by process/.
+// known, because 0 means "not known".
 #include "viscontact/freefem_flow/dissipation_alone.hpp"
 
 #include <numbers>

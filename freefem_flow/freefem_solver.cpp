@@ -27,9 +27,9 @@
 namespace viscontact::freefem_flow {
 namespace {
 
-/// The units in which the solver computes: in them the smallest particle has a radius and the fluid
-/// a viscosity between 0.7 and 1.5. Both are powers of 2, so that no digit changes. The unit of
-/// time is that of the case.
+/// The units in which the solver computes: in them the smallest particle or membrane has a radius
+/// and the fluid a viscosity between 0.7 and 1.5. Both are powers of 2, so that no digit changes.
+/// The unit of time is that of the case.
 struct SolverUnits {
   double length = 1;     ///< [L], > 0
   double viscosity = 1;  ///< [M/(L T)], > 0
@@ -59,6 +59,8 @@ class ScaledSolver : public particles::FluidSolver {
   void place(const particles::FluidParticles& bodies) override;
   /// The velocities under `forces`; with `driving`, walls and driven particles move.
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
+  /// The velocities under unit forces and torques.
+  std::vector<double> mobility(std::size_t components) override;
   /// Quantities of the last velocities(forces, true).
   particles::FlowQuantities quantities() override;
   /// Takes another penalty; see FluidSolver.
@@ -105,6 +107,11 @@ particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units) {
   for (auto& axes : fluid.semi_axes)
     for (auto& axis : axes) axis /= units.length;
   fluid.density /= units.viscosity / (units.length * units.length);
+  for (auto& membrane : fluid.membranes) {
+    membrane.bending_rigidity /= units.viscosity * units.length * units.length * units.length;
+    membrane.perimeter /= units.length;
+    membrane.area /= units.length * units.length;
+  }
   for (auto& gradient : fluid.pressure_gradient) gradient /= units.viscosity / units.length;
   if (auto* sides = std::get_if<particles::SideVelocities>(&fluid.boundary))
     for (auto& side : *sides) {
@@ -189,6 +196,15 @@ std::vector<double> ScaledSolver::velocities(std::span<const double> forces, boo
   auto velocities = solver_->velocities(scaled_forces(forces), driving);
   unscale_velocities(velocities);
   return velocities;
+}
+
+std::vector<double> ScaledSolver::mobility(std::size_t components) {
+  auto matrix = solver_->mobility(components);
+  for (std::size_t i = 0; i < components; ++i)
+    for (std::size_t j = 0; j < components; ++j)
+      matrix[i * components + j] *=
+          velocity_units_[j % components_] / force_units_[i % components_];
+  return matrix;
 }
 
 particles::FlowQuantities ScaledSolver::quantities() {
@@ -303,8 +319,6 @@ SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
   return freefem_command(script_of(fluid.mesh, dimension));
 }
 
-SolverCommand membrane_solver_command() { return freefem_command("membranes.edp"); }
-
 SolverLimits solver_limits(const StopToken& stop) {
   SolverLimits limits;
   limits.stop = stop;
@@ -316,7 +330,16 @@ std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Flui
                                                            const particles::Domain& domain,
                                                            std::span<const double> radii,
                                                            int dimension, const StopToken& stop) {
-  if (!fluid.membranes.empty()) return start_membrane_solver(fluid, domain, stop);
+  if (!fluid.membranes.empty()) {
+    std::vector<double> sizes;
+    for (const auto& membrane : fluid.membranes)
+      sizes.push_back(std::sqrt(membrane.area / std::numbers::pi));
+    const auto units = solver_units(fluid, domain, sizes);
+    auto process =
+        start_membrane_solver(in_units(fluid, units), in_units(domain, units), units.length,
+                              freefem_command("membranes.edp"), solver_limits(stop));
+    return std::make_unique<ScaledSolver>(units, dimension, std::move(process));
+  }
   const bool is_freefem = fluid.solver.empty();
   if (is_freefem) refuse_small_particles(fluid, domain, radii);
   const SolverUnits units = is_freefem ? solver_units(fluid, domain, radii) : SolverUnits{};

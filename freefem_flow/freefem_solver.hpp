@@ -17,16 +17,14 @@ namespace viscontact::freefem_flow {
 /// to run. Throws Error(kExternalProgram) if there is no such script.
 SolverCommand solver_command(const particles::Fluid& fluid, int dimension);
 
-/// The command of FreeFEM with membranes.edp; see above.
-SolverCommand membrane_solver_command();
-
 /// The limit of an answer, and of the time until the solver is ready, is
 /// VISCONTACT_FREEFEM_TIME_LIMIT in seconds if it is set, for a solver of the user's own as well.
 /// Throws Error(kWrongUsage) if it is not a whole number from 1 to 10 million.
 SolverLimits solver_limits(const StopToken& stop = {});
 
-/// Starts the solver of `fluid`, and waits until it is ready. FreeFEM computes in units of its own
-/// (ScaledSolver in freefem_solver.cpp); a solver of the user's own gets the units of the case.
+/// Starts the solver of `fluid`, for membranes FreeFEM with membranes.edp
+/// (membranes/membrane_process.hpp), and waits until it is ready. FreeFEM computes in units of its
+/// own (ScaledSolver in freefem_solver.cpp); a solver of the user's own gets the units of the case.
 /// Parameters and errors are those of FlowProcess and of the functions above. Throws
 /// Error(kBadInput) if FreeFEM can make no mesh around the smallest particle, because the domain is
 /// too large.

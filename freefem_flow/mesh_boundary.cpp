@@ -62,49 +62,18 @@ class BoundaryMaker {
     return fitted_ ? lengths_.in_fluid(x) : lengths_.uniform();
   }
 
-  void add_curve(const std::vector<Point>& points, int label) {
-    boundary_.curves.push_back(
-        {static_cast<int>(boundary_.points.size()), static_cast<int>(points.size()) - 1, label});
-    boundary_.points.insert(boundary_.points.end(), points.begin(), points.end());
-  }
-
-  template <class EdgeLength>
-  static std::vector<Point> line(const Point& from, const Point& to,
-                                 const EdgeLength& edge_length) {
-    const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
-    const auto at = [&](double s) {
-      return Point{from[0] + s / length * (to[0] - from[0]),
-                   from[1] + s / length * (to[1] - from[1])};
-    };
-    std::vector<Point> points;
-    for (const double s : cut_curve(length, 1, [&](double t) { return edge_length(at(t)); }))
-      points.push_back(at(s));
-    points.front() = from;
-    points.back() = to;
-    return points;
-  }
-
   template <class EdgeLength>
   void add_line(const Point& from, const Point& to, int label, const EdgeLength& edge_length) {
-    add_curve(line(from, to, edge_length), label);
+    boundary_.add(cut_line(from, to, edge_length), label);
   }
 
-  /// `edge_length(t)`: at the point outline.at(t). The curve is cut along s = radius t, which is
-  /// the length of the curve on a circle.
+  /// `edge_length(t)`: at the point outline.at(t).
   template <class EdgeLength>
   void add_outline(const particles::Outline& outline, int label, bool is_hole,
                    const EdgeLength& edge_length) {
-    const double r = outline.radius;
-    const auto along_s = [&](double s) {
-      const double t = s / r;
-      return outline.is_circle() ? edge_length(t) : edge_length(t) * r / outline.speed_at(t);
-    };
-    std::vector<Point> points;
-    for (const double s : cut_curve(2 * std::numbers::pi * r, kLeastOnCircle, along_s))
-      points.push_back(outline.at(s / r));
-    points.back() = points.front();
+    auto points = cut_outline(outline, kLeastOnCircle, edge_length);
     if (is_hole) std::ranges::reverse(points);
-    add_curve(points, label);
+    boundary_.add(points, label);
   }
 
   /// The surfaces of the particles. A body that is meshed gets a polygon inside, around which the
@@ -151,7 +120,7 @@ class BoundaryMaker {
       const auto& edge = edges[e];
       const auto partner = static_cast<std::size_t>(std::max(edge.partner, 0));
       if (edge.partner < 0 || partner > e) {
-        points[e] = line(edge.from, edge.to, [&](const Point& x) {
+        points[e] = cut_line(edge.from, edge.to, [&](const Point& x) {
           return edge.partner < 0 ? on_wall(x) : in_fluid(x);
         });
       } else {
@@ -164,7 +133,7 @@ class BoundaryMaker {
         points[e].front() = edge.from;
         points[e].back() = edge.to;
       }
-      add_curve(points[e], edge.label);
+      boundary_.add(points[e], edge.label);
     }
   }
 
@@ -193,7 +162,7 @@ class BoundaryMaker {
         points.push_back(at(s));
       points.front() = {0, top};
       points.back() = {0, bottom};
-      add_curve(points, kFirstParticleLabel + static_cast<int>(k));
+      boundary_.add(points, kFirstParticleLabel + static_cast<int>(k));
       if (!has_holes_)
         add_line({0, top}, {0, bottom}, kAxisLabel,
                  [&](const Point&) { return lengths_.uniform(); });

@@ -32,6 +32,12 @@ struct MeshBoundary {
   };
   std::vector<std::array<double, 2>> points;  ///< (x, y), or (distance from the axis, z) [L]
   std::vector<Curve> curves;                  ///< they may share points
+
+  /// Adds the curve through these points, at least two, and the points.
+  void add(const std::vector<std::array<double, 2>>& more, int label) {
+    curves.push_back({static_cast<int>(points.size()), static_cast<int>(more.size()) - 1, label});
+    points.insert(points.end(), more.begin(), more.end());
+  }
 };
 
 /// The boundary of a mesh for these particles, whose gaps must be greater than 0. With a fitted

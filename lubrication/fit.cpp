@@ -2,7 +2,7 @@
 // drag of a plane, the fit for another viscosity, and the fit file. Numbers are in the units of the
 // table. Keys, types and ranges are those of docs/fit.schema.json, and a change of one must be made
 // in the other. A fault of a file is an Error(kBadInput). A change must keep the names, because fit
-// files contain them. Used by case_file/, fitting/ and more.
+// files contain them.
 #include "viscontact/lubrication/fit.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Resistance, its derivative and its primitive, inside the fitted interval and in the limits
 // outside of it, and the inverse of the primitive. The equations, units and errors are in
 // lubrication_force.hpp. Lengths are in any unit. A change must keep R and Gamma continuous where a
-// formula replaces another one. Used by case_file/, fitting/ and more.
+// formula replaces another one.
 #include "viscontact/lubrication/lubrication_force.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // The lubrication force as a function of gap and velocity, F_lub(q, u) = -R(q) u (physics.md
 // (2.3)), with its resistance R and the primitive Gamma of R (4.2). The force is fitted (3.2) or
 // exact (2.4). Lengths, masses and times are in any consistent units. A change must keep R
-// continuous at the ends of the interval, and Gamma a primitive of R. Used by case_file/ and more.
+// continuous at the ends of the interval, and Gamma a primitive of R.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // The names of the motions (motion_kind.hpp). An unknown name is an Error(kBadInput). A change must
-// keep the names, which case files, tables and fits contain. Used by freefem_axi/ and more.
+// keep the names, which case files, tables and fits contain.
 #include "viscontact/lubrication/motion_kind.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
 // The motions of a sphere beside its neighbour whose resistances are tabulated. A change must keep
-// the names, which case files, tables and fits contain. Used by freefem_axi/ and more.
+// the names, which case files, tables and fits contain.
 #pragma once
 
 #include <span>

@@ -1,7 +1,7 @@
 // The columns of a motion table, and the checks of its numbers (motion_table.hpp,
 // docs/file-formats.md). Numbers are in the units of the table. A number that is missing or of the
 // wrong sign is an Error(kBadInput) with file and line. A change must keep the names of the
-// columns. Used by fitting/, freefem_axi/ and more.
+// columns.
 #include "viscontact/lubrication/motion_table.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // The table of force and torque on a sphere in one of its motions (approaching, sliding, rolling,
 // spinning), over a grid of gaps and velocities, which the tabulation writes and the fits read.
 // Lengths, masses and times are in any consistent units. A change must keep the names of the
-// columns, which published tables have. Used by fitting/, freefem_axi/ and more.
+// columns, which published tables have.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 // The solution of Reynolds' equation (physics.md (2.9), (2.10)) in the film between two curved
 // surfaces that move along it. Lengths are in sphere radii, q is the gap, mu the viscosity, r the
 // radius, and kappa is 1 plus the neighbour's curvature. Nothing is thrown. A change must keep the
-// coefficients, which published tables contain. Used by freefem_axi/.
+// coefficients, which published tables contain.
 #include "viscontact/lubrication/near_contact.hpp"
 
 #include <numbers>

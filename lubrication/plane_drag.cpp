@@ -1,6 +1,6 @@
 // Three expansions of the drag factor K of plane_drag.hpp in eps = gap/radius, all without
 // dimension: near contact, far away, and in the range between. The constants are computed from
-// Brenner's series and belong together: change none of them by hand. Used by lubrication_force.cpp.
+// Brenner's series and belong together: change none of them by hand.
 #include "viscontact/lubrication/plane_drag.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // The drag of a sphere in an unbounded fluid, the unit in which tables, fits and limits give other
-// drags. It checks nothing. Used by freefem_axi/, report/ and more.
+// drags. It checks nothing.
 #pragma once
 
 #include <numbers>

@@ -1,6 +1,6 @@
 // The head of a table, and the checks of its numbers (table.hpp, docs/file-formats.md). Numbers are
 // in the units of the table. A fault of a file is an Error(kBadInput) with file and key or line. A
-// change must keep the keys. Used by motion_table.hpp, table_codec.hpp and swimmer/.
+// change must keep the keys.
 #include "viscontact/lubrication/table.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // The table of terms and the named bases. A new term or basis is a new row here; an unknown name is
 // an Error(kBadInput). The formulas are in the gap q > 0, in the table's unit of length, and l = ln
 // q. Each row's log_slope must be q times the derivative of its value, and its antiderivative a
-// primitive of its value. Used by app/, case_file/ and more.
+// primitive of its value.
 #include "viscontact/lubrication/terms.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // Contacts and overlaps of a state, in the units of the case. Nothing is thrown. A change must keep
-// the order of contacts, which vtk_reader.cpp restores. Used by io/ and run/.
+// the order of contacts, which vtk_reader.cpp restores.
 #include "viscontact/particles/current_contacts.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Velocities of walls that depend on time, and sizes and moments of inertia of particles
 // (fluid.hpp), in the units of the case. Nothing is checked or thrown. A change must keep the mean
-// over a step exact, so that walls move as far as the case says. Used by freefem_flow/ and more.
+// over a step exact, so that walls move as far as the case says.
 #include "viscontact/particles/fluid.hpp"
 
 #include <algorithm>

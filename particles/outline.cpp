@@ -1,5 +1,5 @@
 // Distances to circles and ellipses. Lengths are in the unit of the case. Nothing is checked or
-// thrown. A change must keep distances to rounding errors. Used by freefem_flow/, case/ and fluid/.
+// thrown. A change must keep distances to rounding errors.
 #include "viscontact/particles/outline.hpp"
 
 #include <algorithm>

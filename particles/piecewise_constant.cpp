@@ -1,6 +1,6 @@
 // Exact integrals and means of a piecewise constant vector (piecewise_constant.hpp). The vector has
 // any dimension; times [T] are in the unit of the case. Nothing is checked or thrown. A change must
-// keep the value of a single piece bit for bit. Used by case/, domain/ and more.
+// keep the value of a single piece bit for bit.
 #include "viscontact/particles/piecewise_constant.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Quaternions, and how particles turn in a step (rotation.hpp). Turns are in radians; nothing is
-// checked or thrown. A change must keep quaternions at length 1. Used by bodies/ and more.
+// checked or thrown. A change must keep quaternions at length 1.
 #include "viscontact/particles/rotation.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Rotations in space as unit quaternions (w, x, y, z), and the rotation of particles in a step.
 // Turns and angles are in radians; a quaternion has no dimension. Simulations, bodies and blows use
-// it. Nothing is checked. A change must keep quaternions at length 1. Used by bodies/ and more.
+// it. Nothing is checked. A change must keep quaternions at length 1.
 #pragma once
 
 #include <array>

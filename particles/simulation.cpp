@@ -1,7 +1,6 @@
 // Time stepping of many particles, docs/physics.md (5.3): free motion, projection, new gamma, new
 // positions; and the division of steps with fast particles. Numbers are in the units of the case.
 // Errors are those of Simulation::step(). If a step throws, the state must be that before the step.
-// Used by case/, free_motion.cpp and run/.
 #include "viscontact/particles/simulation.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Finds the trajectory files of a folder, compares them and writes the comparison. Numbers are in
 // the units of the trajectories. A folder without trajectories is an Error(kBadInput). A change
 // must keep the order of the files: the models of the comparison have it, and if `inertial` failed,
-// the first file is the reference. Used by app/ and run_stages.cpp.
+// the first file is the reference.
 #include "viscontact/pipeline/compare_stage.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Estimates computing times [s] from finished rows, from a few rows that are computed now, or from
 // measured constants. Errors are those of the rows that are computed. A change must keep the keys
-// of the JSON, which users' scripts read (docs/command-line.md). Used by app/ and particles/.
+// of the JSON, which users' scripts read (docs/command-line.md).
 #include "viscontact/pipeline/dry_run.hpp"
 
 #include <fmt/format.h>

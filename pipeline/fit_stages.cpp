@@ -1,6 +1,6 @@
 // Reads tables, calls the fits, and writes fits, shifts and pictures with their provenance. Numbers
 // are in the units of the table; errors are those of fit_stages.hpp. A change must keep the columns
-// of the file of shifts (docs/file-formats.md). Used by app/ and run_stages.cpp.
+// of the file of shifts (docs/file-formats.md).
 #include "viscontact/pipeline/fit_stages.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Decides which stages of the main job must run. Failures of rows and models are thrown last, when
 // all other results are written. Before it simulates again, it removes the outputs that depend on
 // the old trajectories; a change must keep this order, so that a run that is killed never leaves
-// outputs that do not belong together. Used by app/.
+// outputs that do not belong together.
 #include "viscontact/pipeline/run_stages.hpp"
 
 #include <algorithm>

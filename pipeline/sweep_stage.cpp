@@ -1,6 +1,6 @@
 // Computes the rows of a sweep (sweep_stage.hpp), shows its progress, and says at its end how many
 // rows failed. Times are in seconds. If all rows failed, the error is Error(kNotConverged). A
-// change must keep that finished rows are never computed again. Used by app/ and particles/.
+// change must keep that finished rows are never computed again.
 #include "viscontact/pipeline/sweep_stage.hpp"
 
 #include <fmt/format.h>

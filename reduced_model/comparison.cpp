@@ -1,7 +1,7 @@
 // Distances between trajectories that are linear between their rows, by exact integrals, and the
 // comparison file (comparison.hpp, docs/file-formats.md). Numbers are in the units of the
 // trajectories. Names that are missing or doubled and files of another kind are an
-// Error(kBadInput). A change must keep old comparison files readable. Used by pipeline/ and more.
+// Error(kBadInput). A change must keep old comparison files readable.
 #include "viscontact/reduced_model/comparison.hpp"
 
 #include <fmt/format.h>

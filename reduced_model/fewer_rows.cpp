@@ -1,5 +1,5 @@
 // Selects the rows that fewer_rows.hpp describes. Rows are copied unchanged, and nothing is thrown.
-// A change must keep all rows that a comparison looks for. Used by pipeline/.
+// A change must keep all rows that a comparison looks for.
 #include "viscontact/reduced_model/fewer_rows.hpp"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // Random draws of the coefficients of a fit, the bound from the misfit, and the file
 // uncertainty.json (fit_uncertainty.hpp). Numbers are in the units of the case. If all draws were
-// left out, the error is Error(kNotConverged). The draws of the fixed seed must stay. Used by
-// pipeline/, report/ and results/.
+// left out, the error is Error(kNotConverged). The draws of the fixed seed must stay.
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // What the models of motion share: the values of their parameters, reports of their progress, the
 // number of their steps, and the times [T] of the rows of their trajectories (motion.hpp). A
 // missing parameter or too many steps are an Error(kBadInput). A change of times changes
-// trajectories. Used by case_file/, models/contact/ and more.
+// trajectories.
 #include "viscontact/reduced_model/motion.hpp"
 
 #include <fmt/format.h>

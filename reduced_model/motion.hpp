@@ -1,6 +1,6 @@
 // What every model of motion is given: the sphere, its start, the external force, and the values of
 // the models' parameters. Lengths, masses and times are in any consistent units. Case files set
-// these members; a change must keep the keys. Used by case_file/, models/contact/ and more.
+// these members; a change must keep the keys.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // Reads and writes the CSV file of a trajectory (docs/file-formats.md). Numbers are in the units of
 // the case. A fault of a file is an Error(kBadInput) with file and line. A change must keep the
-// columns, which users' scripts read. Used by pipeline/, models/contact/ and more.
+// columns, which users' scripts read.
 #include "viscontact/reduced_model/trajectory.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // A trajectory, which every model of motion returns, its budget of momentum and energy, and its
 // file. Lengths, masses and times are in the units of the case. A change must keep the names of the
-// columns, which published files have, and both balances of the budget. Used by pipeline/ and more.
+// columns, which published files have, and both balances of the budget.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // Draws plots by gnuplot and writes the page around them (page.hpp). The scripts in report/page
 // read the plots as JSON, whose keys and names of kinds of points must agree with them. A gnuplot
 // that is missing is a warning, one that fails an Error(kExternalProgram). Every text of the user
-// must pass through escaped(), because it could contain markup. Used by particles/ and more.
+// must pass through escaped(), because it could contain markup.
 #include "viscontact/report/page.hpp"
 
 #include <fmt/format.h>

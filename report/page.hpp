@@ -2,7 +2,7 @@
 // can be zoomed in a browser, and a still picture plots/NAME.svg of each, for browsers without
 // scripts and for printing. Pieces of HTML that all pages share are here, too. Numbers in plots
 // have no units here; the labels of their axes name the units. A change must keep report/page/*.js,
-// which read the plots as JSON, in step. Used by particles/, rolling/ and more.
+// which read the plots as JSON, in step.
 #pragma once
 
 #include <exception>

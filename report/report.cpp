@@ -1,6 +1,6 @@
 // The report of a run: warnings, tables, plots and provenance. kPlotNames must contain the name of
 // every plot, because it decides which files in plots/ may be replaced or removed. Gaps [L] and
-// times [T] are in the units of the case. Errors are those of report.hpp. Used by app/ and more.
+// times [T] are in the units of the case. Errors are those of report.hpp.
 #include "viscontact/report/report.hpp"
 
 #include <fmt/format.h>

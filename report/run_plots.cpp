@@ -1,6 +1,6 @@
 // The plots of a run's report: trajectories, their comparison, the fit, and the effect of its
 // errors. Gaps [L], times [T], gamma [M L/T] and forces [M L/T^2] are in the units of the case.
-// Nothing is thrown. The names of the plots, names of files, must stay. Used by report.cpp.
+// Nothing is thrown. The names of the plots, names of files, must stay.
 #include "viscontact/report/run_plots.hpp"
 
 #include <fmt/format.h>

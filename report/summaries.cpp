@@ -1,6 +1,6 @@
 // Writes the columns and words of the summaries, and draws their pictures (summaries.hpp). Numbers
 // are in the units of the case. A gnuplot that fails is an Error(kExternalProgram). A change must
-// keep the keys of the JSON, which users' scripts read. Used by pipeline/.
+// keep the keys of the JSON, which users' scripts read.
 #include "viscontact/report/summaries.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Recognises files of Viscontact by the provenance in their first MiB (provenance.hpp). A file that
 // must not be replaced is an Error(kBadInput). A change must still recognise files of earlier
-// versions. Used by app/, particles/ and more.
+// versions.
 #include "viscontact/results/foreign_files.hpp"
 
 #include <fmt/format.h>

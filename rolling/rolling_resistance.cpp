@@ -1,6 +1,6 @@
 // Sums the terms of the fit of a pair, and decides between rolling and sliding. Numbers are in the
 // units of the fit. A missing entry, or a gap above the interval, is an Error(kBadInput). A change
-// must keep the matrix symmetric. Used by roll_with_lubrication.cpp and more.
+// must keep the matrix symmetric.
 #include "viscontact/rolling/rolling_resistance.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Plans, checks and computes the rows of a sweep of one sphere, in the units of the case. A model
 // that fails leaves its columns empty. A change must keep that everything that determines the rows
-// goes into identity_of(), so that rows of another sweep are not kept. Used by app/.
+// goes into identity_of(), so that rows of another sweep are not kept.
 #include "viscontact/sweep/sphere_study.hpp"
 
 #include <fmt/format.h>

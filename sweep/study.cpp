@@ -1,6 +1,6 @@
 // Computes the rows of a sweep, and writes, continues and reads its file. Numbers are in the units
 // of the case. A file that cannot be written is an Error(kBadInput). A change must keep that rows
-// of an earlier call are kept only if its file has the same head. Used by app/ and more.
+// of an earlier call are kept only if its file has the same head.
 #include "viscontact/sweep/study.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 // later call continues an interrupted sweep after its last row. Each kind of case has a function
 // that makes a Study (sphere_study.hpp, rolling_study.hpp, swimmer_study.hpp, particles_study.hpp):
 // how a point becomes a case, and which numbers its row has. Numbers are in the units of the case.
-// A change must keep the form of the file, which users' scripts read. Used by app/ and more.
+// A change must keep the form of the file, which users' scripts read.
 #pragma once
 
 #include <cstddef>

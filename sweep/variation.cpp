@@ -1,6 +1,6 @@
 // Reads ranges, and computes the points of grids and random points. Values have the units of their
 // keys. A range that is not valid is an Error(kBadInput). A change must keep the values bit for
-// bit, because a sweep that continues compares them with its finished rows. Used by study.hpp.
+// bit, because a sweep that continues compares them with its finished rows.
 #include "viscontact/sweep/variation.hpp"
 
 #include <fmt/format.h>

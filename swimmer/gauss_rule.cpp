@@ -1,6 +1,6 @@
 // Points and weights by the eigenvalues of the Jacobi matrix (gauss_rule.hpp; Golub & Welsch 1969,
 // Math. Comp. 23, 221). Numbers have no dimension, and nothing is thrown. Sums along a stroke
-// depend on the points to the last digit. Used by polynomial_loop.cpp and swim.cpp.
+// depend on the points to the last digit.
 #include "viscontact/swimmer/gauss_rule.hpp"
 
 #include <Eigen/Eigenvalues>

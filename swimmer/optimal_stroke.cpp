@@ -1,6 +1,6 @@
 // Newton's method for the stroke of least energy (optimal_stroke.hpp). Numbers are in the units of
 // the fit; energies are those at a period of 1. A search that fails in all directions is an Error.
-// A change must keep energies to the digits of docs/swimmer.md. Used by case/ and job/.
+// A change must keep energies to the digits of docs/swimmer.md.
 #include "viscontact/swimmer/optimal_stroke.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Polynomial loops, their sums and gradients (polynomial_loop.hpp). Numbers are in the units of the
 // swimmer's fit. A loop outside the table is an Error(kBadInput). A change must keep that gradients
-// are those of the sums to round-off. Used by optimal_stroke.hpp.
+// are those of the sums to round-off.
 #include "viscontact/swimmer/polynomial_loop.hpp"
 
 #include <Eigen/QR>

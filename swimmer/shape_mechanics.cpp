@@ -1,6 +1,6 @@
 // Solves the balance of forces of a swimmer at one shape; the symbols are those of
 // shape_mechanics.hpp. Lengths, masses and times are in the units of the fit. A shape outside the
-// table is an Error(kBadInput). A change must keep that the total force vanishes. Used by swim.cpp.
+// table is an Error(kBadInput). A change must keep that the total force vanishes.
 #include "viscontact/swimmer/shape_mechanics.hpp"
 
 #include <fmt/format.h>

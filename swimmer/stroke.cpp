@@ -1,6 +1,6 @@
 // Makes strokes from corners, samples and ellipses (stroke.hpp), in the units of the case. Samples
 // that do not close the loop are an Error(kBadInput). A change must keep where legs meet, because
-// forces jump there. Used by case/, polynomial_loop.hpp and swim.hpp.
+// forces jump there.
 #include "viscontact/swimmer/stroke.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Integrates displacement and power along a stroke (swim.hpp). Numbers are in the units of the fit.
 // A stroke outside the table is an Error(kBadInput), sums that do not settle an
-// Error(kNotConverged). A change must keep sums to round-off. Used by case/ and job/.
+// Error(kNotConverged). A change must keep sums to round-off.
 #include "viscontact/swimmer/swim.hpp"
 
 #include <fmt/format.h>

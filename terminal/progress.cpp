@@ -1,6 +1,6 @@
 // Progress line and coloured messages, made with ANSI escape sequences (progress.hpp). Times are in
 // seconds. No failure is reported: a message that cannot be written is lost. A change must keep
-// that a terminal with TERM=dumb and a file get no escape sequences. Used by app/ and more.
+// that a terminal with TERM=dumb and a file get no escape sequences.
 #include "viscontact/terminal/progress.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Checks the outputs and models that a command line names, adds the options --jobs and --json, and
 // tells the values of options from names of files (command_options.hpp). A wrong option is an
 // Error(kWrongUsage). The list of the options whose value may be left out must contain every option
-// for which a command calls expected(0, 1). Used by commands/, commands/sweep/ and more.
+// for which a command calls expected(0, 1).
 #include "viscontact/app/arguments/command_options.hpp"
 
 #include <fmt/format.h>

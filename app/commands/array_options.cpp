@@ -1,5 +1,5 @@
 // Adds and checks the options of array jobs. A wrong option is an Error(kWrongUsage). A change must
-// keep the names of the options, which submitted scripts contain. Used by commands/sweep/ and more.
+// keep the names of the options, which submitted scripts contain.
 #include "viscontact/app/commands/array_options.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // Installs a signal handler with sigaction. The handler may do nothing but set a lock-free flag,
-// because a signal can come in the middle of any function. Used by commands/sweep/ and more.
+// because a signal can come in the middle of any function.
 #include "viscontact/app/commands/interrupt.hpp"
 
 #include <atomic>

@@ -1,7 +1,7 @@
 // Writes the completion scripts for bash and zsh, and the manual page in the language roff. Texts
 // of options must pass through zsh_description() and quoted(), because they contain special
 // characters. Nothing is thrown. help2man cannot make the page, because it reads one --help, and
-// each command has its own. Used by main.cpp.
+// each command has its own.
 #include "viscontact/app/help/self_description.hpp"
 
 #include <fmt/format.h>

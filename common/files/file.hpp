@@ -1,6 +1,6 @@
 // Reads and writes whole files. A file is written under another name and then renamed. A change
 // must keep that at any time, also after a power cut, a reader finds the old file or the whole new
-// one, because commands continue from such files. Used by app/, case_file/ and more.
+// one, because commands continue from such files.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // Writes lines over the foot of the file and the foot behind them in one call (growing_file.hpp).
 // Lengths are in bytes. A change must keep that the file ends with a whole line and the foot, also
-// after a failed write, which is an Error(kBadInput). Used by particles/.
+// after a failed write, which is an Error(kBadInput).
 #include "viscontact/common/files/growing_file.hpp"
 
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 // Opens, locks (flock) and appends with system calls (locks.hpp); a failed call becomes an
 // Error(kBadInput) with the path. The locks must remain flocks, because
-// freefem_axi/journal/row_record.cpp locks the same files with flock. Used by app/ and more.
+// freefem_axi/journal/row_record.cpp locks the same files with flock.
 #include "viscontact/common/files/locks.hpp"
 
 #include <fcntl.h>

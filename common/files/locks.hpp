@@ -1,6 +1,6 @@
 // Files that only one process at a time may append to (the journal of a tabulation or sweep), and
 // folders that only one process at a time may write into (that of a run). A change must keep that a
-// text is at the end of the file, in one piece, when append_to returns. Used by app/ and more.
+// text is at the end of the file, in one piece, when append_to returns.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // Talks with a child process by poll on its three streams at once. No failure of the child is an
 // error here; the state of a reading says what happened. At most one buffer is received ahead of
-// what is read, so that a child that writes without end takes no memory. Used by freefem_flow/.
+// what is read, so that a child that writes without end takes no memory.
 #include "viscontact/common/system/child_process.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Runs a child process to its end (process.hpp): sends its input while it collects its output.
 // Times are in milliseconds. A change must keep that a child that neither reads nor writes nor ends
-// is killed at its time limit or at a stop. Used by app/, freefem/ and more.
+// is killed at its time limit or at a stop.
 #include "viscontact/common/system/process.hpp"
 
 #include <poll.h>

@@ -1,5 +1,5 @@
 // Runs a child process to its end and collects its output (Linux): a row of FreeFEM, gnuplot,
-// sbatch. A change must keep that no child outlives this process. Used by app/, freefem/ and more.
+// sbatch. A change must keep that no child outlives this process.
 #pragma once
 
 #include <chrono>

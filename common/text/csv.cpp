@@ -1,5 +1,5 @@
 // Reads CSV files by fast-cpp-csv-parser. Every fault of a file becomes an Error(kBadInput) with
-// file and line, in our words and not in those of the library. Used by fitting/ and more.
+// file and line, in our words and not in those of the library.
 #include "viscontact/common/text/csv.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Converts numbers to text and back without loss. The locale has no effect. Every file of
 // Viscontact is written and read by these functions. A change must keep the texts, because hashes
-// in files are computed from them. Used by app/, fitting/ and more.
+// in files are computed from them.
 #pragma once
 
 #include <optional>

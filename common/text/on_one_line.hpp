@@ -1,5 +1,5 @@
 // Turns a text of several lines into one line, for journals and messages that have one line each.
-// Only line ends may change. Used by freefem_axi/, particles/ and more.
+// Only line ends may change.
 #pragma once
 
 #include <algorithm>

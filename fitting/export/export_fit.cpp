@@ -1,6 +1,6 @@
 // The text of each target: the resistance R and its primitive Gamma, sums of terms by physics.md
 // (3.2) and (4.2), as code or numbers. Numbers are in the units of the fit. An impossible fit is an
-// Error(kBadInput). Names, keys and the order of sums must stay. Used by app/ and motions/.
+// Error(kBadInput). Names, keys and the order of sums must stay.
 #include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>

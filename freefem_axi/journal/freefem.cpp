@@ -1,6 +1,6 @@
 // Runs FreeFEM processes to their end and reads what they print (freefem.hpp). Times are in
 // seconds. A FreeFEM that does not start is an Error(kExternalProgram); failures of scripts are the
-// caller's. Used by table_plan.hpp, tabulation.hpp and results/.
+// caller's.
 #include "viscontact/freefem_axi/journal/freefem.hpp"
 
 #include <fmt/format.h>

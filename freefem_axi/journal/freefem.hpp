@@ -1,6 +1,6 @@
 // Runs FreeFEM as a separate process, which gets a script and numbers and prints lines of text
 // (docs/extending.md). Times are in seconds. Rows of all tables are computed by it. A change must
-// keep each process on one thread and within its time limit. Used by table_plan.hpp and more.
+// keep each process on one thread and within its time limit.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // Opens, locks and appends to a journal. A journal that cannot be written is an Error(kBadInput). A
-// change must keep lines in one piece, and on disk when append() returns. Used by tabulate.cpp.
+// change must keep lines in one piece, and on disk when append() returns.
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 // Reads all journals of a table, merges their rows, and removes what a written table contains
 // (row_record.hpp). A line or a journal that cannot be read counts as no rows. A change must keep
-// the order of reading: journals, then table. Used by tabulate.hpp and pipeline/.
+// the order of reading: journals, then table.
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 
 #include <fcntl.h>

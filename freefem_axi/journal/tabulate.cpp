@@ -1,6 +1,6 @@
 // Distributes the rows over threads. Each thread runs one FreeFEM process at a time and waits for
 // it. A row that FreeFEM cannot solve is recorded as failed; every other error stops all threads
-// and is thrown. Only one thread at a time may use journal and report. Used by pipeline/.
+// and is thrown. Only one thread at a time may use journal and report.
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // The lengths of edges (edge_lengths.hpp), from distances to particles and walls. Lengths are in
 // the unit of the case. An edge that is too short is an Error(kNotConverged). A change of a
-// constant changes all meshes, and bench/README.md. Used by periodic_cells.hpp and more.
+// constant changes all meshes, and bench/README.md.
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 
 #include <fmt/format.h>

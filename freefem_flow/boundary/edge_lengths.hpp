@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include "viscontact/particles/domain/domain.hpp"
@@ -109,6 +110,42 @@ std::vector<double> cut_curve(double length, std::size_t least, const EdgeLength
   }
   ends.push_back(length);
   return ends;
+}
+
+/// The points that cut the line from `from` to `to` into edges, with its ends. `edge_length(x)` is
+/// the wanted length at the point x. Errors as cut_curve().
+template <class EdgeLength>
+std::vector<Point> cut_line(const Point& from, const Point& to, const EdgeLength& edge_length) {
+  const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
+  const auto at = [&](double s) {
+    return Point{from[0] + s / length * (to[0] - from[0]),
+                 from[1] + s / length * (to[1] - from[1])};
+  };
+  std::vector<Point> points;
+  for (const double s : cut_curve(length, 1, [&](double t) { return edge_length(at(t)); }))
+    points.push_back(at(s));
+  points.front() = from;
+  points.back() = to;
+  return points;
+}
+
+/// The points that cut an outline into at least `least` edges, counter-clockwise; the last one is
+/// the first. `edge_length(t)` is the wanted length at the point outline.at(t). Errors as
+/// cut_curve().
+template <class EdgeLength>
+std::vector<Point> cut_outline(const particles::Outline& outline, std::size_t least,
+                               const EdgeLength& edge_length) {
+  // The outline is cut along s = radius t, which is the length of the curve on a circle.
+  const double r = outline.radius;
+  const auto along_s = [&](double s) {
+    const double t = s / r;
+    return outline.is_circle() ? edge_length(t) : edge_length(t) * r / outline.speed_at(t);
+  };
+  std::vector<Point> points;
+  for (const double s : cut_curve(2 * std::numbers::pi * r, least, along_s))
+    points.push_back(outline.at(s / r));
+  points.back() = points.front();
+  return points;
 }
 
 }  // namespace viscontact::freefem_flow

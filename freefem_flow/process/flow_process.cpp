@@ -1,6 +1,6 @@
 // Writes the requests of the protocol and reads the answers (docs/fluid-solver.md, which a change
 // must follow). Units are those of the solver; a wrong answer is an Error(kExternalProgram).
-// Numbers are written so that they read back to the same double. Used by freefem_solver.hpp.
+// Numbers are written so that they read back to the same double.
 #include "viscontact/freefem_flow/process/flow_process.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -17,9 +16,9 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/text/number.hpp"
 #include "viscontact/freefem_flow/dissipation_alone.hpp"
 #include "viscontact/freefem_flow/process/opening.hpp"
+#include "viscontact/freefem_flow/process/request_words.hpp"
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 
 namespace viscontact::freefem_flow {
@@ -33,18 +32,6 @@ constexpr double kCoarsening = 2;
 // The error of the finer mesh over the difference from the coarser one. Errors fall as h^4, which
 // makes a fifteenth; but so coarse a mesh does not follow this law yet, and h^3 makes a seventh.
 constexpr double kErrorOfDifference = 1.0 / 7;
-
-/// Appends numbers with a space before each. `what` they are stands in the error.
-void append(std::string& text, std::span<const double> values, const char* what) {
-  for (const double value : values) {
-    if (!std::isfinite(value))
-      throw Error(ErrorKind::kNotConverged,
-                  fmt::format("{} of the particles in the fluid left the range of a double ({})",
-                              what, value));
-    text += ' ';
-    text += format_number(value);
-  }
-}
 
 /// One line for each particle: its centre and, in the plane, its angle.
 void append_places(std::string& text, const FluidParticles& bodies, int dimension) {
@@ -64,18 +51,6 @@ void append_driven(std::string& text, const FluidParticles& bodies, int dimensio
     append(text, std::span(motion).first(particles::motion_components(dimension)), "a velocity");
     text += '\n';
   }
-}
-
-std::string words_of(const MeshBoundary& boundary) {
-  std::string text =
-      fmt::format("boundary {} {}\n", boundary.points.size(), boundary.curves.size());
-  for (const auto& point : boundary.points) {
-    append(text, point, "a point of the mesh around one");
-    text += '\n';
-  }
-  for (const auto& curve : boundary.curves)
-    text += fmt::format("{} {} {}\n", curve.first, curve.edges, curve.label);
-  return text;
 }
 
 /// A new folder for files that the solver reads or writes, which ends with the object.

@@ -1,6 +1,6 @@
 // Writes the opening of the protocol (docs/fluid-solver.md, which a change must follow). Units are
 // those of the arguments; a wrong domain is an Error(kBadInput). Numbers are written so that they
-// read back to the same double. Used by flow_process.cpp.
+// read back to the same double.
 #include "viscontact/freefem_flow/process/opening.hpp"
 
 #include <fmt/format.h>

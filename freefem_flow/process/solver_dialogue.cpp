@@ -1,5 +1,5 @@
 // Asks a fluid solver and checks its answers. Each fault is an Error(kExternalProgram). A change
-// must keep that a silent solver is killed at its time limit. Used by flow_process.cpp.
+// must keep that a silent solver is killed at its time limit.
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // The text of each target (export_pair.hpp): a function of the gap for each resistance of a pair,
 // as code or numbers. Numbers are in the units of the fit. An unknown target is an
-// Error(kBadInput). A change must keep the names of functions and keys. Used by app/.
+// Error(kBadInput). A change must keep the names of functions and keys.
 #include "viscontact/motions/fit/export_pair.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 // Makes a table of each resistance of a pair from the tables of the motions, and fits it
 // (fit_pair.hpp). Numbers are in the units of the tables. Tables that do not belong together are an
-// Error(kBadInput). Used by job/.
+// Error(kBadInput).
 #include "viscontact/motions/fit/fit_pair.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Reads the tables of a pair, fits them, and prints the residuals (pair_fit_stage.hpp). Numbers are
 // in the units of the tables. An incomplete folder is an Error(kBadInput) with the remedy. A change
-// must keep that a fit that did not change is not written again. Used by app/ and rolling/.
+// must keep that a fit that did not change is not written again.
 #include "viscontact/motions/job/pair_fit_stage.hpp"
 
 #include <fmt/format.h>

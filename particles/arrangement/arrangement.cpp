@@ -1,7 +1,7 @@
 // Places discs at random (arrangement.hpp). Lengths are in the unit of the case. Discs that do not
 // fit are an Error(kBadInput). Each seed must keep its arrangement. The compiler must not contract
 // products and sums (-ffp-contract=off in CMakeLists.txt), and only + - * / and sqrt may be used,
-// because these give the same bits on every machine. Used by case/ and sweep/.
+// because these give the same bits on every machine.
 #include "viscontact/particles/arrangement/arrangement.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Free motion and constrained motion of rigid bodies (body_step.hpp). Numbers are in the units of
 // the case. Nothing is thrown: a turn that does not converge is taken as it is. A change must keep
-// the angular momentum to rounding errors. Used by case/, constraints/ and more.
+// the angular momentum to rounding errors.
 #include "viscontact/particles/bodies/body_step.hpp"
 
 #include <algorithm>

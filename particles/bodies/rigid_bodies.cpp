@@ -1,6 +1,6 @@
 // Mass, inertia and places of rigid bodies (rigid_bodies.hpp). Numbers are in the units of the
 // case. Nothing is checked or thrown. A change must keep members that do not cross a side of the
-// cell where they are, bit for bit. Used by body_step.hpp, dual_problem/ and particles.hpp.
+// cell where they are, bit for bit.
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 
 #include <algorithm>

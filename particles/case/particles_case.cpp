@@ -1,6 +1,6 @@
 // Reads the case file of many particles (particles_case.hpp). Numbers are in the units of the case.
 // A wrong value is an Error(kBadInput) with its line. A change must keep keys and defaults, which
-// users' cases rely on. Used by particles_sections.hpp, particles_study.hpp and run/.
+// users' cases rely on.
 #include "viscontact/particles/case/particles_case.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Cases, rows and means of a sweep of particles (particles_study.hpp). A wrong key is an
 // Error(kWrongUsage). Everything that determines the results of a row must go into identity(), so
 // that results of another row are not kept. The draws of a point follow each other in the file, so
-// that means need only one point in memory at a time. Used by sweep/.
+// that means need only one point in memory at a time.
 #include "viscontact/particles/case/particles_study.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Reads vectors and piecewise constant vectors (vector_values.hpp). Vectors have the unit that the
 // key says; times [T] are in the unit of the case. A wrong value is an Error(kBadInput) with its
-// line. A change must keep accepting users' cases. Used by particles_sections.hpp.
+// line. A change must keep accepting users' cases.
 #include "viscontact/particles/case/vector_values.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Left-looking LU factorisation by columns and rows of blocks (block_factor.hpp). Numbers have the
 // units of the matrix. A singular matrix is no error: factorise() returns false. A change must keep
-// the order of sums. Used by proximal_step.hpp.
+// the order of sums.
 #include "viscontact/particles/constraints/block_factor.hpp"
 
 #include <Eigen/OrderingMethods>

@@ -1,5 +1,5 @@
 // Sparse LU factorisation of a matrix of small dense blocks with a symmetric pattern, one block row
-// for each rigid body. Numbers have the units of the matrix. proximal_step.hpp uses it. A change
+// for each rigid body. Numbers have the units of the matrix. unit_matrix.hpp uses it. A change
 // must keep the order of all sums, so that results do not depend on the number of threads.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Products and residuals of the constraints of a step (constraint_problem.hpp), in the units of the
-// case. Nothing is thrown. A change alters which steps converge. Used by impacts/ and more.
+// case. Nothing is thrown. A change alters which steps converge.
 #include "viscontact/particles/constraints/constraint_problem.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // The contacts with friction and the bilateral constraints of one time step, docs/physics.md (5.6)
 // to (5.9), in flat arrays. Lengths, masses and times are in the units of the case.
 // constraint_solver.hpp and the blows solve it. Nothing is thrown. A change must keep contacts
-// without friction those of (5.4). Used by impacts/, constraint_solver.hpp and more.
+// without friction those of (5.4).
 #pragma once
 
 #include <array>

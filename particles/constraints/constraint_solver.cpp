@@ -1,6 +1,6 @@
 // Sweeps and proximal steps (constraint_solver.hpp). Units are those of the case. What is not
 // solved is reported, not thrown. The constants change how long a solution takes, and the results
-// within the tolerances. Used by constraint_system.hpp and impacts/.
+// within the tolerances.
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 
 #include <algorithm>

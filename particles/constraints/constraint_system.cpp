@@ -1,6 +1,6 @@
 // Numbers the units of a step, makes the rows of contacts and links, and takes over the solution
 // (constraint_system.hpp), in the units of the case. What is not solved is reported, not thrown. A
-// change must keep hinges and arms exact after finite turns. Used by projection/.
+// change must keep hinges and arms exact after finite turns.
 #include "viscontact/particles/constraints/constraint_system.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Tangents and rows of contacts (contact_rows.hpp), in the units of the case. Nothing is thrown. A
-// change must keep the angular momentum of a pair. Used by constraint_system.hpp and impacts/.
+// change must keep the angular momentum of a pair.
 #include "viscontact/particles/constraints/contact_rows.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
 // Newton's method for a step of the proximal method, in the units of the case. A step that fails is
-// reported, not thrown. A change must keep the order of sums. Used by constraint_solver.cpp.
+// reported, not thrown. A change must keep the order of sums.
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 #include <algorithm>

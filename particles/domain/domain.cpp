@@ -1,5 +1,5 @@
 // Makes obstacles of the walls of a domain. Lengths are in the unit of the case. Nothing is checked
-// or thrown. A change must keep the order, which numbers obstacles in files. Used by setting.cpp.
+// or thrown. A change must keep the order, which numbers obstacles in files.
 #include "viscontact/particles/domain/domain.hpp"
 
 namespace viscontact::particles {

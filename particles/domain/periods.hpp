@@ -1,6 +1,6 @@
 // Periods of a domain: the cell that holds the positions, and the images of a particle. Lengths are
 // in the unit of the case. Nothing is checked or thrown. The restart file stores the numbers of
-// images, so that a change must keep their meaning. Used by bodies/, case/ and more.
+// images, so that a change must keep their meaning.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // Computes the position of a plane at a given time: a rotation about its pivot, then a translation
 // (plane.hpp). Numbers are in any consistent units. Nothing is checked or thrown. A change must
-// keep a plane at rest bit for bit. Used by constraints/, contact/ and more.
+// keep a plane at rest bit for bit.
 #include "viscontact/particles/domain/plane.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Numbers the bodies, joins islands, and passes both to the solver. Equations and units are those
 // of contact_system.hpp. Nothing is thrown. A change must keep the order of bodies, on which
-// results depend. Used by constraints/ and projection/.
+// results depend.
 #include "viscontact/particles/dual_problem/contact_system.hpp"
 
 #include <algorithm>

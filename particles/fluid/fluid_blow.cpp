@@ -1,5 +1,5 @@
 // Solves the two phases of a blow in a fluid. Numbers are in the units of the case. Errors are
-// those of the mobility. The work of a blow must not be positive. Used by fluid_motion.hpp.
+// those of the mobility. The work of a blow must not be positive.
 #include "viscontact/particles/fluid/fluid_blow.hpp"
 
 #include <algorithm>

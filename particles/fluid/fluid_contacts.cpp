@@ -1,6 +1,6 @@
 // Lists pairs that are close to contact, chooses the contacts of a step among them and measures
 // their residuals. Numbers are in the units of the case. Errors are those of the mobility. A change
-// must keep the order of pairs, which files have. Used by contact_problem.cpp and more.
+// must keep the order of pairs, which files have.
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 #include <iterator>

@@ -1,7 +1,7 @@
 // Time stepping of particles in a fluid (fluid_simulation.hpp): velocities without contact, contact
 // impulses, velocities with them, gamma, positions. Units are those of the case; errors are those
 // of step(). Restarts must give the same bits, so a step may depend on nothing but the setting and
-// the state. Used by fluid_motion.hpp and run/.
+// the state.
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
 
 #include <fmt/format.h>

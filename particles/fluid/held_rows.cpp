@@ -1,6 +1,5 @@
 // Makes the rows, linear conditions on velocities, of rigid bodies and links in a fluid. Units are
-// those of the case; nothing is thrown. A change must keep bodies exactly rigid. Used by
-// fluid_acceptance.cpp and fluid_simulation.cpp.
+// those of the case; nothing is thrown. A change must keep bodies exactly rigid.
 #include "viscontact/particles/fluid/held_rows.hpp"
 
 #include <fmt/format.h>

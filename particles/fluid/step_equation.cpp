@@ -1,5 +1,5 @@
 // Forces, inertia and given motions of a step. Numbers are in the units of the case. Nothing is
-// thrown. A change must keep the order of the step in time. Used by fluid_simulation.cpp.
+// thrown. A change must keep the order of the step in time.
 #include "viscontact/particles/fluid/step_equation.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Finds the blows of a step in the order of their times (impacts.hpp). Numbers are in the units of
 // the case; times within the step are counted from its beginning. What is not solved is reported,
 // not thrown. A change must keep the result independent of the order of the particles, to rounding
-// errors. Used by strike.cpp, projection/ and simulation.cpp.
+// errors.
 #include "viscontact/particles/impacts/impacts.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Writes bodies.csv, hinges.csv, springs.csv and arms.csv, and links as VTK PolyData
 // (link_file.hpp). Numbers are in the units of the case. Nothing is thrown. A change must keep the
-// columns, which users' scripts read. Used by run/.
+// columns, which users' scripts read.
 #include "viscontact/particles/io/link_file.hpp"
 
 #include <fmt/format.h>

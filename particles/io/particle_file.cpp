@@ -1,6 +1,6 @@
 // Reads and writes particles and contacts as CSV (docs/file-formats.md). Numbers are in the units
 // of the case. A fault of a file is an Error(kBadInput) with its line. A change must keep the names
-// of the columns, which users' files contain. Used by case/ and run/.
+// of the columns, which users' files contain.
 #include "viscontact/particles/io/particle_file.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Makes the equations of links (link_rows.hpp). Numbers are in the units of the case. Nothing is
 // checked or thrown. A change must keep that rows and values_after() agree to first order in the
-// motion. Used by constraints/, fluid/ and simulation.cpp.
+// motion.
 #include "viscontact/particles/links/link_rows.hpp"
 
 #include <fmt/format.h>

@@ -20,9 +20,10 @@ struct State;
 /// counter-clockwise around the area inside. The curve goes through their centres by trigonometric
 /// interpolation over the number of the bead.
 struct Membrane {
-  std::int32_t first = 0;       ///< number of its first bead, >= 0
-  std::int32_t beads = 48;      ///< number of its beads, >= kLeastBeads
-  double bending_rigidity = 1;  ///< kappa of (kappa/2) integral of curvature^2 ds [M L^2/T^2], > 0
+  std::int32_t first = 0;   ///< number of its first bead, >= 0
+  std::int32_t beads = 48;  ///< number of its beads, >= kLeastBeads
+  /// kappa of (kappa/2) integral of curvature^2 ds [M L^2/T^2], > 0; M is no mass per unit length.
+  double bending_rigidity = 1;
   /// Viscosity of the fluid inside over that of the fluid outside [1], > 0.
   double viscosity_ratio = 1;
   double perimeter = 0;  ///< kept, with equal lengths between beads [L], > 0

@@ -1,7 +1,6 @@
 // The closed curve through the beads of a membrane, docs/physics.md (8.2) and (8.3): its lengths,
 // its area, and its bending energy with the first and second derivatives. For sources of this
-// folder and
-// tests: it needs Eigen. Lengths are in the unit of the case.
+// folder and tests: it needs Eigen. Lengths are in the unit of the case.
 #pragma once
 
 #include <Eigen/Core>

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
@@ -11,8 +12,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// A membrane in which a vesicle of reduced area above 0.999 is a circle that nothing deforms, and
-/// below 0.3 its two sides touch.
+/// A vesicle of a reduced area above 0.999 is a circle that hardly anything deforms, and below 0.3
+/// its two sides touch.
 constexpr Allowed kReducedArea = {[](double v) { return v >= 0.3 && v <= 0.999; },
                                   "from 0.3 to 0.999"};
 
@@ -101,7 +102,7 @@ std::span<const double> beads_of(const ParticlesCase& c, const Membrane& membran
 }
 
 /// Throws if beads of the last membrane that are no neighbours overlap, or if it crosses or
-/// contains another one.
+/// contains another one or an image of it in the next period.
 void check_place(const case_file::TomlSection& section, const ParticlesCase& c) {
   const auto& membranes = c.setting.fluid->membranes;
   const auto& membrane = membranes.back();
@@ -117,9 +118,17 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
           "is so small that beads {} and {} overlap across the membrane; it must be larger, or the "
           "membrane must have more beads (or a smaller bead_radius)",
           i, j);
-  for (std::size_t m = 0; m + 1 < membranes.size(); ++m)
-    section.require(!do_meet(own, beads_of(c, membranes[m])), "centre",
-                    "makes the membrane cross or contain membrane {}; membranes must be apart", m);
+  const double period = periods_of(c.setting.domain)[0];
+  for (std::size_t m = 0; m + 1 < membranes.size(); ++m) {
+    const auto other = beads_of(c, membranes[m]);
+    for (const double shift : {0.0, -period, period}) {
+      std::vector<double> image(other.begin(), other.end());
+      for (std::size_t i = 0; i < image.size(); i += 2) image[i] += shift;
+      section.require(!do_meet(own, image), "centre",
+                      "makes the membrane cross or contain membrane {}; membranes must be apart",
+                      m);
+    }
+  }
 }
 
 }  // namespace

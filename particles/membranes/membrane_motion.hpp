@@ -63,11 +63,13 @@ class Membranes {
   /// Solves a step that is implicit in bending and lengths: positions z, forces f and the
   /// velocities
   ///
-  ///     (z - from)/time = flow + mobility (loads + P f),   f = -grad E(z) - G(z)^T T,   lengths
-  ///     kept,
+  ///     (z - from)/time = flow + mobility (loads + P f),
+  ///     f = -grad E(z) - G(z)^T T,   lengths(z) kept,
   ///
-  /// and then moves z so little that lengths and areas are exact. `positions` is a first guess, and
-  /// z afterwards. Throws Error(kNotConverged) if Newton's method fails.
+  /// where P f = f - q a is without the pressure q that f holds inside: a is the derivative of the
+  /// area, and a.P f = 0 for each membrane. It then moves z as little as makes lengths and areas
+  /// exact. `positions` is a first guess, and z afterwards. Throws Error(kNotConverged) if Newton's
+  /// method fails.
   MembraneMotion step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                       const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const;
 

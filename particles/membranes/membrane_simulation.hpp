@@ -14,15 +14,16 @@ namespace viscontact::particles {
 
 /// Membranes in a Stokes flow. A step of length h solves
 ///
-///     (z - from)/time = S(at) f(z),   f(z) = -grad E(z) - G(z)^T tension,   lengths(z) kept,
+///     (z - from)/time = S(at) P f(z),   f(z) = -grad E(z) - G(z)^T tension,   lengths(z) kept,
 ///
 /// where S(at) f are the velocities of the beads that the fluid gives with membranes at `at` under
-/// the forces f, E is the bending energy and G the derivative of the lengths. With the positions
+/// the forces f, E is the bending energy and G the derivative of the lengths. P takes out the
+/// pressure that f holds inside, which makes no flow (Membranes::step). With the positions
 /// x^n and x^{n-1} and the step k before, r = h/k, at = (1 + r) x^n - r x^{n-1}, and `from` and
 /// `time` are those of the backward difference of second order; the first step is of first order
 /// (docs/physics.md (8.6)). Beads of different membranes, and beads and walls, make viscous contact
-/// as particles do: the impulses are loads on the beads in f, and the displacements without contact
-/// are the free motion.
+/// as particles do: the impulses are loads on the beads beside P f, and the displacements without
+/// contact are the free motion.
 class MembraneSimulation {
  public:
   /// `setting.fluid` has membranes, whose beads are all particles of `state`; `state` is what

@@ -1,6 +1,6 @@
 // Cell lists, one grid for each factor of 2 in the extents (close_pairs.hpp, docs/particles.md),
 // and a sweep along a line. Lengths are in one unit; nothing is checked or thrown. A change must
-// keep the order of the pairs, on which the results of a simulation depend. Used by case/ and more.
+// keep the order of the pairs, on which the results of a simulation depend.
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Checks whether the list of close pairs is still valid, and makes it again (docs/particles.md).
 // Lengths are in the unit of the case. A particle that moves too far for a periodic cell is an
 // Error(kNotConverged). A change must keep the order of the pairs, on which the results of a
-// simulation depend. Used by fluid/ and simulation.cpp.
+// simulation depend.
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,7 @@
 // Writes the page that plays a motion: chooses the frames, particles and contacts that fit into it,
 // encodes them as blocks of base64, and writes words, controls and scales. Numbers are in the units
 // of the case; a flow that cannot be read is an Error(kBadInput). The layout of the data, the keys
-// of the JSON and the ids of elements must agree with the scripts in particles/picture/page. Used
-// by run/.
+// of the JSON and the ids of elements must agree with the scripts in particles/picture/page.
 #include "viscontact/particles/picture/particles_page.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Arranges frames of a motion side by side in an SVG, with the scale of gamma below. Sizes are in
 // units of the page, lengths of the motion in those of the case. A flow that cannot be read is an
-// Error(kBadInput). All panels must have one scale. Used by run/.
+// Error(kBadInput). All panels must have one scale.
 #include "viscontact/particles/picture/particles_picture.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Finds the box that is seen, reads the flows in it, and chooses the scales of their colours
 // (scene.hpp). Numbers are in the units of the case. A flow that cannot be read is an
-// Error(kBadInput). A change alters picture and page together. Used by frame_picture.hpp and more.
+// Error(kBadInput). A change alters picture and page together.
 #include "viscontact/particles/picture/scene.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Computes the impulses at work and the rounding errors of contacts (docs/particles.md). Lengths
 // [L] and impulses [M L/T] are in the units of the case; nothing is thrown. A change alters which
-// steps converge. Used by step_projection.hpp.
+// steps converge.
 #include "viscontact/particles/projection/residual_scales.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Chooses the contacts of a step and solves the projection in rounds (step_projection.hpp). Numbers
 // are in the units of the case. What is not solved is reported, not thrown. Results must not depend
-// on the number of threads. Used by examined_step.cpp and simulation.cpp.
+// on the number of threads.
 #include "viscontact/particles/projection/step_projection.hpp"
 
 #include <algorithm>

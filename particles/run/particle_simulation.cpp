@@ -1,6 +1,6 @@
 // Chooses the simulation for a setting, and starts the fluid solver (particle_simulation.hpp).
 // Numbers are in the units of the case. The errors of the solver are thrown. A change must keep
-// that no solver is started without a fluid. Used by particles_stage.cpp and sweep/.
+// that no solver is started without a fluid.
 #include "viscontact/particles/run/particle_simulation.hpp"
 
 #include <utility>

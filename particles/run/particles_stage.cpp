@@ -1,7 +1,7 @@
 // A run of many particles: checks, continues an earlier run, computes time steps, saves and writes
 // the results. Numbers are in the units of the case; errors are those of particles_stage.hpp.
 // restart.bin must be written after all files that a run needs to continue (Run::save), so that a
-// run that is killed at any time can be continued. Used by app/ and sweep/.
+// run that is killed at any time can be continued.
 #include "viscontact/particles/run/particles_stage.hpp"
 
 #include <fmt/format.h>

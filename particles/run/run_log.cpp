@@ -1,6 +1,6 @@
 // Writes frames (VTK), their lists (PVD) and tables (CSV), and continues them. Numbers are in the
 // units of the case. A file that cannot be written, or was changed, is an Error(kBadInput). A
-// change must keep that files only grow. Used by particles_earlier_run.hpp and particles_stage.cpp.
+// change must keep that files only grow.
 #include "viscontact/particles/run/run_log.hpp"
 
 #include <algorithm>

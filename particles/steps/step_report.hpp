@@ -1,6 +1,6 @@
 // What is recorded of one step of a simulation, for steps.csv and run.json. Lengths, masses and
 // times are in the units of the case. Simulations fill it, and particles/run writes it. A change
-// must keep what the columns of steps.csv mean. Used by fluid/, run/ and more.
+// must keep what the columns of steps.csv mean.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // Residuals of a step and their limits (step_residuals.hpp). Numbers are in the units of the case.
 // Errors are those of step_residuals.hpp. A change must keep one measure for particles with masses
-// and in a fluid. Used by fluid/, projection/ and simulation.cpp.
+// and in a fluid.
 #include "viscontact/particles/steps/step_residuals.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // Places the steps around or at the times of jumps (step_times.hpp). Times [T] are in the unit of
-// the case. A run that continues must take the same steps, bit for bit. Used by fluid/ and more.
+// the case. A run that continues must take the same steps, bit for bit.
 #include "viscontact/particles/steps/step_times.hpp"
 
 #include <algorithm>

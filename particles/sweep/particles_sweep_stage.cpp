@@ -1,6 +1,6 @@
 // The stages of sweeps of particles. Computing times are in [s], others in the unit of the case.
 // Runs that all fail, or are missing, are an Error(kNotConverged). A change must keep runs in their
-// folders until the user deletes them, so that adding draws runs the new ones only. Used by app/.
+// folders until the user deletes them, so that adding draws runs the new ones only.
 #include "viscontact/particles/sweep/particles_sweep_stage.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Writes and compares the comment lines of trajectories that identify their inputs. A file that
 // cannot be read counts as one from other inputs. A change of a key makes `run` simulate again,
-// because trajectories of earlier versions lack the key. Used by simulate_stage.hpp.
+// because trajectories of earlier versions lack the key.
 #include "viscontact/pipeline/simulate/made_from.hpp"
 
 #include <algorithm>

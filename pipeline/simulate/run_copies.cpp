@@ -1,6 +1,6 @@
 // Checks and writes the copies of a run's inputs in its folder. A file of the user in the way is an
 // Error(kBadInput). A change must keep the order of writing (write_copies), by which files of the
-// user are told from copies. Used by run_stages.cpp and simulate_stage.cpp.
+// user are told from copies.
 #include "viscontact/pipeline/simulate/run_copies.hpp"
 
 #include <fmt/format.h>

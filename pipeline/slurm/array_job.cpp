@@ -1,7 +1,7 @@
 // An array job (array_job.hpp): its tasks, its script and the calls of squeue and sbatch. Each task
 // runs `viscontact COMMAND --task K/T`, where K is the number of the task, from 0, and T the number
 // of tasks. A Slurm that fails is an Error(kExternalProgram). A change must keep the name of the
-// job, by which a second job for the same output is refused. Used by app/ and more.
+// job, by which a second job for the same output is refused.
 #include "viscontact/pipeline/slurm/array_job.hpp"
 
 #include <fmt/format.h>

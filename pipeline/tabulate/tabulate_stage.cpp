@@ -1,6 +1,6 @@
 // Tabulates several cases in one process, computes the rows of one task, or gathers the rows of all
 // tasks. Rows that fail do not stop the others; the error that names them comes last. Journals of
-// finished rows must not be removed before their table is written. Used by app/, rolling/ and more.
+// finished rows must not be removed before their table is written.
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Sums of piecewise polynomials (polynomial.hpp) and sinusoids, and the search for their changes of
 // sign. Numbers are in any consistent units. A force that is not defined is an Error(kBadInput). A
 // change must keep the form of the sums, in which short intervals and small arguments lose no
-// digits. Used by motion.hpp.
+// digits.
 #include "viscontact/reduced_model/external_force/external_force.hpp"
 
 #include <fmt/format.h>

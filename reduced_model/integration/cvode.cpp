@@ -1,6 +1,6 @@
 // Calls CVODE of SUNDIALS 6 or 7 and checks all return codes (cvode.hpp). Times are in [T]. A code
 // that is an error becomes Error(kNotConverged). A change must keep that CVODE prints nothing, and
-// that both versions of SUNDIALS compile. Used by models/ and rolling/.
+// that both versions of SUNDIALS compile.
 #include "viscontact/reduced_model/integration/cvode.hpp"
 
 #include <cvode/cvode.h>

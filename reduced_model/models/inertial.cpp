@@ -2,7 +2,7 @@
 // and makes rows at the required times and where the velocity changes its sign. q is the gap, P the
 // momentum with impulses, Gamma the primitive of the resistance R, m the mass; lengths, masses and
 // times are in any one system of units. Errors are those of inertial.hpp. A change of results must
-// raise kModelsRevision. Used by models.cpp.
+// raise kModelsRevision.
 #include "viscontact/reduced_model/models/inertial.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // The equation (S) of inertial_equation.hpp for s = ln(q/r), the tolerances of its integration, and
 // the velocity that belongs to a state. Numbers are in any consistent units. A gap outside the fit
-// is an Error(kBadInput) of LubricationForce. A change of results must raise kModelsRevision. Used
-// by inertial.cpp and rolling/.
+// is an Error(kBadInput) of LubricationForce. A change of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/inertial_equation.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // The registry of models, the suffixes of their names, and the budget of models whose film is the
 // whole drag. Numbers are in any consistent units. An unknown name is an Error(kBadInput), and a
 // result that is not finite an Error(kNotConverged). A change must keep the names, and the order,
-// which gives the colours of the report. Used by app/, case_file/ and more.
+// which gives the colours of the report.
 #include "viscontact/reduced_model/models/models.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // Runs a model and takes the extreme gaps [L] from its trajectory. A motion that cannot be computed
-// gives nothing. A change must keep that a stop is still thrown. Used by pipeline/.
+// gives nothing. A change must keep that a stop is still thrown.
 #include "viscontact/reduced_model/models/reached_gaps.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // The loop over time of the model `reference`, by the scheme of reference.hpp. Numbers are in any
 // consistent units. A step through the wall is an Error(kNotConverged). A change of results must
-// raise kModelsRevision. Used by models.cpp.
+// raise kModelsRevision.
 #include "viscontact/reduced_model/models/reference.hpp"
 
 #include <fmt/format.h>

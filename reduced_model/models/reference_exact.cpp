@@ -1,6 +1,6 @@
 // Computes the rows of the model `reference_exact` by the equation of reference_exact.hpp. Numbers
 // are in any consistent units. A motion outside the fit is an Error(kBadInput). A change of results
-// must raise kModelsRevision. Used by models.cpp.
+// must raise kModelsRevision.
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 
 namespace viscontact::reduced_model {

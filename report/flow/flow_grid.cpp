@@ -1,7 +1,7 @@
 // Interpolates a flow at the points of a grid (flow_grid.hpp), in the units of the case. A
 // quadratic triangle is found by the four straight triangles between its six nodes; the value at
 // the point is that of the quadratic shape functions. A point without a triangle gets NaN. A change
-// must keep the numbering of the nodes, which is that of FlowField. Used by particles/ and more.
+// must keep the numbering of the nodes, which is that of FlowField.
 #include "viscontact/report/flow/flow_grid.hpp"
 
 #include <algorithm>

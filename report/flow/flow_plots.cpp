@@ -1,7 +1,7 @@
 // The pictures of a row: views of the half-plane (rho, z) and of its mirror image, colours of the
 // pressure or speed, and curves (flow_plots.hpp). Lengths, velocities and pressures are in the
 // units of the case. A gnuplot that fails is an Error(kExternalProgram). A change must keep the
-// title true where heights are drawn larger than widths. Used by pipeline/.
+// title true where heights are drawn larger than widths.
 #include "viscontact/report/flow/flow_plots.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Solves for the stream function on a grid, follows its level lines, and simplifies them
 // (stream_lines.hpp). Points without fluid take part with a small weight, so that the matrix is
 // never singular and the fluid may consist of several regions. Numbers are in the units of the
-// case. A fluid at rest gives no lines; nothing is thrown. Used by particles/ and flow_plots.cpp.
+// case. A fluid at rest gives no lines; nothing is thrown.
 #include "viscontact/report/flow/stream_lines.hpp"
 
 #include <Eigen/SparseCholesky>

@@ -1,6 +1,6 @@
 // Level lines of fields, and the streamlines of a flow on a grid. Lengths and times are in the
 // units of the case. flow_plots.hpp and particles/picture draw them. A change must keep that equal
-// amounts flow between neighbouring lines. Nothing is thrown. Used by particles/ and more.
+// amounts flow between neighbouring lines. Nothing is thrown.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // Interpolates colours between the nodes of a scale, and chooses the ends, numbers and words of
 // scales (colours.hpp). Nothing is thrown. gnuplot gets PressureColours::at(pressure) and not the
-// pressure, so a change must keep settings() and at() in step. Used by particles/, flow/ and more.
+// pressure, so a change must keep settings() and at() in step.
 #include "viscontact/report/pictures/colours.hpp"
 
 #include <fmt/format.h>

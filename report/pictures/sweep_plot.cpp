@@ -1,6 +1,6 @@
 // Reads the columns to draw from a sweep's file and draws them (sweep_plot.hpp). Values are in the
 // units of the case; a column that is missing or empty is an Error(kBadInput). The file must be
-// read row by row, because it may be larger than the memory. Used by app/.
+// read row by row, because it may be larger than the memory.
 #include "viscontact/report/pictures/sweep_plot.hpp"
 
 #include <fmt/format.h>

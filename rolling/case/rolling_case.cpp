@@ -1,6 +1,6 @@
 // Reads the sections of a case of a rolling sphere, and applies the defaults. Numbers are in the
 // units of the case. A wrong value is an Error(kBadInput) with its line. A change must keep keys
-// and defaults, because users have written cases with them. Used by app/ and more.
+// and defaults, because users have written cases with them.
 #include "viscontact/rolling/case/rolling_case.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Computes the motions of a sweep of a rolling sphere (rolling_study.hpp). Numbers are in the units
 // of the case. A key that changes no row is an Error(kWrongUsage); a model that fails leaves its
-// columns empty. The names of the columns must stay, for users' scripts. Used by app/.
+// columns empty. The names of the columns must stay, for users' scripts.
 #include "viscontact/rolling/case/rolling_study.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // The pictures and the page of a rolling sphere, in the units of the case. A gnuplot that fails is
 // an Error(kExternalProgram). kRollingPictures must contain the name of every picture, because it
-// decides which files in plots/ may be replaced or removed. Used by rolling_stage.cpp.
+// decides which files in plots/ may be replaced or removed.
 #include "viscontact/rolling/job/rolling_page.hpp"
 
 #include <fmt/format.h>

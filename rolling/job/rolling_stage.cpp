@@ -1,7 +1,7 @@
 // Runs the stages of a rolling sphere one after the other (rolling_stage.hpp). Numbers are in the
 // units of the case. A change must keep the keys of rolling.json and the columns of the
 // trajectories, which are in docs/file-formats.md. A model that fails is reported at the end; the
-// others are still written. Used by app/.
+// others are still written.
 #include "viscontact/rolling/job/rolling_stage.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Reads the case of a swimmer (swimmer_case.hpp): spheres and arms, and strokes given by corners,
 // an ellipse or a file of samples. Numbers are in the units of the case. A wrong value is an
 // Error(kBadInput) with its line. A change must keep the arms of a grid bit for bit, because
-// finished rows and tables are found by their gaps. Used by swimmer_study.cpp and job/.
+// finished rows and tables are found by their gaps.
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 
 #include <algorithm>

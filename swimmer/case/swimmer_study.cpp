@@ -1,6 +1,6 @@
 // Computes the strokes of a sweep (swimmer_study.hpp). Numbers are in the units of the case. A key
 // that changes no row is an Error(kWrongUsage); a stroke that fails leaves its columns empty. A
-// change must keep the names of the columns, which users' scripts read. Used by app/.
+// change must keep the names of the columns, which users' scripts read.
 #include "viscontact/swimmer/case/swimmer_study.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Subtracts the lubrication from each resistance matrix R, and takes the logarithm S of the rest: R
 // = mu (R_lub + l exp S), with the viscosity mu and the largest radius l (resistance_fit.hpp).
 // Numbers are in the units of the table. Rows that are missing or stand twice are an
-// Error(kBadInput). A change must keep the random signs, and so the error estimates. Used by job/.
+// Error(kBadInput). A change must keep the random signs, and so the error estimates.
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // The page of a swimmer: tables, curves over time, and loops over the map of the displacement per
 // area. Numbers are in the units of the case. A gnuplot that fails is an Error(kExternalProgram).
 // kPictureNames must contain the name of every picture, because it decides which files in plots/
-// may be replaced or removed. Used by swimmer_stage.cpp.
+// may be replaced or removed.
 #include "viscontact/swimmer/job/swimmer_page.hpp"
 
 #include <fmt/format.h>

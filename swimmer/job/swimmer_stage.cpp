@@ -1,6 +1,6 @@
 // Runs the stages of a swimmer one after the other (swimmer_stage.hpp). Numbers are in the units of
 // the case. A change must keep the keys of swimmer.json and the columns of stroke.csv, which are in
-// docs/file-formats.md. Errors are those of swimmer_stage.hpp. Used by app/.
+// docs/file-formats.md. Errors are those of swimmer_stage.hpp.
 #include "viscontact/swimmer/job/swimmer_stage.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Evaluates R = mu (R_lub + l exp(S)) and its derivatives (resistance_fit.hpp). mu is the
 // viscosity, l the largest radius. Numbers are in the units of the fit. Gaps outside the table are
-// an Error(kBadInput). Slopes must stay the derivatives of R. Used by shape_mechanics.hpp.
+// an Error(kBadInput). Slopes must stay the derivatives of R.
 #include "viscontact/swimmer/resistance/fitted_resistance.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // Evaluates the lubrication of pairs. Lengths are in the unit of the caller. Nothing is thrown. A
-// change must keep the formula, because fit files contain only the rest. Used by fit/ and more.
+// change must keep the formula, because fit files contain only the rest.
 #include "viscontact/swimmer/resistance/pair_lubrication.hpp"
 
 #include <array>

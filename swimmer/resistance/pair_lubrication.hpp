@@ -1,6 +1,6 @@
 // The lubrication between two spheres that approach each other along their line of centres: the
 // singular part of a fit of resistances (resistance_fit.hpp). Lengths are in any one unit. A change
-// must keep the formula, because fit files contain only the rest. Used by fit/ and more.
+// must keep the formula, because fit files contain only the rest.
 #pragma once
 
 #include <Eigen/Core>

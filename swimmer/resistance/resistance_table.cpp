@@ -1,6 +1,6 @@
 // The columns of a table of resistance matrices (resistance_table.hpp, docs/file-formats.md).
 // Numbers are in the units of the table. A matrix that is not positive definite is an
-// Error(kBadInput). A change must keep the names of the columns. Used by case/, fit/ and more.
+// Error(kBadInput). A change must keep the names of the columns.
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 #include <fmt/format.h>

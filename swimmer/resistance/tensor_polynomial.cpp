@@ -1,5 +1,5 @@
 // Interpolates by the barycentric formula. Numbers have any dimension; nothing is checked or
-// thrown. A change must keep that the values at the nodes are met exactly. Used by fit/ and more.
+// thrown. A change must keep that the values at the nodes are met exactly.
 #include "viscontact/swimmer/resistance/tensor_polynomial.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Polynomials of several variables that interpolate values on a grid, with their derivatives. Fits
 // of resistance matrices are such polynomials. Numbers have any dimension; nothing is checked or
-// thrown. A change must keep that the values at the nodes are met exactly. Used by fit/ and more.
+// thrown. A change must keep that the values at the nodes are met exactly.
 #pragma once
 
 #include <Eigen/Core>

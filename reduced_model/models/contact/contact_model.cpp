@@ -1,7 +1,7 @@
 // The loop over time of the contact models: the resolved drag in a step, the budget, and the
 // contact interval. The equations are those of contact_step.hpp. Numbers are in any consistent
 // units. Errors are those of the model and of motion.hpp. A change of results must raise
-// kModelsRevision. Used by models/, inelastic_contact.hpp and more.
+// kModelsRevision.
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // The models `viscous_contact` and `viscous_contact_leapfrog`: contact at the gap q = 0 and no
 // resolved drag. A fit without a positive coefficient of 1/q is an Error(kBadInput). A change of
-// results must raise kModelsRevision. Used by viscous_contact_exact.cpp and more.
+// results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Finds the events of problem (P), which are landing, release and change to solid contact, and
 // computes the budget between them. The equations are those of viscous_contact_exact.hpp. Numbers
 // are in any consistent units. Errors are those of viscous_contact_exact.hpp. A change of results
-// must raise kModelsRevision. Used by models/.
+// must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 
 #include <algorithm>

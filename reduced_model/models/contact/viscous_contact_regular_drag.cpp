@@ -1,6 +1,6 @@
 // The model `viscous_contact_regular_drag` (viscous_contact_regular_drag.hpp): contact at the gap q
 // = 0 [L] and the regular drag R(q) - k/q [M/T]. A fit without k is an Error(kBadInput). A change
-// of results must raise kModelsRevision. Used by models/.
+// of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact_regular_drag.hpp"
 
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"

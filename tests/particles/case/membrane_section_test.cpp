@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
@@ -80,6 +81,12 @@ TEST_F(MembraneSection, MembranesThatMeetOrLeaveTheDomainAreErrors) {
   expect_refused(text(membrane() + "[[membrane]]\ncentre = [0.1, 0.0]\nperimeter = 2.0\n"
                                    "reduced_area = 0.8\nbending_rigidity = 3.0\n"),
                  18, "membrane[1].centre makes the membrane cross or contain membrane 0");
+  // Also across the period of 10: the second membrane is in the image of the first one.
+  const std::string small = "perimeter = 2.0\nreduced_area = 0.8\nbending_rigidity = 3.0\n";
+  for (const auto& [first, second] :
+       {std::pair("4.5, 0.0", "-4.9, 0.0"), {"-4.5, 0.0", "4.9, 0.0"}})
+    expect_refused(text(membrane(first) + "[[membrane]]\ncentre = [" + second + "]\n" + small), 18,
+                   "membrane[1].centre makes the membrane cross or contain membrane 0");
   expect_refused(text(membrane("0.0, 3.5")), 12, "");
 }
 

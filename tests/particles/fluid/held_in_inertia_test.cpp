@@ -21,14 +21,6 @@ InFluid with_inertia(int dimension, double h) {
   return system;
 }
 
-void add_disc(InFluid& system, const Vector& at, double mass, const Vector& velocity) {
-  add_particle(system.state, at, 0.1, mass, velocity);
-  auto& p = system.state.particles;
-  p.angles.push_back(0);
-  p.angular_velocities.push_back(0);
-  p.inertias.push_back(homogeneous_inertia(2, mass, 0.1));
-}
-
 /// The error of the value falls with h^2 from h to h/4.
 void expect_order_2(const std::function<double(double h)>& value, double exact, double h) {
   const double coarse = std::abs(value(h) - exact), fine = std::abs(value(h / 4) - exact);

@@ -18,15 +18,6 @@ constexpr double kTinyDrag = 1e-9;
 
 ArmLength constant_length(double length) { return PiecewiseLinearLength{{{0, length}}}; }
 
-/// Adds a disc of radius 0.1 with a velocity.
-void add_disc(InFluid& system, const Vector& at, double mass, const Vector& velocity) {
-  add_particle(system.state, at, 0.1, mass, velocity);
-  auto& p = system.state.particles;
-  p.angles.push_back(0);
-  p.angular_velocities.push_back(0);
-  p.inertias.push_back(homogeneous_inertia(2, mass, 0.1));
-}
-
 /// What two discs of mass 1 do that circle about their middle at the distance 3 with the speed 1,
 /// until the time 10.
 struct Circling {

@@ -165,6 +165,14 @@ InFluid in_fluid(int dimension, double width, double h, double threshold_gap) {
   return system;
 }
 
+void add_disc(InFluid& system, const Vector& at, double mass, const Vector& velocity) {
+  add_particle(system.state, at, 0.1, mass, velocity);
+  auto& p = system.state.particles;
+  p.angles.push_back(0);
+  p.angular_velocities.push_back(0);
+  p.inertias.push_back(homogeneous_inertia(2, mass, 0.1));
+}
+
 void add_pushed(InFluid& system, const Vector& position, double radius, double mass,
                 const Vector& force) {
   const auto k = static_cast<std::int32_t>(system.state.particles.count());

@@ -76,6 +76,9 @@ struct InFluid {
 /// time step h [T] and the threshold gap [L].
 InFluid in_fluid(int dimension, double width, double h, double threshold_gap);
 
+/// Adds a homogeneous disc of radius 0.1 that does not turn.
+void add_disc(InFluid& system, const Vector& at, double mass, const Vector& velocity);
+
 /// Adds a particle with a force that acts on it at all times [M L/T^2].
 void add_pushed(InFluid& system, const Vector& position, double radius, double mass,
                 const Vector& force);

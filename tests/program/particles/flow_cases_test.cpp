@@ -29,27 +29,7 @@ class FlowCase : public ParticlesCommand {
   /// The text of a shipped case with other values of keys.
   static std::string with(const std::string& name,
                           const std::vector<std::pair<std::string, std::string>>& values) {
-    auto text = read_file(kCases / (name + ".toml"));
-    for (const auto& [key, value] : values) {
-      const auto changed =
-          replaced_matches(text, "\n" + key + " = [^\n]*\n", "\n" + key + " = " + value + "\n");
-      EXPECT_NE(changed, text) << key;
-      text = changed;
-    }
-    return text;
-  }
-  void compute(const std::string& text) { expect_done(run(put_case(text), out())); }
-  /// All values of a column of a table of results.
-  std::vector<double> column(const std::string& file, const std::string& name) const {
-    const auto lines = matches_in(content(out() / file), "([^\n]+)\n", 1);
-    const auto header =
-        std::ranges::find_if(lines, [](const std::string& line) { return !line.starts_with("#"); });
-    const auto names = matches_in(*header + ",", "([^,]*),", 1);
-    const auto place = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-    std::vector<double> values;
-    for (auto line = header + 1; line != lines.end(); ++line)
-      values.push_back(std::stod(matches_in(*line + ",", "([^,]*),", 1).at(place)));
-    return values;
+    return changed_case(kCases / (name + ".toml"), values);
   }
 };
 
@@ -232,10 +212,7 @@ TEST_F(FlowCase, ContinuesWithTheSameBits) {
   compute(text("0.2"));
   const auto whole = column("motion.csv", "vy");
   compute(text("0.1"));
-  const auto restart = out() / "restart.bin";
-  const auto copy = out().parent_path() / "half.bin";
-  fs::copy_file(restart, copy);
-  expect_done(run(put_case(text("0.2")), out(), {"--restart", copy.string()}));
+  continue_last_run(text("0.2"));
   EXPECT_EQ(column("motion.csv", "vy").back(), whole.back());
 }
 
@@ -286,9 +263,7 @@ VELOCITY
     const auto whole = column("motion.csv", "vy");
     for (const std::string end : {"0.05", "0.25"}) {
       compute(text(end));
-      const auto copy = out().parent_path() / "part.bin";
-      fs::copy_file(out() / "restart.bin", copy, fs::copy_options::overwrite_existing);
-      expect_done(run(put_case(text("0.4")), out(), {"--restart", copy.string()}));
+      continue_last_run(text("0.4"));
       EXPECT_EQ(column("motion.csv", "vy").back(), whole.back());
     }
   }

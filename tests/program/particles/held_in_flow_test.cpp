@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -16,8 +15,6 @@
 
 namespace viscontact {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// A pendulum of two discs that falls from the horizontal, in units of length, time and mass.
 struct PendulumCase {
@@ -60,17 +57,6 @@ every = {}
 
 class HeldInFlow : public ParticlesCommand {
  protected:
-  void compute(const std::string& text) { expect_done(run(put_case(text), out())); }
-  /// All values of a column of a table of results.
-  std::vector<double> column(const std::string& file, const std::string& name) const {
-    const auto lines = matches_in(content(out() / file), "([^\n]+)\n", 1);
-    const auto names = matches_in(lines.front() + ",", "([^,]*),", 1);
-    const auto place = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-    std::vector<double> values;
-    for (std::size_t i = 1; i < lines.size(); ++i)
-      values.push_back(std::stod(matches_in(lines[i] + ",", "([^,]*),", 1).at(place)));
-    return values;
-  }
   /// The angle of body 0 at the end.
   double angle(const PendulumCase& pendulum) {
     compute(pendulum.text());
@@ -166,10 +152,8 @@ TEST_F(HeldInFlow, ContinuesWithTheSameBits) {
   for (const double end : {0.05, 0.15}) {
     pendulum.end_time = end;
     angle(pendulum);
-    const auto copy = out().parent_path() / "part.bin";
-    fs::copy_file(out() / "restart.bin", copy, fs::copy_options::overwrite_existing);
     pendulum.end_time = 0.3;
-    expect_done(run(put_case(pendulum.text()), out(), {"--restart", copy.string()}));
+    continue_last_run(pendulum.text());
     EXPECT_EQ(column("bodies.csv", "angle").back(), whole);
     EXPECT_EQ(column("hinges.csv", "force_y").back(), forces.back());
   }

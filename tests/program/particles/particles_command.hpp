@@ -11,6 +11,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/common/regular_expressions.hpp"
@@ -95,6 +96,37 @@ class ParticlesCommand : public ::testing::Test {
                            std::vector<std::string> more = {}) {
     more.insert(more.begin(), {"particles", file.string(), "-o", out.string()});
     return run_viscontact(more);
+  }
+  /// The text of a case file with other values of keys, which it must have.
+  static std::string changed_case(const std::filesystem::path& file,
+                                  const std::vector<std::pair<std::string, std::string>>& values) {
+    auto text = read_file(file);
+    for (const auto& [key, value] : values) {
+      const auto changed =
+          replaced_matches(text, "\n" + key + " = [^\n]*\n", "\n" + key + " = " + value + "\n");
+      EXPECT_NE(changed, text) << key;
+      text = changed;
+    }
+    return text;
+  }
+  /// Runs a case into out().
+  void compute(const std::string& text) const { expect_done(run(put_case(text), out())); }
+  /// Runs a case into out(), from the state at the end of the run that is there.
+  void continue_last_run(const std::string& text) const {
+    const auto copy = folder_.path() / "part.bin";
+    std::filesystem::copy_file(out() / "restart.bin", copy,
+                               std::filesystem::copy_options::overwrite_existing);
+    expect_done(run(put_case(text), out(), {"--restart", copy.string()}));
+  }
+  /// All values of a column of a table of the run in out().
+  std::vector<double> column(const std::string& file, const std::string& name) const {
+    const auto lines = matches_in(content(out() / file), "([^\n]+)\n", 1);
+    const auto names = matches_in(lines.front() + ",", "([^,]*),", 1);
+    const auto place = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    std::vector<double> values;
+    for (std::size_t i = 1; i < lines.size(); ++i)
+      values.push_back(std::stod(matches_in(lines[i] + ",", "([^,]*),", 1).at(place)));
+    return values;
   }
   /// The text of a file without its lines of comment.
   static std::string content(const std::filesystem::path& file) {
