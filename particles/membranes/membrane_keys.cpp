@@ -88,6 +88,15 @@ void check_case(const case_file::TomlSection& root, const case_file::TomlSection
       "is 'fixed'; it must be \"fitted\" in a case with membranes, which the mesh follows");
   section.require(fluid.coupling == Coupling::kConstrained, "coupling",
                   "is 'splitting'; it must be \"constrained\" in a case with membranes");
+  section.require(fluid.constraint == RigidConstraint::kPenalty, "constraint",
+                  "is 'rigid'; it must be left out in a case with membranes, which has no rigid "
+                  "particles");
+  root.section("space").require(
+      c.setting.gravity == Vector{}, "gravity",
+      "has no effect on membranes, which have no mass; it must be 0 or left out");
+  root.section("viscous_contact")
+      .require(!c.setting.laws.restitution.is_on(), "restitution",
+               "has no effect on membranes, which have no mass; it must be 0 or left out");
   const auto* box = std::get_if<BoxDomain>(&c.setting.domain);
   if (box != nullptr && box->periodic[1])
     throw_bad_input(at,

@@ -245,7 +245,8 @@ MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const F
   }
   if (!is_solved)
     throw Error(ErrorKind::kNotConverged,
-                "the step of the membranes does not converge; use a shorter time_step");
+                "a step of the membranes does not converge; use a shorter time_step, in particular "
+                "if a membrane is nearly round");
   return motion;
 }
 

@@ -97,6 +97,14 @@ TEST_F(MembraneSection, WhatCannotBeComputedWithMembranesIsRefused) {
   expect_refused(text(membrane(), "mesh = \"fixed\""), 11, "fluid.mesh is 'fixed'");
   expect_refused(text(membrane(), "coupling = \"splitting\""), 11, "fluid.coupling is 'splitting'");
   expect_refused(text(membrane(), "solver = [\"mine\"]"), 11, "fluid.solver is a program");
+  expect_refused(text(membrane(), "constraint = \"rigid\""), 11, "fluid.constraint is 'rigid'");
+  const auto with = [&](const std::string& section, const std::string& key) {
+    auto changed = text(membrane());
+    return changed.insert(changed.find(section) + section.size(), "\n" + key);
+  };
+  expect_refused(with("dimension = 2", "gravity = [0.0, -1.0]"), 4, "space.gravity has no effect");
+  expect_refused(with("end_time = 4.0", "gamma_min = 0.0\nrestitution = 0.5"), 9,
+                 "viscous_contact.restitution has no effect");
   expect_refused(text(membrane(), "", "true, true"), 12, "section [[membrane]] stands in a box");
   expect_refused(
       "title = \"Dry\"\n[space]\ndimension = 2\n[viscous_contact]\ntime_step = 0.1\n"

@@ -2,12 +2,14 @@
 // flow (Cortez 2001, SIAM J. Sci. Comput. 23, 1204), whose flow is free of divergence.
 #include "viscontact/particles/membranes/membrane_simulation.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 #include <numbers>
 
+#include "tests/common/failure.hpp"
 #include "viscontact/particles/membranes/membrane_curve.hpp"
 #include "viscontact/particles/membranes/membrane_shape.hpp"
 
@@ -173,6 +175,16 @@ TEST(MembraneSimulation, ContinuesBitForBit) {
   while (rest.state().time < 1 - 1e-9) rest.step(1);
   EXPECT_EQ(whole.state().particles.positions, rest.state().particles.positions);
   EXPECT_EQ(whole.state().particles.velocities, rest.state().particles.velocities);
+}
+
+TEST(MembraneSimulation, DoesNotContinueWithAnotherShape) {
+  Vesicle vesicle;
+  auto simulation = vesicle.simulation(0.1);
+  simulation.step(1);
+  const State between = simulation.state();
+  vesicle.reduced_area += 0.05;
+  EXPECT_THAT(bad_input([&] { vesicle.simulation(0.1, &between); }),
+              ::testing::HasSubstr("membrane 0 of the restart file has the perimeter 7 "));
 }
 
 /// Two vesicles, one above the other, that a straining flow presses together, and the floor of a
