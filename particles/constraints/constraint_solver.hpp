@@ -20,7 +20,8 @@ struct ConstraintSolution {
 
 /// How a solution begins.
 enum class ConstraintStart {
-  kSweeps,  ///< with sweeps, which are fast; where rows are redundant, impulses depend on their order
+  /// With sweeps, which are fast. Where rows are redundant, impulses depend on their order.
+  kSweeps,
   /// With a step of the proximal method from the guess: where rows are redundant, the sum of the
   /// squares of the impulses' distances from the guess is near its minimum, whatever the order of
   /// the rows.
