@@ -103,7 +103,7 @@ TEST_F(MembraneSection, WhatCannotBeComputedWithMembranesIsRefused) {
     return changed.insert(changed.find(section) + section.size(), "\n" + key);
   };
   expect_refused(with("dimension = 2", "gravity = [0.0, -1.0]"), 4, "space.gravity has no effect");
-  expect_refused(with("end_time = 4.0", "gamma_min = 0.0\nrestitution = 0.5"), 9,
+  expect_refused(with("end_time = 4.0", "gamma_min = 0.0\nrestitution = 0.5"), 10,
                  "viscous_contact.restitution has no effect");
   expect_refused(text(membrane(), "", "true, true"), 12, "section [[membrane]] stands in a box");
   expect_refused(
