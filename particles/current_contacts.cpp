@@ -83,7 +83,9 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
   std::vector<CurrentContact> contacts;
   const auto& p = state.particles;
   const auto places = positions_of(obstacles_of(setting), state.time);
-  const double touching = setting.solver.tolerance * mean_radius(p);
+  // Particles in a fluid are held at its threshold gap.
+  const double touching = setting.solver.tolerance * mean_radius(p) +
+                          (setting.fluid ? setting.fluid->threshold_gap : 0);
   for (const auto* pairs : {&state.pairs, &state.walls})
     for (const auto& pair : *pairs)
       if (const double gap = gap_of(p, pair, places); pair.gamma < 0 || gap <= touching) {

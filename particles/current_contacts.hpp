@@ -37,8 +37,9 @@ struct CurrentContact {
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact);
 
-/// The pairs that are glued (gamma < 0) or touch (gap <= SolverSettings::tolerance times mean
-/// radius): first pairs of particles, then particles at obstacles, each in the order of the state.
+/// The pairs that are glued (gamma < 0) or touch: first pairs of particles, then particles at
+/// obstacles, each in the order of the state. A pair touches if its gap is at most
+/// SolverSettings::tolerance times the mean radius, in a fluid more than Fluid::threshold_gap.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
 /// Largest Pair::gamma_error of all pairs, in the unit of gamma.
