@@ -295,7 +295,10 @@ std::string parameters_table(const results::RunResults& run) {
   const auto number = [](double value) { return fmt::format("{}", value); };
   add("viscosity", number(c.viscosity), "M L<sup>-1</sup> T<sup>-1</sup>");
   add("radius of the sphere", number(c.radius), "L");
+  if (c.density > 0) add("density of the sphere", number(c.density), "M L<sup>-3</sup>");
   add("mass", number(motion.mass), "M");
+  if (c.fluid_density > 0) add("density of the fluid", number(c.fluid_density), "M L<sup>-3</sup>");
+  if (c.gravity) add("gravity along the normal", number(*c.gravity), "L T<sup>-2</sup>");
   add("initial gap", number(motion.initial_gap), "L");
   add("initial velocity", number(motion.initial_velocity), "L T<sup>-1</sup>");
   add("end time", number(motion.end_time), "T");
