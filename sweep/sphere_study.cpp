@@ -25,16 +25,11 @@
 namespace viscontact::sweep {
 namespace {
 
-constexpr std::array kModelColumns = {"minimal_gap",
-                                      "minimal_gap_time",
-                                      "film",
-                                      "contact_from",
-                                      "contact_until",
-                                      "sup_gap_distance",
-                                      "l1_gap_distance",
-                                      "l1_velocity_distance",
-                                      "film_ratio",
-                                      "steps"};
+constexpr std::array kModelColumns = {
+    "minimal_gap",     "minimal_gap_time",     "film",
+    "contact_from",    "contact_until",        "sup_gap_distance",
+    "l1_gap_distance", "l1_velocity_distance", "film_ratio",
+    "steps",           "solid_contact_from",   "solid_contact_velocity"};
 
 double thinnest(const reduced_model::ModelComparison& model) {
   return model.recovered_minimal_gap.value_or(model.minimal_gap);
@@ -59,6 +54,10 @@ void add_model(const reduced_model::ModelComparison& model,
     put("film_ratio", thinnest(model) / thinnest(*reference));
   }
   results.numbers[model.model + ".steps"] = model.steps;
+  if (const auto& touch = model.solid_contact_from) {
+    put("solid_contact_from", touch->time);
+    put("solid_contact_velocity", touch->velocity);
+  }
 }
 
 /// Throws Error(kWrongUsage) if a key of a case changes no row because a sweep does not read it.
