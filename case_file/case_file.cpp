@@ -24,13 +24,6 @@ using lubrication::BelowInterval;
 using reduced_model::ExternalForce;
 using reduced_model::Motion;
 
-void sphere_keys(Keys& keys, Case& c, double& mass, bool needs_mass) {
-  keys.required("radius", number(c.radius, kPositive),
-                {.meaning = "radius r of the sphere", .example = "1.0"});
-  keys.required_if(needs_mass, "mass", number(mass, kPositive),
-                   {"mass m of the sphere", "required with a section `[motion]`", {}, "20.0"});
-}
-
 /// The fixed coefficient of 1/q: "theory", or a number.
 void read_fix(const TomlSection& section, std::string_view key, fitting::FitSettings& settings) {
   settings.fix_leading = true;
@@ -168,8 +161,7 @@ void read_forces(const TomlSection& section, std::string_view key, Motion& motio
     section.require(pieces.back().until >= end_time, key,
                     "ends at {}; it must reach motion.end_time, {}", pieces.back().until, end_time);
   }
-  motion.external_force = summands.front();
-  for (std::size_t i = 1; i < summands.size(); ++i) motion.external_force += summands[i];
+  for (const auto& summand : summands) motion.external_force += summand;
 }
 
 /// A list of names of models, each of which must exist.
@@ -190,10 +182,26 @@ void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
   keys.required(
       "initial_velocity", number(motion.initial_velocity, kFinite),
       {.meaning = "velocity u at time 0; positive: away from the wall", .example = "0.0"});
-  keys.required(
-      "external_force", custom("a list of tables", read_forces, motion, c),
-      {.meaning = "the external force is the sum of these forces, which must last until `end_time`",
-       .example = "[ { until = 2.0, value = -200.0 }, { until = 4.0, value = 200.0 } ]"});
+  const auto read_gravity = [&c, &motion](const TomlSection& section, std::string_view key) {
+    c.gravity = section.number(key, kFinite);
+    const double weight =
+        mass_less_displaced_fluid(motion.mass, c.fluid_density, c.radius) * *c.gravity;
+    section.require(std::isfinite(weight), key, "makes the weight {}, which is not finite", weight);
+    motion.external_force += ExternalForce({{motion.end_time, weight}});
+  };
+  keys.optional("gravity", custom("a number", read_gravity),
+                {"acceleration along the normal, negative towards the wall; the [weight less "
+                 "buoyancy](physics.md#4-motion-of-one-sphere-reduced_model), (4.15), is added to "
+                 "the external force",
+                 "none",
+                 {},
+                 "-9.81"});
+  keys.required_if(
+      !keys.has("gravity"), "external_force", custom("a list of tables", read_forces, motion, c),
+      {"the external force is the sum of these forces, which must last until `end_time`",
+       "required without `gravity`",
+       {},
+       "[ { until = 2.0, value = -200.0 }, { until = 4.0, value = 200.0 } ]"});
   keys.optional("models", models(c.models),
                 {"the models that are run",
                  "the first six of `viscontact simulate --help`",
@@ -344,10 +352,10 @@ CaseKind kind_of_case(const fs::path& path) {
 template <>
 Case case_of_root(const TomlSection& root, std::string text, const fs::path& path) {
   auto c = titled_case<Case>(root, std::move(text), path, true);
-  read_keys(root.section("fluid"), viscosity_keys, c.viscosity);
+  read_keys(root.section("fluid"), fluid_keys, c.viscosity, c.fluid_density);
   double mass = 1;  // only the motion depends on it
   const bool needs_mass = root.has("motion");
-  read_keys(root.section("sphere"), sphere_keys, c, mass, needs_mass);
+  read_keys(root.section("sphere"), sphere_keys, c.radius, c.density, mass, needs_mass);
   if (root.has("tabulation"))
     c.tabulation = read_tabulation(root.section("tabulation"), c.viscosity, c.radius);
   if (root.has("fit"))
@@ -377,9 +385,9 @@ std::vector<KeyTable> tables_of_sphere_case() {
   motion.end_time = 4;
   motion.initial_gap = 1;
   set_default_parameters(motion, 1);
-  double mass = 0, time_scale = 1;
-  std::vector<KeyTable> tables = {describe_keys("[fluid]", viscosity_keys),
-                                  describe_keys("[sphere]", sphere_keys, mass, true)};
+  double mass = 0, density = 0, time_scale = 1;
+  std::vector<KeyTable> tables = {describe_keys("[fluid]", fluid_keys, density),
+                                  describe_keys("[sphere]", sphere_keys, density, mass, true)};
   for (auto& table : tables_of_tabulation()) tables.push_back(std::move(table));
   tables.push_back(describe_keys("[fit]", fit_keys, {}));
   tables.push_back(describe_keys("[motion]", motion_keys, motion, time_scale));

@@ -50,10 +50,13 @@ struct PublishedGap {
 
 /// What a case file says, checked.
 struct Case {
-  std::string title;     ///< for the report; may be empty
-  double viscosity = 0;  ///< mu [M/(L T)], > 0
-  double radius = 0;     ///< r [L], > 0
-  std::string text;      ///< content of the file
+  std::string title;                ///< for the report; may be empty
+  double viscosity = 0;             ///< mu [M/(L T)], > 0
+  double radius = 0;                ///< r [L], > 0
+  double density = 0;               ///< rho_p of the sphere [M/L^3]; 0: the case gives its mass
+  double fluid_density = 0;         ///< rho_f [M/L^3], >= 0; 0: no buoyancy
+  std::optional<double> gravity{};  ///< [L/T^2], < 0 towards the wall; its force is in `motion`
+  std::string text;                 ///< content of the file
   // Each of these parts exists only if the file has its section. A command that needs a part calls
   // a required_... function below.
   std::optional<freefem_axi::Tabulation> tabulation;  ///< [tabulation]

@@ -1,4 +1,4 @@
-// Reads [tabulation], with gaps, velocities, geometry and container, and keys of [sweep]
+// Reads [fluid] and [sphere] of one sphere, [tabulation], with gaps, velocities, geometry and container, and keys of [sweep]
 // (shared_sections.hpp). Lengths are in the unit of the case. A wrong value is an Error(kBadInput)
 // with its line. A change must keep the gaps of a grid bit for bit, because finished rows and
 // tables are found again by their gaps.
@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 #include "viscontact/freefem_axi/geometry.hpp"
@@ -20,6 +21,8 @@ using freefem_axi::Tabulation;
 // Smallest gap divided by the radius. At smaller gaps the matrices are too ill-conditioned for
 // double precision.
 constexpr double kSmallestGap = 1e-8;
+
+double ball_volume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
 /// Gaps from `from` to `to` [L], with equal ratios or equal differences.
 struct GapGrid {
@@ -208,6 +211,36 @@ void points_and_plot_keys(Keys& keys, SweepRequest& sweep) {
                 {"key of the horizontal axis of the plot", "the first varied key"});
   keys.optional("y", text(sweep.y), {"key of the vertical axis of a map", "lines over `x`"});
   keys.optional("plot", texts(sweep.plot), {"columns to draw", "that of the command"});
+}
+
+void fluid_keys(Keys& keys, double& viscosity, double& density) {
+  viscosity_keys(keys, viscosity);
+  keys.optional("density", number(density, kNotNegative),
+                {.meaning = "density rho_f; only buoyancy depends on it, and only with `gravity`",
+                 .example = "0.0"});
+}
+
+void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool needs_mass) {
+  keys.required("radius", number(radius, kPositive),
+                {.meaning = "radius r of the sphere", .example = "1.0"});
+  const bool has_density =
+      keys.optional("density", number(density, kPositive),
+                    {"density rho_p of the sphere, in place of `mass`", "from `mass`", {}, "4.8"});
+  if (has_density) mass = density * ball_volume(radius);
+  keys.require(!has_density || std::isnormal(mass), "density",
+               "makes the mass {} with the radius {}; a double does not hold this mass", mass,
+               radius);
+  if (has_density && keys.has("mass"))
+    keys.section().fail("mass", fmt::format("must be left out, because the mass follows from "
+                                            "density in line {}; only one of the two may be given",
+                                            keys.section().line("density")));
+  keys.required_if(
+      needs_mass && !has_density, "mass", number(mass, kPositive),
+      {"mass m of the sphere", "required with a section `[motion]`, or `density`", {}, "20.0"});
+}
+
+double mass_less_displaced_fluid(double mass, double fluid_density, double radius) {
+  return mass - fluid_density * ball_volume(radius);
 }
 
 }  // namespace viscontact::case_file

@@ -20,6 +20,19 @@ freefem_axi::Tabulation read_tabulation(const TomlSection& section, double visco
 /// What docs/case-file.md says about the keys of [tabulation].
 std::vector<KeyTable> tables_of_tabulation();
 
+/// Declares the keys of [fluid] of a case of one sphere: its viscosity [M/(L T)], > 0, and its
+/// density [M/L^3], >= 0, which is 0 if the case does not give it.
+void fluid_keys(Keys& keys, double& viscosity, double& density);
+
+/// Declares the keys of [sphere] that give its radius [L], > 0, and its mass [M], > 0, or its
+/// density [M/L^3], > 0, from which its mass follows; `density` stays as it is if the case gives the
+/// mass. With `needs_mass` the case must give one of the two.
+void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool needs_mass);
+
+/// What gravity pulls at: the mass [M] of a sphere less that of the fluid which it displaces
+/// (physics.md (4.15)). The volume of the sphere is in [L^3]. It is 0 if both densities are equal.
+double mass_less_displaced_fluid(double mass, double fluid_density, double radius);
+
 /// Declares the keys of [sweep] that choose points and what is drawn of them.
 void points_and_plot_keys(Keys& keys, SweepRequest& sweep);
 

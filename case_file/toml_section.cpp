@@ -158,9 +158,7 @@ void TomlSection::fail_of_section(std::string_view key, const std::string& what)
 }
 
 void TomlSection::fail(std::string_view key, const std::string& what) const {
-  const auto* node = node_->table->get(key);
-  const int line = node != nullptr ? line_of(*node) : line_of(*node_->table);
-  throw_bad_input({node_->file, line}, full_name(key) + " " + what);
+  throw_bad_input({node_->file, line(key)}, full_name(key) + " " + what);
 }
 
 bool TomlSection::has(std::string_view key) const {
@@ -181,6 +179,11 @@ bool TomlSection::is_table(std::string_view key) const {
 }
 
 int TomlSection::line() const { return line_of(*node_->table); }
+
+int TomlSection::line(std::string_view key) const {
+  const auto* node = node_->table->get(key);
+  return node != nullptr ? line_of(*node) : line();
+}
 
 std::string TomlSection::shown(std::string_view key) const {
   return has(key) ? show(*node_->table->get(key)) : "";

@@ -72,7 +72,8 @@ class TomlSection {
   /// for.
   void finish() const;
 
-  int line() const;                               ///< line of this table in the file
+  int line() const;                      ///< line of this table in the file
+  int line(std::string_view key) const;  ///< line of a key, or that of the table without it
   std::string shown(std::string_view key) const;  ///< the value of an existing key, for a message
 
   /// Throws Error(kBadInput) with the message "section.key what" at the line of this key, or at the

@@ -125,6 +125,7 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
     result.minimal_gap_time = lowest->time;
     result.recovered_minimal_gap = trajectory.recovered_minimal_gap;
     result.contact_interval = contact_interval(trajectory);
+    result.solid_contact_from = trajectory.solid_contact_from;
     result.rebounds = trajectory.rebounds;
     result.budget = trajectory.budget;
     result.steps = trajectory.steps;
@@ -133,6 +134,11 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
     comparison.models.push_back(result);
   }
   return comparison;
+}
+
+void fields_of(JsonFields& json, SolidTouch& touch) {
+  json("time", touch.time);
+  json("velocity", touch.velocity);
 }
 
 void fields_of(JsonFields& json, Rebound& rebound) {
@@ -152,6 +158,7 @@ void fields_of(JsonFields& json, ModelComparison& model) {
   json("minimal_gap_time", model.minimal_gap_time);
   json("recovered_minimal_gap", model.recovered_minimal_gap);
   json("contact_interval", model.contact_interval);
+  json("solid_contact_from", model.solid_contact_from, Absence::kAllowed);
   json("rebounds", model.rebounds, Absence::kAllowed);
   json("sup_gap_distance", model.sup_gap_distance);
   json("l1_gap_distance", model.l1_gap_distance);

@@ -26,6 +26,8 @@ struct ModelComparison {
   /// First landing and last release [T]. In a trajectory that Viscontact did not write: the first
   /// and the last row with gamma < 0.
   std::optional<std::array<double, 2>> contact_interval;
+  /// When the solids touch first; nothing if they never do, or if the model has no solids.
+  std::optional<SolidTouch> solid_contact_from{};
   /// Impacts on the solids, in order of time; only if the case has a restitution.
   std::vector<Rebound> rebounds;
   /// Impulses and works; nothing in a trajectory that Viscontact did not write.

@@ -17,6 +17,7 @@ namespace {
 const std::array<std::string, 7> kColumns = {
     "time", "gap", "velocity", "lubrication_force", "external_force", "gamma", "solid_force"};
 const std::array<std::string, 2> kContactKeys = {"contact_from", "contact_until"};
+const std::array<std::string, 2> kSolidKeys = {"solid_contact_from", "solid_contact_velocity"};
 constexpr std::size_t kRequiredColumns = 3;
 
 std::string optional_number(const OptionalDouble& value) {
@@ -80,6 +81,8 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   trajectory.seconds = take_number("seconds").value_or(0);
   if (const auto from = take_number(kContactKeys[0]))
     trajectory.contact_interval = {*from, csv_comment_number(csv.comments, kContactKeys[1], file)};
+  if (const auto from = take_number(kSolidKeys[0]))
+    trajectory.solid_contact_from = {*from, csv_comment_number(csv.comments, kSolidKeys[1], file)};
   if (const auto rebounds = take("rebounds"))
     trajectory.rebounds = read_rebounds(*rebounds, {file});
   for (const auto& entry : kBudgetEntries)
@@ -87,7 +90,8 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
       if (!trajectory.budget) trajectory.budget.emplace();
       (*trajectory.budget).*entry.value = *value;
     }
-  for (const auto& key : {std::string("viscontact"), std::string("rows"), kContactKeys[1]})
+  for (const auto& key :
+       {std::string("viscontact"), std::string("rows"), kContactKeys[1], kSolidKeys[1]})
     take(key);
   trajectory.rows.reserve(csv.rows.size());
   for (const auto& fields : csv.rows) {
@@ -123,6 +127,10 @@ std::string write_trajectory(const Trajectory& trajectory) {
   if (trajectory.contact_interval)
     for (std::size_t i = 0; i < kContactKeys.size(); ++i)
       comments[kContactKeys[i]] = format_number((*trajectory.contact_interval)[i]);
+  if (const auto& touch = trajectory.solid_contact_from) {
+    comments[kSolidKeys[0]] = format_number(touch->time);
+    comments[kSolidKeys[1]] = format_number(touch->velocity);
+  }
   if (!trajectory.rebounds.empty()) comments["rebounds"] = write_rebounds(trajectory.rebounds);
   if (trajectory.budget)
     for (const auto& entry : kBudgetEntries)

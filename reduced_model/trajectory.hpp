@@ -112,9 +112,17 @@ struct Rebound {
   bool operator==(const Rebound&) const = default;  ///< whether all numbers are equal
 };
 
+/// When solids touch for the first time.
+struct SolidTouch {
+  double time = 0;  ///< [T]
+  /// Rate of the gap, or of the film that is recovered from gamma, just before [L/T], <= 0.
+  double velocity = 0;
+  bool operator==(const SolidTouch&) const = default;  ///< whether both numbers are equal
+};
+
 /// Number of the revision of the models. Raise it when a change makes a model compute other
-/// numbers; trajectories of another revision are then computed again.
-inline constexpr int kModelsRevision = 4;
+/// numbers or record more of them; trajectories of another revision are then computed again.
+inline constexpr int kModelsRevision = 5;
 
 /// Rows in strictly increasing time, at least one, and how they were made.
 struct Trajectory {
@@ -124,6 +132,8 @@ struct Trajectory {
   std::optional<double> recovered_minimal_gap;
   /// First landing and last release (or end of the motion) [T]; contact models only.
   std::optional<std::array<double, 2>> contact_interval;
+  /// Nothing if the solids never touch, or if the model has no solids.
+  std::optional<SolidTouch> solid_contact_from{};
   /// In order of time; only if the case has a restitution.
   std::vector<Rebound> rebounds;
   /// Nothing in a trajectory that Viscontact did not write.

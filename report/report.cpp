@@ -27,9 +27,9 @@
 namespace viscontact::report {
 namespace {
 
-constexpr auto kPlotNames =
-    std::to_array<std::string_view>({"thinnest_film", "gap", "gap_logarithmic", "external_force",
-                                     "gamma", "solid_force", "fit", "uncertainty"});
+constexpr auto kPlotNames = std::to_array<std::string_view>(
+    {"thinnest_film", "gap", "gap_logarithmic", "external_force", "lubrication_force", "gamma",
+     "solid_force", "fit", "uncertainty"});
 
 /// A warning of the report.
 struct ReportWarning {
@@ -164,7 +164,9 @@ void add_roughness(Warnings& warnings, const results::RunResults& run) {
     if (smallest < roughness)
       warnings.add(trajectory_name(trajectory.model),
                    "{} ignores the roughness: its gap falls to {:.4g}, but the solids would "
-                   "touch at {:.4g}",
+                   "touch at {:.4g}. Solids touch in the contact models and in inertial_rough "
+                   "(motion.models), and in 'viscontact rolling', at incline 0 too, where friction "
+                   "acts on them",
                    trajectory.model, smallest, roughness);
   }
 }
@@ -295,7 +297,10 @@ std::string parameters_table(const results::RunResults& run) {
   const auto number = [](double value) { return fmt::format("{}", value); };
   add("viscosity", number(c.viscosity), "M L<sup>-1</sup> T<sup>-1</sup>");
   add("radius of the sphere", number(c.radius), "L");
+  if (c.density > 0) add("density of the sphere", number(c.density), "M L<sup>-3</sup>");
   add("mass", number(motion.mass), "M");
+  if (c.fluid_density > 0) add("density of the fluid", number(c.fluid_density), "M L<sup>-3</sup>");
+  if (c.gravity) add("gravity along the normal", number(*c.gravity), "L T<sup>-2</sup>");
   add("initial gap", number(motion.initial_gap), "L");
   add("initial velocity", number(motion.initial_velocity), "L T<sup>-1</sup>");
   add("end time", number(motion.end_time), "T");
@@ -319,7 +324,7 @@ std::string parameters_table(const results::RunResults& run) {
          table_of(rows, headings({"parameter", "value", "dimension"}));
 }
 
-/// Smallest gap, times of contact and distance to the reference of each model.
+/// Smallest gap, times of contact, when solids touch, and distance to the reference of each model.
 std::string models_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models)
@@ -331,14 +336,18 @@ std::string models_table(const results::RunResults& run) {
         model.contact_interval ? fmt::format("{:.4g} to {:.4g}", (*model.contact_interval)[0],
                                              (*model.contact_interval)[1])
                                : "&ndash;",
+        model.solid_contact_from ? fmt::format("{:.6g} at {:.4g}", model.solid_contact_from->time,
+                                               model.solid_contact_from->velocity)
+                                 : "&ndash;",
         fmt::format("{:.3g}", model.sup_gap_distance), fmt::format("{:.3g}", model.l1_gap_distance),
         fmt::format("{:.3g}", model.l1_velocity_distance));
   for (const auto& failed : run.comparison.failed_models)
-    rows += fmt::format("<tr><td>{}</td><td colspan=7>failed: {}</td></tr>\n",
+    rows += fmt::format("<tr><td>{}</td><td colspan=8>failed: {}</td></tr>\n",
                         escaped(failed.model), escaped(failed.reason));
   const auto head = fmt::format(
       "<tr><th rowspan=2>model</th><th rowspan=2>smallest gap</th><th rowspan=2>at time</th>"
       "<th rowspan=2>film from gamma</th><th rowspan=2>in contact</th>"
+      "<th rowspan=2>solids touch, at the velocity</th>"
       "<th colspan=3 class=group>distance to {}</th></tr>\n{}",
       escaped(run.comparison.reference_model),
       headings({"max |q &minus; q<sub>ref</sub>|", "&int; |q &minus; q<sub>ref</sub>| dt",
@@ -475,6 +484,7 @@ std::vector<Plot> plots_of(const results::RunResults& run) {
                              plot_gaps(run.trajectories),
                              plot_gaps_logarithmic(run.trajectories, motion, force),
                              plot_external_force(motion.external_force, motion.end_time),
+                             plot_lubrication_force(run.trajectories),
                              plot_gamma(run.trajectories),
                              plot_solid_force(run.trajectories)};
   if (run.table) plots.push_back(plot_fit(*run.table, run.fit));
@@ -521,7 +531,8 @@ std::string summary(const results::RunResults& run) {
 
 std::string sections_of(const results::RunResults& run, const Report& report) {
   return section("Models", models_table(run) + report.figures({"thinnest_film"})) +
-         section("Trajectories", report.figures({"gap", "gap_logarithmic", "external_force"})) +
+         section("Trajectories", report.figures({"gap", "gap_logarithmic", "lubrication_force",
+                                                 "external_force"})) +
          section("Contact", report.figures({"gamma", "solid_force"})) +
          section("Rebounds", rebounds_table(run)) + section("Impulse and work", budget_table(run)) +
          section("Lubrication force and fit", report.figures({"fit"}) + fit_table(run)) +

@@ -165,6 +165,42 @@ Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& traject
   return {"gap_logarithmic", 560, {panel}};
 }
 
+Plot plot_lubrication_force(const std::vector<reduced_model::Trajectory>& trajectories) {
+  PlotPanel panel{"Lubrication force: that of the fluid on the sphere, > 0 away from the wall",
+                  {"time t"},
+                  {"lubrication force"},
+                  {}};
+  const Value force_of = [](const reduced_model::TrajectoryRow& row) {
+    return row.lubrication_force ? *row.lubrication_force : 0;
+  };
+  double low = 0, high = 0;
+  bool is_cut = false;
+  for (const auto& trajectory : trajectories) {
+    const auto& rows = trajectory.rows;
+    if (std::ranges::none_of(rows,
+                             [](const auto& row) { return row.lubrication_force.has_value(); }))
+      continue;
+    panel.curves.push_back(curve_of(trajectory, trajectories.size(), force_of, force_of));
+    const auto choice = reduced_model::known_model(trajectory.model);
+    const bool is_mean = choice && choice->model->contact != nullptr;
+    for (const auto& row : rows) {
+      const double load = row.external_force ? -*row.external_force : 0;
+      const double force = is_mean ? load : force_of(row);
+      low = std::min({low, load, force});
+      high = std::max({high, load, force});
+    }
+  }
+  for (const auto& curve : panel.curves)
+    for (const auto& [time, force] : curve.points) is_cut = is_cut || force < low || force > high;
+  if (is_cut) panel.title += "; impacts of contact models are cut off";
+  const double margin = 0.1 * (high - low);
+  if (margin > 0) {
+    panel.y.low = low - margin;
+    panel.y.high = high + margin;
+  }
+  return {"lubrication_force", 440, {panel}};
+}
+
 Plot plot_gamma(const std::vector<reduced_model::Trajectory>& trajectories) {
   PlotPanel panel{
       "Adhesion potential: the impulse that the film has absorbed", {"time t"}, {"gamma"}, {}};

@@ -27,6 +27,11 @@ Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& traject
                            const reduced_model::Motion& motion,
                            const lubrication::LubricationForce& force);
 
+/// The force of the fluid on the sphere over time, of film and resolved drag together. The scale is
+/// that of the external force and of the models whose force is no mean over a step; what contact
+/// models have above it, in the steps of impacts, is cut off.
+Plot plot_lubrication_force(const std::vector<reduced_model::Trajectory>& trajectories);
+
 /// gamma(t) of the contact models.
 Plot plot_gamma(const std::vector<reduced_model::Trajectory>& trajectories);
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -133,10 +134,17 @@ std::string plot_bases(const lubrication::MotionTable& table,
 }
 
 std::string comparison_table(const reduced_model::Comparison& comparison) {
-  constexpr std::string_view kLine = "{:<30} {:>12} {:>9} {:>15} {:>16} {:>10}\n";
+  constexpr std::string_view kLine = "{:<30} {:>12} {:>9} {:>15} {:>16} {:>10}";
+  // The last columns are there only if solids touch in a model.
+  const bool solids = std::ranges::any_of(
+      comparison.models, [](const auto& model) { return model.solid_contact_from.has_value(); });
+  const auto solid_columns = [&](const std::string& time, const std::string& velocity) {
+    return solids ? fmt::format(" {:>15} {:>12}\n", time, velocity) : std::string("\n");
+  };
   std::string text = fmt::format(kLine, "model", "smallest gap", "at time", "film from gamma",
-                                 "in contact", "sup |dq|");
-  for (const auto& model : comparison.models)
+                                 "in contact", "sup |dq|") +
+                     solid_columns("solids touch at", "velocity");
+  for (const auto& model : comparison.models) {
     text += fmt::format(
         kLine, model.model, fmt::format("{:.6g}", model.minimal_gap),
         fmt::format("{:.6g}", model.minimal_gap_time),
@@ -145,6 +153,10 @@ std::string comparison_table(const reduced_model::Comparison& comparison) {
                                              (*model.contact_interval)[1])
                                : "-",
         fmt::format("{:.3g}", model.sup_gap_distance));
+    const auto& touch = model.solid_contact_from;
+    text += solid_columns(touch ? fmt::format("{:.6g}", touch->time) : "-",
+                          touch ? fmt::format("{:.4g}", touch->velocity) : "-");
+  }
   for (const auto& failed : comparison.failed_models)
     text += fmt::format("{:<30} failed: {}\n", failed.model, failed.reason);
   return text;

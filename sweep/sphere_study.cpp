@@ -25,16 +25,11 @@
 namespace viscontact::sweep {
 namespace {
 
-constexpr std::array kModelColumns = {"minimal_gap",
-                                      "minimal_gap_time",
-                                      "film",
-                                      "contact_from",
-                                      "contact_until",
-                                      "sup_gap_distance",
-                                      "l1_gap_distance",
-                                      "l1_velocity_distance",
-                                      "film_ratio",
-                                      "steps"};
+constexpr std::array kModelColumns = {
+    "minimal_gap",     "minimal_gap_time",     "film",
+    "contact_from",    "contact_until",        "sup_gap_distance",
+    "l1_gap_distance", "l1_velocity_distance", "film_ratio",
+    "steps",           "solid_contact_from",   "solid_contact_velocity"};
 
 double thinnest(const reduced_model::ModelComparison& model) {
   return model.recovered_minimal_gap.value_or(model.minimal_gap);
@@ -59,12 +54,14 @@ void add_model(const reduced_model::ModelComparison& model,
     put("film_ratio", thinnest(model) / thinnest(*reference));
   }
   results.numbers[model.model + ".steps"] = model.steps;
+  if (const auto& touch = model.solid_contact_from) {
+    put("solid_contact_from", touch->time);
+    put("solid_contact_velocity", touch->velocity);
+  }
 }
 
-/// Throws Error(kWrongUsage) if a key of a case changes no row, because a sweep does not read it or
-/// none of the models depends on it. Does not throw if the key does not exist; the reader of the
-/// case reports such a key.
-void refuse_useless(const std::string& key, const std::vector<std::string>& models) {
+/// Throws Error(kWrongUsage) if a key of a case changes no row because a sweep does not read it.
+void refuse_unread(const std::string& key) {
   constexpr std::array kNotOfAMotion = {"tabulation", "fit", "published", "sweep"};
   if (std::ranges::find(kNotOfAMotion, key.substr(0, key.find('.'))) != kNotOfAMotion.end()) {
     std::vector<std::string_view> sections = {"fluid", "sphere", "motion"};
@@ -76,9 +73,26 @@ void refuse_useless(const std::string& key, const std::vector<std::string>& mode
                             "varies keys of [{}] and [{}]",
                             key, fmt::join(sections, "], ["), last));
   }
-  if (std::ranges::none_of(models, [&](const auto& model) {
-        return reduced_model::depends_on(reduced_model::find_model(model), key);
-      }))
+}
+
+/// Whether the motion of a model of the case depends on a key. All models depend on the weight less
+/// the buoyancy, and those with inertia on a mass that follows from a density.
+bool motion_depends_on(const case_file::Case& c, const std::string& model, std::string_view key) {
+  const bool sets_mass = key == "sphere.density" || (key == "sphere.radius" && c.density > 0);
+  const bool sets_weight = sets_mass || key == "sphere.mass" || key == "fluid.density" ||
+                           (key == "sphere.radius" && c.fluid_density > 0);
+  if (c.gravity && sets_weight) return true;
+  const auto choice = reduced_model::find_model(model);
+  if (sets_mass && reduced_model::depends_on(choice, "sphere.mass")) return true;
+  return key != "sphere.density" && key != "fluid.density" &&
+         reduced_model::depends_on(choice, key);
+}
+
+/// Throws Error(kWrongUsage) if none of the models depends on a key of the case.
+void refuse_useless(const case_file::Case& c, const std::string& key,
+                    const std::vector<std::string>& models) {
+  if (std::ranges::none_of(models,
+                           [&](const auto& model) { return motion_depends_on(c, model, key); }))
     throw Error(ErrorKind::kWrongUsage,
                 fmt::format("{} cannot be varied, because none of the models that are run depends "
                             "on it ({}); leave it out, or add a model that depends on it",
@@ -182,14 +196,16 @@ Study sphere_study(SpherePlan plan, const std::string& version) {
   refuse_doubles(plan.points.keys(), "the key");
   refuse_doubles(plan.models, "the model");
   for (const auto& model : plan.models) (void)reduced_model::find_model(model);
-  for (const auto& key : plan.points.keys()) refuse_useless(key, plan.models);
+  for (const auto& key : plan.points.keys()) refuse_unread(key);
   if (std::ranges::find(plan.models, plan.reference) == plan.models.end())
     throw Error(
         ErrorKind::kWrongUsage,
         fmt::format("the reference model '{}' is not one of the models that are run; they are: {}",
                     plan.reference, fmt::join(plan.models, ", ")));
   check_ends(plan.points, [&](const auto& numbers) {
-    (void)case_file::required_motion(case_with(cases, plan, numbers));
+    const auto c = case_with(cases, plan, numbers);
+    (void)case_file::required_motion(c);
+    for (const auto& key : plan.points.keys()) refuse_useless(c, key, plan.models);
   });
   Study study;
   study.points = plan.points;

@@ -101,6 +101,9 @@ class InertialRun {
   /// Makes the rebound from the solids at the time now_, and continues the integration after it.
   void strike_solids() {
     const double before = std::min(0.0, velocity_at_solids()), m = motion_.mass;
+    if (!trajectory_.solid_contact_from)
+      trajectory_.solid_contact_from = {
+          now_, std::min(0.0, equation_.instant(now_, solid_gap_, now_).velocity)};
     const double restitution = motion_.restitution();
     double after = -restitution * before;
     const double pull = motion_.external_force.value(now_);

@@ -24,19 +24,27 @@ struct WeightKeys {
   double weight = 0, incline = 0;
 };
 
-void weight_keys(case_file::Keys& keys, WeightKeys& given) {
+/// `mass` [M] is that of the sphere less that of the fluid which it displaces.
+void weight_keys(case_file::Keys& keys, WeightKeys& given, double mass) {
   constexpr Allowed kAngle = {[](double v) { return std::abs(v) <= 1.6; },
                               "of radians from -1.6 to 1.6"};
-  keys.require(keys.has("weight") != keys.has("force"), "force",
-               "or weight must be there, one of the two");
+  keys.require(keys.has("weight") + keys.has("force") + keys.has("gravity") == 1, "force",
+               "or weight or gravity must be there, one of the three");
   keys.optional("force", case_file::numbers(given.force, kFinite, "two numbers"),
-                {"along the plane, and away from it", "from `weight` and `incline`"});
-  keys.require(!keys.has("incline") || keys.has("weight"), "incline",
-               "belongs to weight; give weight in place of force");
+                {"along the plane, and away from it", "from `weight` or `gravity`, and `incline`"});
+  keys.require(!keys.has("incline") || !keys.has("force"), "incline",
+               "belongs to weight and gravity; give one of them in place of force");
   keys.optional("weight", case_file::number(given.weight, kFinite),
                 {"weight less buoyancy, in place of `force`: the force `weight` sin(`incline`) "
                  "along the plane and -`weight` cos(`incline`) away from it",
-                 "from `force`"});
+                 "from `force` or `gravity`"});
+  double gravity = 0;
+  if (keys.optional("gravity", case_file::number(gravity, kFinite),
+                    {"acceleration, negative towards a plane that is level, in place of `weight`: "
+                     "the [weight less buoyancy](physics.md#4-motion-of-one-sphere-reduced_model) "
+                     "is (4.15)",
+                     "from `force` or `weight`"}))
+    given.weight = -mass * gravity;
   keys.optional("incline", case_file::number(given.incline, kAngle), {"angle of the plane"});
   keys.require(!keys.has("force") || given.force.size() == 2, "force",
                "has {} numbers; it must have two, along the plane and away from it",
@@ -67,7 +75,8 @@ void rolling_keys(case_file::Keys& keys, RollingCase& c) {
   keys.optional("angular_velocity", case_file::number(motion.angular_velocity, kFinite),
                 {"at the start, about y (> 0 rolls along +x)"});
   WeightKeys force;
-  weight_keys(keys, force);
+  weight_keys(keys, force,
+              case_file::mass_less_displaced_fluid(motion.mass, c.fluid_density, c.radius));
   const bool has_components = force.force.size() == 2;
   motion.force = has_components ? force.force[0] : force.weight * std::sin(force.incline);
   motion.normal_force = has_components ? force.force[1] : -force.weight * std::cos(force.incline);
@@ -114,8 +123,8 @@ void check_tabulation(const case_file::TomlSection& section,
 }
 
 void rolling_sphere_keys(case_file::Keys& keys, RollingCase& c) {
-  keys.required("radius", case_file::number(c.radius, kPositive), {"radius r of the sphere"});
-  keys.required("mass", case_file::number(c.motion.mass, kPositive), {"mass m of the sphere"});
+  double density = 0;
+  case_file::sphere_keys(keys, c.radius, density, c.motion.mass, true);
   c.motion.moment_of_inertia = 0.4 * c.motion.mass * c.radius * c.radius;
   keys.optional("moment_of_inertia", case_file::number(c.motion.moment_of_inertia, kPositive),
                 {"about an axis through the centre", "2 m r²/5"});
@@ -139,7 +148,7 @@ RollingCase rolling_case_of(const case_file::TomlSection& root, std::string text
                             const std::filesystem::path& path) {
   auto c = case_file::titled_case<RollingCase>(root, std::move(text), path);
   for (const auto& model : rolling_models()) c.models.emplace_back(model.name);
-  case_file::read_keys(root.section("fluid"), case_file::viscosity_keys, c.viscosity);
+  case_file::read_keys(root.section("fluid"), case_file::fluid_keys, c.viscosity, c.fluid_density);
   case_file::read_keys(root.section("sphere"), rolling_sphere_keys, c);
   const auto rolling = root.section("rolling");
   case_file::read_keys(rolling, rolling_keys, c);

@@ -18,6 +18,11 @@ TEST_P(Tutorial, DoesWhatItSays) {
 INSTANTIATE_TEST_SUITE_P(Each, Tutorial, ::testing::Values("tabulate", "fit", "trajectories"),
                          [](const auto& page) { return std::string(page.param); });
 
+TEST(TutorialOfAFallingSphere, DoesWhatItSays) {
+  const ReadersFolder folder(VISCONTACT_EXECUTABLE);
+  EXPECT_GE(folder.run_page(kTutorials / "falling.md"), 2);
+}
+
 TEST(Recipes, AllSucceedInTheirOrder) {
   const ReadersFolder folder(VISCONTACT_EXECUTABLE);
   folder.run_page(VISCONTACT_SOURCE_FOLDER "/docs/recipes.md");

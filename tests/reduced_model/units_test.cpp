@@ -118,6 +118,12 @@ void expect_twins(const Trajectory& old_one, const Trajectory& other, const Unit
   ASSERT_EQ(old_one.rows.size(), other.rows.size());
   for (const auto& column : columns_in(units))
     EXPECT_LE(difference(old_one, other, column), tolerance) << column.name;
+  ASSERT_EQ(old_one.solid_contact_from.has_value(), other.solid_contact_from.has_value());
+  if (const auto& touch = old_one.solid_contact_from) {
+    EXPECT_NEAR(other.solid_contact_from->time / units.time / touch->time, 1, tolerance);
+    EXPECT_NEAR(other.solid_contact_from->velocity / units.velocity() / touch->velocity, 1,
+                tolerance);
+  }
   ASSERT_EQ(old_one.recovered_minimal_gap.has_value(), other.recovered_minimal_gap.has_value());
   if (old_one.recovered_minimal_gap) {
     EXPECT_NEAR(*other.recovered_minimal_gap / units.length / *old_one.recovered_minimal_gap, 1,

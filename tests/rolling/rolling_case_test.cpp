@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <ostream>
 #include <string>
 
@@ -52,6 +53,24 @@ TEST_F(RollingCaseFile, ForceMayBeGivenByItsComponents) {
   EXPECT_EQ(c.motion.force, 0.25);
   EXPECT_EQ(c.motion.normal_force, -2);
   EXPECT_EQ(c.motion.torque, 0.5);
+}
+
+TEST_F(RollingCaseFile, WeightMayFollowFromDensitiesAndGravity) {
+  // The lines after the viscosity; the mass of the shipped case is replaced.
+  const auto text = case_file::text_with(kIncline, "mass = 0.1", "density = 5.0");
+  auto with_gravity = text;
+  with_gravity.replace(with_gravity.find("weight = 1.0"), 12, "gravity = -10.0");
+  with_gravity.replace(with_gravity.find("[sphere]"), 8, "density = 2.0\n[sphere]");
+  const auto c = read_rolling_case(folder_.file("case.toml", with_gravity));
+  const double volume = 4 * std::numbers::pi / 3;
+  EXPECT_DOUBLE_EQ(c.motion.mass, 5 * volume);
+  EXPECT_DOUBLE_EQ(c.motion.moment_of_inertia, 0.4 * 5 * volume);
+  EXPECT_DOUBLE_EQ(c.motion.force, 30 * volume * std::sin(0.3));
+  EXPECT_DOUBLE_EQ(c.motion.normal_force, -30 * volume * std::cos(0.3));
+  EXPECT_THAT(bad_input([&] { (void)changed("weight = 1.0", "weight = 1.0\ngravity = -1.0"); }),
+              HasSubstr("or weight or gravity must be there, one of the three"));
+  EXPECT_THAT(bad_input([&] { (void)changed("mass = 0.1", "mass = 0.1\ndensity = 5.0"); }),
+              HasSubstr("sphere.mass must be left out, because the mass follows from density"));
 }
 
 TEST_F(RollingCaseFile, TablesAreMadeOfTheMotionsThatItNeeds) {

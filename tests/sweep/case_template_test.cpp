@@ -124,7 +124,7 @@ TEST(CaseTemplate, RefusesKeysThatAreNone) {
         "motion.external_force[0].values", "motion.external_force[-1].value",
         "motion.external_force[.value", ".viscosity", "fluid.", "[0]", ""})
     lecture.expect_refused(key, 1, "");
-  lecture.expect_refused("fluid.viscosty", 1, "the known keys are: viscosity");
+  lecture.expect_refused("fluid.viscosty", 1, "the known keys are: density, viscosity");
 }
 
 TEST(CaseTemplate, RefusesWhatIsNoNumber) {

@@ -77,6 +77,33 @@ TEST(SweepPlanCheck, RadiusInTheMiddleIsThatOfTheFitToo) {
   }
 }
 
+TEST(SweepPlanCheck, DensitiesAreVariedWhereTheMotionDependsOnThem) {
+  const TemporaryFolder folder;
+  auto text = read_file(data("cases/regime_map.toml"));
+  text.replace(text.find("mass ="), 6, "density =");
+  auto plan = shipped("regime_map.toml");
+  plan.case_path = folder.file("case.toml", text);
+  const auto refused = [&](const char* key, const char* model) {
+    return failure(ErrorKind::kWrongUsage, [&] {
+      sphere_study(with_models(varied(plan, {std::string(key) + "=1,2"}), {model}, model), "");
+    });
+  };
+  EXPECT_THAT(refused("fluid.density", "viscous_contact"), HasSubstr("none of the models"));
+  EXPECT_THAT(refused("sphere.density", "reference_exact"), HasSubstr("none of the models"));
+  const auto film = [](const SpherePlan& p, std::size_t i) {
+    return number(row_of(p, i), "reference_exact.minimal_gap");
+  };
+  // The weight replaces the force: without inertia the density acts through it alone.
+  const auto at = text.find("external_force");
+  text.replace(at, text.find("\n\n", at) - at, "gravity = -1.0");
+  plan.case_path = folder.file("heavy.toml", text);
+  plan = with_models(plan, {"reference_exact"}, "reference_exact");
+  for (const auto* key : {"sphere.density", "fluid.density"}) {
+    const auto changed = varied(plan, {std::string(key) + "=0.01,0.02"});
+    EXPECT_NE(film(changed, 0), film(changed, 1)) << key;
+  }
+}
+
 TEST(SweepPlanCheck, NothingIsThereTwiceAndTheReferenceIsOneOfTheModels) {
   const auto plan = shipped("vanishing_viscosity.toml");
   const auto wrong = [](const SpherePlan& p) {

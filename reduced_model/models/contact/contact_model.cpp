@@ -125,6 +125,19 @@ class ContactClock {
   bool touching_ = false, is_struck_ = false;
 };
 
+/// When the solids touch in a step in which they carry a load for the first time. Before the step
+/// gamma is above gamma_min. `landing` is the time at which contact began.
+SolidTouch touch_in(const ContactModel& model, double mass, double landing, const StepTimes& times,
+                    const ContactState& before, double push, const ContactStep& step) {
+  // An impact: the film takes a part of the momentum, and the solids the rest.
+  if (!(before.gamma < 0)) return {landing, step.state.velocity - step.solid / mass};
+  const double rest = before.gamma + mass * before.velocity - model.gamma_min;
+  if (rest <= 0) return {times.kick_begin, rest / mass};
+  const double duration = times.kick_end - times.kick_begin;
+  return {times.kick_begin + duration * std::min(1.0, -rest / push),
+          push / (duration * model.solid_resistance)};
+}
+
 /// The step that an impulse of the force makes without a displacement.
 ContactStep kicked(const ContactState& state, double push, const ContactSetting& setting) {
   ContactStep step{state};
@@ -244,6 +257,7 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
   MomentumEnergyBudget budget;
   ContactClock clock(motion.mass);
   double lowest_gamma = 0;
+  bool is_rebound = false;  // whether the step has impacts
   ForceWalk force(motion.external_force);
   const auto add = [&](const StepTimes& times, const ContactSetting& setting,
                        const ContactState& before, double push, const ContactStep& step,
@@ -255,6 +269,10 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
                                (step.film + step.drag) * per_kick, force.value(times.end),
                                end.gamma, step.solid * per_kick});
     clock.look_at(times, before, push, step);
+    if (step.solid > 0 && !is_rebound && !trajectory.solid_contact_from)
+      trajectory.solid_contact_from =
+          touch_in(model, motion.mass, clock.interval().value()[0], times, before, push, step);
+    is_rebound = false;
     lowest_gamma = std::min(lowest_gamma, end.gamma);
     // If contact lasts through a step in which the force changes its sign, gamma is lowest then.
     const double begin = times.kick_begin;
@@ -266,6 +284,12 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
                                        (*turn - begin) * motion.external_force.mean(begin, *turn)));
   };
   const auto rebound = [&](const StepTimes& times, const ReboundStep& step) {
+    is_rebound = true;
+    if (!step.rebounds.empty() && !trajectory.solid_contact_from) {
+      const auto& first = step.rebounds.front();
+      trajectory.solid_contact_from = {times.begin + first.time,
+                                       -first.solid_impulse / motion.mass};
+    }
     for (auto of : step.rebounds) {
       of.time += times.begin;
       trajectory.rebounds.push_back(of);

@@ -29,6 +29,9 @@ struct ContactModel {
   /// Value of gamma at which the solids touch [M L/T], <= 0. -infinity: no solid contact. 0: no
   /// film, which is plain inelastic contact.
   double gamma_min = 0;
+  /// Resistance of the film where the solids touch [M/T]: the rate of gamma over that of the film.
+  /// 0 without a film.
+  double solid_resistance = 0;
   /// The resolved drag; nothing if only f_ext acts at a distance.
   std::optional<ResolvedDrag> drag;
   /// Thickness [L] of the film that is recovered from gamma [M L/T].
@@ -50,7 +53,8 @@ struct ContactModel {
 /// `is_staggered` the force acts for half a step first and at the end, and a row has the velocity
 /// and gamma that the force of another half step gives at the time of the row. The lowest gamma,
 /// and thus the recovered film, includes the values at which the force changes its sign within a
-/// step.
+/// step. The time at which the solids touch is found in the same way. Their velocity is what the film
+/// leaves of an impact, or, if a load closes the film, the load over `solid_resistance`.
 Trajectory run_contact_model(const Motion& motion, ContactModel model);
 
 /// A function that makes a contact model for a motion and a force.

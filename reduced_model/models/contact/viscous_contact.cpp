@@ -16,6 +16,7 @@ ContactModel viscous_contact(const Motion& motion, const lubrication::Lubricatio
   ContactModel model;
   model.gamma_min = solid_gap == 0 ? -std::numeric_limits<double>::infinity()
                                    : std::min(0.0, k * std::log(solid_gap / q0));
+  if (solid_gap > 0) model.solid_resistance = k / solid_gap;
   model.film_thickness = [k, solid_gap, q0, gamma_min = model.gamma_min](double gamma) {
     return gamma <= gamma_min ? solid_gap : std::max(solid_gap, q0 * std::exp(gamma / k));
   };

@@ -18,10 +18,11 @@ namespace {
 /// The state of the sphere at the last event, and the exact motion from there.
 class EventDriven {
  public:
-  EventDriven(const Motion& motion, double gamma_min)
+  EventDriven(const Motion& motion, const ContactModel& model)
       : m_(motion.mass),
         f_(motion.external_force),
-        gamma_min_(gamma_min),
+        gamma_min_(model.gamma_min),
+        solid_resistance_(model.solid_resistance),
         restitution_(motion.restitution()),
         shortest_flight_(kShortestFlight * motion.end_time),
         gap_(motion.initial_gap),
@@ -30,6 +31,7 @@ class EventDriven {
   bool contact() const { return contact_; }
   const MomentumEnergyBudget& budget() const { return budget_; }
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
+  const std::optional<SolidTouch>& touch() const { return touch_; }
   double lowest_gamma() const { return lowest_gamma_; }
 
   double gap(double t) const {
@@ -84,6 +86,7 @@ class EventDriven {
     gamma_ = impact.gamma;
     lowest_gamma_ = std::min(lowest_gamma_, impact.lowest_gamma);
     const double after = impact.momentum / m_;
+    if (impact.solid_impulse > 0 && !touch_) touch_ = {t, -impact.solid_impulse / m_};
     if (restitution_ > 0 && impact.solid_impulse > 0)
       rebounds_.push_back({t, velocity_, impact.solid_impulse, after, after / -velocity_});
     velocity_ = after;
@@ -104,6 +107,8 @@ class EventDriven {
     budget_.external_impulse += push;
     budget_.film_impulse += gamma_ - after;
     budget_.solid_impulse += after - gamma_ - push;
+    if (gamma_ > gamma_min_ && after == gamma_min_ && !touch_)
+      touch_ = {t, f_.mean(from_, t) / solid_resistance_};
     contact_ = !(sign > 0 && end > 0);
     gamma_ = after;
     from_ = t;
@@ -115,12 +120,13 @@ class EventDriven {
 
   double m_;
   const ExternalForce& f_;
-  double gamma_min_, restitution_, shortest_flight_;
+  double gamma_min_, solid_resistance_, restitution_, shortest_flight_;
   double from_ = 0;
   bool contact_ = false;
   double gap_, velocity_, gamma_ = 0, lowest_gamma_ = 0;
   MomentumEnergyBudget budget_;
   std::vector<Rebound> rebounds_;
+  std::optional<SolidTouch> touch_;
 };
 
 }  // namespace
@@ -130,7 +136,7 @@ Trajectory simulate_viscous_contact_exact(const Motion& motion,
   const ContactModel model = viscous_contact(motion, force);
   const auto& f = motion.external_force;
   const double end = motion.end_time;
-  EventDriven sphere(motion, model.gamma_min);
+  EventDriven sphere(motion, model);
 
   Trajectory trajectory;
   double lowest_gamma = 0;
@@ -177,6 +183,7 @@ Trajectory simulate_viscous_contact_exact(const Motion& motion,
   }
   trajectory.budget = sphere.budget();
   trajectory.rebounds = sphere.rebounds();
+  trajectory.solid_contact_from = sphere.touch();
   if (lowest_gamma < 0) trajectory.recovered_minimal_gap = model.film_thickness(lowest_gamma);
   return trajectory;
 }

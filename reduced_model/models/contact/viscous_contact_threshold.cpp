@@ -32,6 +32,7 @@ ContactModel viscous_contact_threshold(const Motion& motion,
   model.contact_gap = q_c;
   model.gamma_min = solid_gap == 0 ? -std::numeric_limits<double>::infinity()
                                    : std::min(0.0, force.impulse(solid_gap) - impulse_at_contact);
+  if (solid_gap > 0) model.solid_resistance = force.resistance(solid_gap);
   model.drag = ResolvedDrag{[&force](double q) { return force.resistance(q); },
                             [&force](double q) { return force.impulse(q); }};
   model.film_thickness = [&force, impulse_at_contact](double gamma) {

@@ -306,7 +306,7 @@ TEST_F(MotionsCommand, RollingRefusesWhatIsWrongWithItsLine) {
     EXPECT_FALSE(fs::exists(path("out/rolling.json")));
   };
   refused("friction = 0.3", "friction = -1.0", "rolling.friction is -1; it must be a number >= 0");
-  refused("weight = 1.0", "weight = 1.0\nforce = [1.0, 2.0]", "or weight must be there, one of");
+  refused("weight = 1.0", "weight = 1.0\nforce = [1.0, 2.0]", "or weight or gravity must be there");
   refused("initial_gap = 0.5", "initial_gap = 1e-4", "it must be at least the roughness, 0.001");
   expect_done(run_viscontact(
       {"rolling", incline("radius = 1.0", "radius = 1.0000000000000002"), "-o", path("same")}));
