@@ -79,6 +79,7 @@ struct HingeTable {
   std::vector<std::int32_t> held;               // the particles to choose from
   Vector at{};                                  // [L]
   std::optional<double> stiffness, rest_angle;  // [M L^2/T^2], [rad]
+  std::optional<double> lowest, highest;        // [rad]
 };
 
 void read_body_of_hinge(const case_file::TomlSection& section, std::string_view key,
@@ -118,6 +119,18 @@ void hinge_keys(case_file::Keys& keys, HingeTable& hinge, const ParticlesCase& c
   keys.optional(
       "rest_angle", case_file::number(hinge.rest_angle, kModerate),
       {"with `stiffness`; the angle of a body is 0 at the start", "the angle at the start"});
+  for (const auto* key : {"lowest_angle", "highest_angle"})
+    keys.require(c.particles.dimension != 3 || !keys.has(key), key,
+                 "must be left out, because stops are for discs");
+  keys.optional("lowest_angle", case_file::number(hinge.lowest, kModerate),
+                {"in 2D: a [stop](particles.md#rigid-bodies-and-links), below which the angle does "
+                 "not fall",
+                 "none"});
+  keys.optional("highest_angle", case_file::number(hinge.highest, kModerate),
+                {"in 2D: a stop, above which the angle does not rise", "none"});
+  keys.require(!hinge.lowest || !hinge.highest || *hinge.lowest < *hinge.highest, "lowest_angle",
+               "is {}; it must be smaller than the highest_angle, {}", hinge.lowest.value_or(0),
+               hinge.highest.value_or(0));
 }
 
 Hinge read_hinge(const case_file::TomlSection& section, const ParticlesCase& c,
@@ -148,6 +161,14 @@ Hinge read_hinge(const case_file::TomlSection& section, const ParticlesCase& c,
   hinge.point.offset = p.dimension == 3 ? arm : displacement_at(arm, {0, 0, -angle}, arm, 2);
   hinge.stiffness = table.stiffness.value_or(0);
   hinge.rest_angle = table.rest_angle.value_or(angle);
+  hinge.lowest_angle = table.lowest.value_or(hinge.lowest_angle);
+  hinge.highest_angle = table.highest.value_or(hinge.highest_angle);
+  section.require(angle >= hinge.lowest_angle, "lowest_angle",
+                  "is {}; it must be at most the angle at the start, {}", hinge.lowest_angle,
+                  angle);
+  section.require(angle <= hinge.highest_angle, "highest_angle",
+                  "is {}; it must be at least the angle at the start, {}", hinge.highest_angle,
+                  angle);
   return hinge;
 }
 

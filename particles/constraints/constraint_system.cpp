@@ -16,7 +16,7 @@ template <int D>
 Motion<D> row_of(const LinkPart& part) {
   if (!part.is_turn) return displacement_row<D>(part.direction, part.arm);
   Motion<D> row{};
-  row.back() = 1;  // the turn about z
+  row.back() = part.direction[2];  // the turn about z
   return row;
 }
 
@@ -38,6 +38,10 @@ ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particle
       link_residuals_(links_.size(), 0.0),
       link_forces_(step.link_forces.begin(), step.link_forces.end()),
       offsets_(particles.bodies.empty() ? 0 : particles.count()) {
+  for (auto& stop : stop_equations(*step.links, particles)) {
+    links_.push_back(std::move(stop));
+    link_residuals_.push_back(0);
+  }
   for (const auto& body : particles.bodies.bodies)
     for (std::size_t m = 0; m < body.members.size(); ++m)
       offsets_[index_of(body.members[m])] = present_offset(body, m, D);
@@ -118,9 +122,11 @@ void ConstraintSystem<D>::add_link(std::size_t l, double mean_radius) {
   ConstraintBlock block;
   block.row = problem_.rows.size();
   block.rows = link.rows.size();
-  block.is_contact = false;
+  // A stop pushes like a contact without film and friction.
+  const bool is_stop = link.kind == LinkEquations::Kind::kStop;
+  block.is_contact = is_stop;
   block.allowed = links_allowed[l];
-  if (link.kind == LinkEquations::Kind::kTorsion) block.allowed /= mean_radius;
+  if (link.is_of_angles()) block.allowed /= mean_radius;
   block.compliance = link.rows.front().compliance;
   problem_.blocks.push_back(block);
   for (std::size_t k = 0; k < link.rows.size(); ++k) {
@@ -128,7 +134,8 @@ void ConstraintSystem<D>::add_link(std::size_t l, double mean_radius) {
     std::vector<RowPart<D>> parts;
     for (const auto& part : equation.parts)
       parts.push_back({unit_of_particle_[index_of(part.particle)], row_of<D>(part)});
-    problem_.add_row(equation.value, parts, times_.kick * link_forces_[link.first_force + k]);
+    const double guess = is_stop ? 0 : link_forces_[link.first_force + k];
+    problem_.add_row(equation.value, parts, times_.kick * guess);
   }
 }
 
@@ -211,13 +218,18 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
     residuals_[c] = solution.residuals[c];
     residuals_[c].normal += shifts_[c];
   }
+  std::ranges::fill(link_forces_, 0.0);
   for (std::size_t l = 0; l < links_.size(); ++l) {
     const std::size_t b = system.contacts.size() + l;
+    const auto& link = links_[l];
     const auto& block = problem_.blocks[b];
     link_residuals_[l] = solution.residuals[b].normal + shifts_[b];
-    if (links_[l].kind == LinkEquations::Kind::kTorsion) link_residuals_[l] *= mean_radius_;
+    if (link.is_of_angles()) link_residuals_[l] *= mean_radius_;
+    // The torque of a hinge is that of its spring and of its stops.
+    const bool is_stop = link.kind == LinkEquations::Kind::kStop;
+    const double sign = is_stop ? link.parts().front().direction[2] : 1;
     for (std::size_t k = 0; k < block.rows; ++k)
-      link_forces_[links_[l].first_force + k] = problem_.impulses[block.row + k] / times_.kick;
+      link_forces_[link.first_force + k] += sign * problem_.impulses[block.row + k] / times_.kick;
   }
   std::ranges::copy(link_forces_, step_.link_forces.begin());
   for (std::size_t body = 0; body < unit_of_body_.size(); ++body) {

@@ -56,7 +56,8 @@ class ConstraintSystem {
   /// the guess of the friction.
   void add(const Contact<D>& contact, const Pair& pair, const PairMemory& memory);
 
-  /// The equations of the links, and what their residuals may be [L], to be set before solve().
+  /// The equations of the links and of the stops of hinges, and what their residuals may be [L], to
+  /// be set before solve().
   const std::vector<LinkEquations>& links() const { return links_; }
   /// The allowed residual of each link [L], > 0, in the order of links().
   std::vector<double> links_allowed;
@@ -78,8 +79,8 @@ class ConstraintSystem {
   }
   /// Residual of contact number `c` in the last solution [L].
   const BlockResidual& residual(std::size_t c) const { return residuals_[c]; }
-  /// Residual of link number `l` of links() in the last solution [L]; of a torsion spring times the
-  /// mean radius.
+  /// Residual of link number `l` of links() in the last solution [L]; of angles times the mean
+  /// radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
 
  private:

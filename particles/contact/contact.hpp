@@ -37,10 +37,16 @@ struct Contact {
   double allowed = 0;
   double tolerated = 0;       ///< overlap that is left as it is [L], >= 0
   std::int32_t image = 0;     ///< Pair::image
-  std::int32_t obstacle = 0;  ///< number of the obstacle, if `first` is negative
+  std::int32_t obstacle = 0;  ///< number of the obstacle, if `first` is negative; -1: a stop
   /// Change of the gap per impulse of this contact [T/M]: without a fluid h (1/m_i + 1/m_j), with
   /// the length h of the step and the masses of both particles.
   double w = 0;
+  /// Change of the gap per turn of the first and of the second particle, counter-clockwise [L]. In a
+  /// fluid only, where outlines are no circles and at the stops of hinges; otherwise 0.
+  std::array<double, 2> levers{};
+
+  /// True if it is the stop of a hinge, of which only the lever of `second` changes the gap.
+  bool is_stop() const { return first < 0 && obstacle < 0; }
 };
 
 /// Residual of the contact conditions gap >= 0, impulse >= lowest, one of them with equality: 0 for

@@ -7,6 +7,7 @@
 #include <limits>
 #include <tuple>
 
+#include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
 namespace viscontact::particles {
@@ -109,6 +110,28 @@ void make_contacts(StepContacts& step, const Particles& p, double threshold,
 
 }  // namespace
 
+std::vector<Contact<2>> contacts_of_stops(const Links& links, const Particles& particles) {
+  std::vector<Contact<2>> contacts;
+  for (const auto& stop : stop_equations(links, particles)) {
+    const auto& part = stop.parts().front();
+    const double lever = particles.radii[index_of(part.particle)];
+    Contact<2> contact{-1, part.particle, {}, lever * stop.rows.front().value};
+    contact.obstacle = -1;
+    contact.levers = {0, lever * part.direction[2]};
+    contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+void add_torques_of_stops(const Links& links, const Particles& particles,
+                          std::span<const Contact<2>> contacts, double h,
+                          std::span<double> link_forces) {
+  const auto stops = stop_equations(links, particles);
+  const auto of_stops = contacts.last(stops.size());
+  for (std::size_t s = 0; s < stops.size(); ++s)
+    link_forces[stops[s].first_force] += of_stops[s].levers[1] * of_stops[s].impulse / h;
+}
+
 void solve_listed(StepContacts& step, const Mobility& mobility,
                   const ContactConditions& conditions) {
   ContactProblem problem(conditions, mobility);
@@ -146,13 +169,14 @@ double reach_of(const State& state, double threshold, std::span<const double> ve
   return threshold + conditions.h * (2 * fastest(velocities, conditions.layout) + of_images);
 }
 
-StepContacts solve_contacts(const State& state, double threshold,
+StepContacts solve_contacts(const State& state, double threshold, const Links& links,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,
                             const Mobility& mobility, const ContactConditions& conditions,
                             ThreadPool& pool) {
   const auto& p = state.particles;
   const auto& free = conditions.free_velocities;
+  const auto stops = contacts_of_stops(links, p);
   // Contacts push particles at speeds that are seldom above twice the largest one without contact.
   double reach =
       std::max(conditions.least_reach, reach_of(state, threshold, free, conditions) +
@@ -166,6 +190,7 @@ StepContacts solve_contacts(const State& state, double threshold,
     std::erase_if(step.pairs, is_left_out);
     std::erase_if(step.walls, is_left_out);
     make_contacts(step, p, threshold, obstacles, conditions);
+    step.contacts.insert(step.contacts.end(), stops.begin(), stops.end());
     solve_listed(step, mobility, conditions);
     step.reach = reach;
     const double needed = reach_of(state, threshold, step.velocities, conditions);
@@ -219,8 +244,9 @@ StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const 
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& contact = contacts[c];
     const double after = gap_after(contact, velocities.data(), conditions.h, conditions.layout);
-    residuals.take_gap(
-        after, {contact.first >= 0 ? contact.first : -1 - contact.obstacle, contact.second});
+    if (!contact.is_stop())
+      residuals.take_gap(
+          after, {contact.first >= 0 ? contact.first : -1 - contact.obstacle, contact.second});
     // A contact that takes no part must not close.
     const bool takes_part = contact.w > 0;
     const double residual =

@@ -14,6 +14,7 @@
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
+#include "viscontact/particles/links/links.hpp"
 #include "viscontact/particles/solver_settings.hpp"
 #include "viscontact/particles/state.hpp"
 #include "viscontact/particles/steps/step_residuals.hpp"
@@ -28,6 +29,8 @@ inline double opening(const Contact<2>& contact, const double* velocities,
     sum += contact.normal[d] * velocities[layout.at(contact.second, d)];
     if (contact.first >= 0) sum -= contact.normal[d] * velocities[layout.at(contact.first, d)];
   }
+  if (contact.levers[1] != 0) sum += contact.levers[1] * velocities[layout.at(contact.second, 2)];
+  if (contact.levers[0] != 0) sum += contact.levers[0] * velocities[layout.at(contact.first, 2)];
   return sum;
 }
 
@@ -57,6 +60,8 @@ inline void add_contact_force(const Contact<2>& contact, double force, std::span
     forces[layout.at(contact.second, d)] += contact.normal[d] * force;
     if (contact.first >= 0) forces[layout.at(contact.first, d)] -= contact.normal[d] * force;
   }
+  if (contact.levers[1] != 0) forces[layout.at(contact.second, 2)] += contact.levers[1] * force;
+  if (contact.levers[0] != 0) forces[layout.at(contact.first, 2)] += contact.levers[0] * force;
 }
 
 /// Velocities [L/T, 1/T] of all particles that forces and torques [M L/T^2, M L^2/T^2] add to those
@@ -154,7 +159,8 @@ class ContactProblem {
 struct StepContacts {
   std::vector<Pair> pairs,  ///< of particles in reach of each other in this step, with their memory
       walls;                ///< the same of particles and obstacles
-  /// Of all `pairs`, then of all `walls`. Contacts that take no part have the impulse 0 and w = 0.
+  /// Of all `pairs`, then of all `walls`, then of the stops of hinges, which remember nothing.
+  /// Contacts that take no part have the impulse 0 and w = 0.
   std::vector<Contact<2>> contacts;
   std::vector<double> loads;       ///< sums of contact forces on each particle [M L/T^2]
   std::vector<double> velocities;  ///< with the contact forces [L/T, 1/T]
@@ -173,11 +179,21 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
 double reach_of(const State& state, double threshold, std::span<const double> velocities,
                 const ContactConditions& conditions);
 
+/// The stops of hinges as contacts: with the radius of the particle that a hinge holds as its lever,
+/// the gap of a stop is a length, as those of other contacts.
+std::vector<Contact<2>> contacts_of_stops(const Links& links, const Particles& particles);
+
+/// Adds the torques of the stops, of which `contacts` ends with the contacts, to State::link_forces.
+/// `h` is the length of the step [T].
+void add_torques_of_stops(const Links& links, const Particles& particles,
+                          std::span<const Contact<2>> contacts, double h,
+                          std::span<double> link_forces);
+
 /// Finds the impulses of all contacts, such that no gap closes that was not among the contacts
 /// either. `state` is that before the step, `threshold` is D_c >= 0 [L], `obstacles` are positions
 /// at the end of the step. Pairs for which `is_left_out` is true are no contacts, because no
 /// contact force changes their distance. Throws what `mobility` throws.
-StepContacts solve_contacts(const State& state, double threshold,
+StepContacts solve_contacts(const State& state, double threshold, const Links& links,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,
                             const Mobility& mobility, const ContactConditions& conditions,

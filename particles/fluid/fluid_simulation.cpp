@@ -229,8 +229,8 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
     return velocities;
   };
   for (;;) {
-    contacts = solve_contacts(state_, threshold, positions_of(obstacles_, next), is_left_out,
-                              mobility, conditions, pool_);
+    contacts = solve_contacts(state_, threshold, setting_.links, positions_of(obstacles_, next),
+                              is_left_out, mobility, conditions, pool_);
     if (!setting_.laws.restitution.is_on() || is_computed_twice()) return std::nullopt;
     const BlowStep step{setting_, state_, obstacles_, next, kick_length(h), before, loaded};
     auto blow = solve_blow(contacts, step, mobility, conditions);
@@ -378,6 +378,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     auto row_forces = held_->row_forces();
     if (!equation.link_times().empty()) add(further_row_forces, row_forces);
     of_step = motion.link_forces = held->link_forces(row_forces);
+    add_torques_of_stops(setting_.links, state_.particles, motion.contact.contacts, h,
+                         motion.link_forces);
     if (!equation.link_times().empty()) {
       at_end = held->link_forces(hold_at_end(equation, *held, motion.linear, motion.at_end));
       add(at_end, motion.link_forces);

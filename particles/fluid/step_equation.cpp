@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -122,6 +123,10 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
       in_contact_[index_of(pair.second)] = 1;
       if (pair.first >= 0) in_contact_[index_of(pair.first)] = 1;
     }
+  // A hinge that rests at a stop. Its angle is exact up to the tolerance of a gap.
+  const double touching = setting.solver.tolerance * mean_radius(state.particles);
+  for (const auto& stop : contacts_of_stops(setting.links, state.particles))
+    if (stop.gap <= touching) in_contact_[index_of(stop.second)] = 1;
   find_companions();
   spread_contact();
   add_inertia();

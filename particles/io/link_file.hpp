@@ -34,7 +34,8 @@ struct TimeTable {
 /// with torque_error_estimate: estimates of the errors that the mesh causes, in the units of the
 /// results, and empty where they are not known.
 ///
-/// Ids are numbers from 0 in the order of the case. The force of a hinge is that on its body; the
+/// Ids are numbers from 0 in the order of the case. The force of a hinge is that on its body, and
+/// its torque that of its torsion spring and its stops; the
 /// forces of springs and arms are positive where they push the ends apart. Forces are those of the
 /// step that ended at the time, 0 before the first one. The power is the work of an arm in this
 /// step over the length of the step.

@@ -103,7 +103,7 @@ LinkEquations hinge_equations(const Hinge& hinge, const Particles& p) {
 LinkEquations torsion_equations(const Hinge& hinge, const Particles& p, const LinkTimes& times) {
   LinkEquations equations{LinkEquations::Kind::kTorsion};
   LinkRow row;
-  row.parts = {{.particle = hinge.point.particle, .is_turn = true}};
+  row.parts = {{.particle = hinge.point.particle, .direction = {0, 0, 1}, .is_turn = true}};
   make_spring(row, unit_angle(p, hinge.point.particle) - hinge.rest_angle,
               unit_spin(p, hinge.point.particle), hinge.stiffness, times);
   equations.rows.push_back(row);
@@ -164,7 +164,7 @@ double image_rate(const LinkRow& row, const PeriodicCell& cell) {
 }
 
 double value_of(const LinkPart& part, const UnitMotion& motion) {
-  return part.is_turn ? motion.turn[2]
+  return part.is_turn ? part.direction[2] * motion.turn[2]
                       : dot(part.direction, motion.displacement + cross(motion.turn, part.arm));
 }
 
@@ -189,6 +189,26 @@ std::vector<LinkEquations> link_equations(const Links& links, const Particles& p
         links.place_of_spring(k, dimension));
   for (std::size_t k = 0; k < links.arms.size(); ++k)
     add(arm_equations(links.arms[k], particles, times), k, links.place_of_arm(k, dimension));
+  return all;
+}
+
+std::vector<LinkEquations> stop_equations(const Links& links, const Particles& particles) {
+  std::vector<LinkEquations> all;
+  for (std::size_t k = 0; k < links.hinges.size(); ++k) {
+    const auto& hinge = links.hinges[k];
+    const auto particle = hinge.point.particle;
+    const auto add = [&](double left, double sign) {
+      if (!std::isfinite(left)) return;
+      LinkEquations stop{LinkEquations::Kind::kStop, k, k * Links::forces_of_hinge(2) + 2};
+      stop.rows.push_back(
+          {{{.particle = particle, .direction = {0, 0, sign}, .is_turn = true}}, left});
+      all.push_back(std::move(stop));
+    };
+    if (particles.dimension != 2) continue;
+    const double angle = unit_angle(particles, particle);
+    add(angle - hinge.lowest_angle, 1);
+    add(hinge.highest_angle - angle, -1);
+  }
   return all;
 }
 
@@ -255,6 +275,7 @@ std::string name_of(const LinkEquations& equations, const Links& links,
   if (equations.kind == LinkEquations::Kind::kSpring)
     return pair("spring", links.springs[k].first, links.springs[k].second);
   const auto& hinge = links.hinges[k];
+  if (equations.kind == LinkEquations::Kind::kStop) return fmt::format("a stop of hinge {}", k);
   if (hinge.body >= 0) return fmt::format("hinge {} (body {})", k, hinge.body);
   return fmt::format("hinge {} (particle {})", k, particles.id(index_of(hinge.point.particle)));
 }

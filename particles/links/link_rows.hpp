@@ -17,10 +17,10 @@ namespace viscontact::particles {
 
 /// Part of an equation. A unit is a particle without a body, or a rigid body. The part is the inner
 /// product of `direction` and the displacement of the point at `arm` from the centre of a unit, or
-/// the turn of the unit about z.
+/// with its component along z the turn of the unit about z.
 struct LinkPart {
   std::int32_t particle = 0;  ///< number of the particle, or of a member of the body
-  Vector direction{};         ///< a unit vector; with `is_turn`, not used
+  Vector direction{};         ///< a unit vector; with `is_turn` (0, 0, 1) or (0, 0, -1)
   Vector arm{};               ///< [L]
   bool is_turn = false;       ///< true: the turn about z; false: the displacement
   /// Numbers of periods from the particle to the image of it that the equation means.
@@ -43,8 +43,8 @@ struct LinkRow {
 /// The equations of one link, and what they are called. All have parts of the same units in one
 /// order.
 struct LinkEquations {
-  /// The kind of link; kTorsion is the torsion spring of a hinge.
-  enum class Kind { kHinge, kTorsion, kSpring, kArm };
+  /// The kind of link; kTorsion is the torsion spring of a hinge, kStop one of its stops.
+  enum class Kind { kHinge, kTorsion, kSpring, kArm, kStop };
   Kind kind = Kind::kArm;       ///< the kind of this link
   std::size_t number = 0;       ///< of the link in its list
   std::size_t first_force = 0;  ///< place of the force of the first row in State::link_forces
@@ -53,6 +53,8 @@ struct LinkEquations {
 
   /// The parts of the first row, one for each unit.
   const std::vector<LinkPart>& parts() const { return rows.front().parts; }
+  /// Whether the rows are of angles [rad].
+  bool is_of_angles() const { return kind == Kind::kTorsion || kind == Kind::kStop; }
 };
 
 /// The times of a step on which the equations of links depend.
@@ -74,6 +76,11 @@ struct LinkTimes {
 /// and does not damp.
 std::vector<LinkEquations> link_equations(const Links& links, const Particles& particles,
                                           const LinkTimes& times);
+
+/// The stops of all hinges: each has one row, the angle that is left to the stop, which is not
+/// negative after a step. It has a moment of impulse >= 0, and only where it is 0. The places of
+/// their forces are those of the torsion springs.
+std::vector<LinkEquations> stop_equations(const Links& links, const Particles& particles);
 
 /// Numbers of periods from a particle to its image at the place in its body; 0 without a body.
 Periods periods_in_unit(const Particles& particles, std::int32_t particle);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "viscontact/particles/links/arm_length.hpp"
@@ -22,7 +23,7 @@ struct LinkedPoint {
 };
 
 /// Holds a point of a particle or body at a place, about which it turns freely, or against a
-/// torsion spring (discs only).
+/// torsion spring and between stops (discs only).
 struct Hinge {
   LinkedPoint point;     ///< the point that is held
   Vector at{};           ///< the place where it is held [L]
@@ -31,6 +32,9 @@ struct Hinge {
   /// particle is its own.
   double rest_angle = 0;
   std::int32_t body = -1;  ///< number of the body for messages; -1: the hinge holds a particle
+  // The stops between which the angle stays [rad].
+  double lowest_angle = -std::numeric_limits<double>::infinity(),  ///< without a stop -infinity
+      highest_angle = std::numeric_limits<double>::infinity();     ///< without a stop infinity
 };
 
 /// Pulls or pushes the centres of two particles with the force stiffness * (distance - length).
@@ -57,8 +61,8 @@ struct Links {
   /// True if there are no links.
   bool empty() const { return hinges.empty() && springs.empty() && arms.empty(); }
   /// Number of forces in State::link_forces, in `dimension` dimensions: those of all hinges
-  /// (`dimension` components and, in the plane, the torque of the spring), of all springs and of
-  /// all arms.
+  /// (`dimension` components and, in the plane, the torque of the spring and the stops), of all
+  /// springs and of all arms.
   std::size_t force_count(int dimension) const {
     return hinges.size() * forces_of_hinge(dimension) + springs.size() + arms.size();
   }

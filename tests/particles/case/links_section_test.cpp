@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 #include <variant>
 
@@ -86,6 +87,28 @@ TEST_F(LinksSection, ABodyMayLieAcrossAPeriodButNotFillIt) {
     expect_refused("[[body]]\nparticles = [0, 1, 2]\n" + in_cell(width),
                    "body[0].particles do not determine which of their images make the body: along "
                    "x the largest distance between neighbouring centres, 3, occurs more than once");
+}
+
+TEST_F(LinksSection, AHingeMayHaveStops) {
+  const auto& hinges =
+      read(
+          "[[hinge]]\nparticle = 0\nat = [0.0, 0.0]\nlowest_angle = -0.5\n[[hinge]]\nparticle = "
+          "1\nat = [3.0, 0.0]\nlowest_angle = 0.0\nhighest_angle = 1.5\n")
+          .setting.links.hinges;
+  ASSERT_EQ(hinges.size(), 2U);
+  EXPECT_EQ(hinges[0].lowest_angle, -0.5);
+  EXPECT_EQ(hinges[0].highest_angle, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(hinges[1].lowest_angle, 0);
+  EXPECT_EQ(hinges[1].highest_angle, 1.5);
+  const std::string hinge = "[[hinge]]\nparticle = 0\nat = [0.0, 0.0]\n";
+  expect_refused(hinge + "lowest_angle = 0.5\n", "hinge[0].lowest_angle is 0.5", kFirstLine + 3);
+  expect_refused(hinge + "highest_angle = -0.5\n", "hinge[0].highest_angle is -0.5",
+                 kFirstLine + 3);
+  expect_refused(hinge + "lowest_angle = 0.0\nhighest_angle = 0.0\n",
+                 "hinge[0].lowest_angle is 0; it must be smaller than the highest_angle",
+                 kFirstLine + 3);
+  expect_refused("[[hinge]]\nparticle = 0\nat = [0.0, 0.0, 0.0]\nlowest_angle = -0.5\n",
+                 "hinge[0].lowest_angle must be left out", kFirstLine + 3, 3);
 }
 
 TEST_F(LinksSection, AHingeHoldsAPointOfABodyOrParticle) {
