@@ -114,7 +114,7 @@ void friction_keys(case_file::Keys& keys, FrictionLaw& law) {
       "method",
       case_file::one_of(law.method, {{"fixed_point", FrictionMethod::kFixedPoint},
                                      {"convex", FrictionMethod::kConvex}}),
-      {"Coulomb's law, or the convex relaxation, in which sliding contacts open by h mu_s "
+      {"Coulomb's law, or a convex problem, in which dry contacts that slide open by h mu_s "
        "abs(v_t)"});
 }
 

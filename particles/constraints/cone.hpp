@@ -78,24 +78,45 @@ class ConeScaling {
   /// (W^2 + shift)^-1, row by row, computed from eigenvalues, so that points near the boundary of
   /// the cone lose no digits.
   std::array<ConePoint, 3> inverse_square(double shift) const {
-    const double beside = beside_axis(point_), grown = point_[0] + beside, square = size_ * size_;
-    const double low = 1 / (square * grown * grown + shift);
-    const double high = 1 / (square / (grown * grown) + shift);
-    const double across = 1 / (square + shift);
-    const ConePoint direction =
-        beside > 0 ? ConePoint{0, point_[1] / beside, point_[2] / beside} : ConePoint{0, 1, 0};
-    std::array<ConePoint, 3> inverse{};
-    inverse[0][0] = (low + high) / 2;
-    for (std::size_t k = 1; k < 3; ++k) {
-      inverse[0][k] = inverse[k][0] = (low - high) / 2 * direction[k];
-      for (std::size_t l = 1; l < 3; ++l)
-        inverse[k][l] =
-            ((low + high) / 2 - across) * direction[k] * direction[l] + (k == l ? across : 0);
-    }
+    const auto [low, high, across, direction] = eigenvalues(shift);
+    std::array<ConePoint, 3> inverse = beside(1 / low / 2 + 1 / high / 2, 1 / across, direction);
+    inverse[0][0] = (1 / low + 1 / high) / 2;
+    for (std::size_t k = 1; k < 3; ++k)
+      inverse[0][k] = inverse[k][0] = (1 / low - 1 / high) / 2 * direction[k];
     return inverse;
+  }
+  /// The inverse of W^2 + shift without its first row and column, in the place of these.
+  std::array<ConePoint, 3> inverse_square_beside(double shift) const {
+    const auto [low, high, across, direction] = eigenvalues(shift);
+    return beside(2 / (low + high), 1 / across, direction);
+  }
+  /// The product of the first row of W^2, without its first number, and a point x.
+  double square_along(const ConePoint& x) const {
+    const auto [low, high, across, direction] = eigenvalues(0);
+    return (low - high) / 2 * (direction[1] * x[1] + direction[2] * x[2]);
   }
 
  private:
+  // Eigenvalues of W^2 + shift: of (1, direction), (1, -direction) and what is across them.
+  struct Eigenvalues {
+    double low, high, across;
+    ConePoint direction;
+  };
+  Eigenvalues eigenvalues(double shift) const {
+    const double length = beside_axis(point_), grown = point_[0] + length, square = size_ * size_;
+    const ConePoint direction =
+        length > 0 ? ConePoint{0, point_[1] / length, point_[2] / length} : ConePoint{0, 1, 0};
+    return {square * grown * grown + shift, square / (grown * grown) + shift, square + shift,
+            direction};
+  }
+  // The matrix with the eigenvalue `along` for `direction` and `across` for what is beside it.
+  static std::array<ConePoint, 3> beside(double along, double across, const ConePoint& direction) {
+    std::array<ConePoint, 3> matrix{};
+    for (std::size_t k = 1; k < 3; ++k)
+      for (std::size_t l = 1; l < 3; ++l)
+        matrix[k][l] = (along - across) * direction[k] * direction[l] + (k == l ? across : 0);
+    return matrix;
+  }
   ConePoint product(const ConePoint& x, double factor, double sign) const {
     const double beside = point_[1] * x[1] + point_[2] * x[2];
     const double along = sign * x[0] + beside / (1 + point_[0]);
@@ -156,6 +177,13 @@ struct LinearCones {
       for (std::size_t k = 0; k < 3; ++k) inverse[k][k] = 1 / (square_[k] + shift);
       return inverse;
     }
+    /// The functions of ConeScaling, for components in place of coordinates.
+    std::array<ConePoint, 3> inverse_square_beside(double shift) const {
+      std::array<ConePoint, 3> inverse{};
+      inverse[1][1] = 2 / (square_[0] + square_[1] + 2 * shift);
+      return inverse;
+    }
+    double square_along(const ConePoint& x) const { return (square_[0] - square_[1]) / 2 * x[1]; }
 
    private:
     ConePoint square_{1, 1, 1};

@@ -74,8 +74,8 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
   return w;
 }
 
-BlockResidual residual_of(const ConstraintBlock& block, bool lifts_sliding, const double* v,
-                          const double* p, const double* w) {
+BlockResidual residual_of(const ConstraintBlock& block, const double* v, const double* p,
+                          const double* w) {
   BlockResidual residual;
   if (!block.is_contact) {
     for (std::size_t k = 0; k < block.rows; ++k)
@@ -83,20 +83,20 @@ BlockResidual residual_of(const ConstraintBlock& block, bool lifts_sliding, cons
     return residual;
   }
   double square = 0;
-  const double bound = block.bound(p[0]);
   std::array<double, 2> wanted{};
   for (std::size_t k = 1; k < block.rows; ++k) {
     wanted[k - 1] = p[k] - v[k] / w[k];
     square += wanted[k - 1] * wanted[k - 1];
   }
   residual.normal = contact_residual(v[0], w[0] * (p[0] - block.lowest));
-  double factor = square > bound * bound ? bound / std::sqrt(square) : 1;
-  if (lifts_sliding && !block.is_in_cone) factor = 0;
-  if (lifts_sliding && block.is_in_cone) {
-    const auto cone = FrictionCone::nearest(block.friction, p[0] - v[0] / w[0] - block.capacity,
-                                            std::sqrt(square), w[0], w[1]);
-    residual.normal = w[0] * std::abs(p[0] - block.capacity - cone.load);
+  double factor = 1;
+  if (block.is_in_cone()) {
+    const auto cone =
+        FrictionCone::nearest(block.friction, p[0] - v[0] / w[0], std::sqrt(square), w[0], w[1]);
+    residual.normal = w[0] * std::abs(p[0] - cone.load);
     factor = cone.tangential;
+  } else if (const double bound = block.bound(p[0]); square > bound * bound) {
+    factor = bound / std::sqrt(square);
   }
   double off = 0;
   for (std::size_t k = 1; k < block.rows; ++k) {

@@ -90,6 +90,13 @@ struct ConstraintRow {
   std::size_t parts = 0;       ///< number of parts, which follow each other
 };
 
+/// What bounds the friction of a contact.
+enum class FrictionBound : unsigned char {
+  kCoulomb,  ///< mu_s times the load of its solids, (5.7)
+  kCone,     ///< the cone of the convex relaxation of a dry contact, (5.9)
+  kGiven,    ///< mu_s times ConstraintBlock::given_load, (5.17)
+};
+
 /// A contact or a bilateral constraint. A contact has one row for its gap, and with friction D - 1
 /// more for the tangential displacement of the surfaces; a bilateral constraint may have up to
 /// kMostRows rows, which must be 0, or proportional to their impulses. The rows of a block have
@@ -109,15 +116,20 @@ struct ConstraintBlock {
   /// Of a bilateral block: v + compliance p = 0 holds for the value v of each row and its impulse p
   /// [T/M], >= 0.
   double compliance = 0;
-  /// Of a contact of the convex relaxation: (5.9) holds, and the impulses are in the FrictionCone.
-  /// Otherwise its film carries the impulse, and there is no friction.
-  bool is_in_cone = false;
+  /// Of a contact with more than one row. The impulses of kCone are in the FrictionCone, and such a
+  /// contact has no film: `lowest` and `capacity` are 0.
+  FrictionBound friction_bound = FrictionBound::kCoulomb;
+  double given_load = 0;  ///< of kGiven [M L/T], >= 0
+  /// Whether the impulses are in the cone of (5.9).
+  bool is_in_cone() const { return rows > 1 && friction_bound == FrictionBound::kCone; }
   /// Whether the contact has a film, which may carry its impulse.
   bool has_film() const { return capacity > lowest; }
-  /// Bound mu_s p_s of the tangential impulse [M L/T], where p_s is the part of the normal impulse
-  /// that the solids carry, docs/physics.md (5.7).
+  /// Bound of the tangential impulse with this normal impulse [M L/T], of a contact that is not in a
+  /// cone.
   double bound(double normal_impulse) const {
-    return friction * FrictionLaw::carried(normal_impulse, capacity);
+    return friction * (friction_bound == FrictionBound::kGiven
+                           ? given_load
+                           : FrictionLaw::carried(normal_impulse, capacity));
   }
 };
 
@@ -134,10 +146,9 @@ struct ConstraintProblem {
   std::vector<ConstraintRow> rows;      ///< those of each block follow each other
   std::vector<ConstraintBlock> blocks;  ///< in the order of their rows
   std::vector<double> impulses;         ///< of the rows [M L/T]: a guess, then the solution
-  /// Whether contacts obey the convex relaxation (5.9): a contact in the FrictionCone that slides
-  /// opens by h mu_s |v_t|.
-  bool lifts_sliding = false;
-  /// Whether a rough solution of (5.9) is enough, which shows about how units move and which
+  /// Whether no contact has FrictionBound::kCoulomb, so that the motions minimise a convex function.
+  bool is_convex = false;
+  /// Whether a rough solution of a convex problem is enough, which shows about how units move and which
   /// contacts carry load.
   bool is_rough = false;
 
@@ -180,7 +191,7 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
 
 /// Residual of a block [L] for values `v` of its rows, their impulses `p` and mobilities `w`: of a
 /// contact the larger of |min(gap, w (p_n - lowest))| and, with friction, of w |p_t - P(p_t -
-/// v_t/w)|, where P projects on |p_t| <= mu_s p_s; of a contact in the cone of (5.9) those of
+/// v_t/w)|, where P projects on the bound of the friction; of a contact in the cone of (5.9) those of
 /// w |p - P(p - v/w)|, where P projects on the cone; of a bilateral constraint the largest |v +
 /// compliance p|.
 struct BlockResidual {
@@ -193,9 +204,8 @@ struct BlockResidual {
     return largest_or_nan(of_normal, of_slip);
   }
 };
-/// The residual of `block`. `lifts_sliding` is that of ConstraintProblem; `v`, `p` and `w` point to
-/// the numbers of the first row of the block.
-BlockResidual residual_of(const ConstraintBlock& block, bool lifts_sliding, const double* v,
-                          const double* p, const double* w);
+/// The residual of `block`. `v`, `p` and `w` point to the numbers of the first row of the block.
+BlockResidual residual_of(const ConstraintBlock& block, const double* v, const double* p,
+                          const double* w);
 
 }  // namespace viscontact::particles

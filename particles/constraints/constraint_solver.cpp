@@ -18,8 +18,7 @@ namespace viscontact::particles {
 namespace {
 
 /// The method of nonsmooth contact dynamics (Jean 1999, "The non-smooth contact dynamics method"):
-/// each block in turn gets the impulses that solve it while all others keep theirs, with Coulomb's
-/// law or in the cone of the convex relaxation (5.9). Every other sweep goes backwards. Sweeps
+/// each block in turn gets the impulses that solve it while all others keep theirs. Every other sweep goes backwards. Sweeps
 /// converge in practice always, but slowly in large packings; a few of them give the solver a good
 /// start.
 template <int D>
@@ -32,8 +31,8 @@ class ContactSweeps {
   void sweep(int count, const std::vector<double>& w);
 
  private:
-  void solve_block(ConstraintBlock& block, const double* w);
-  void solve_in_cone(ConstraintBlock& block, const double* w);
+  void solve_block(const ConstraintBlock& block, const double* w);
+  void solve_in_cone(const ConstraintBlock& block, const double* w);
   double wanted(std::size_t row, double w) const;
   void change(std::size_t row, double impulse);
 
@@ -68,7 +67,7 @@ void ContactSweeps<D>::change(std::size_t row, double impulse) {
 }
 
 template <int D>
-void ContactSweeps<D>::solve_block(ConstraintBlock& block, const double* w) {
+void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w) {
   if (!block.is_contact) {
     for (std::size_t k = 0; k < block.rows; ++k) {
       // v + w dp + compliance (p + dp) = 0
@@ -78,16 +77,14 @@ void ContactSweeps<D>::solve_block(ConstraintBlock& block, const double* w) {
     }
     return;
   }
-  if (problem_.lifts_sliding && block.is_in_cone) {
+  if (block.is_in_cone()) {
     solve_in_cone(block, w);
     return;
   }
   // Normal and tangential rows of discs and spheres do not act on each other.
   change(block.row, std::max(block.lowest, wanted(block.row, w[0])));
   if (block.rows == 1) return;
-  // In the convex relaxation the solids carry load from the next sweep on.
-  if (problem_.lifts_sliding) block.is_in_cone = problem_.impulses[block.row] > block.capacity;
-  const double bound = problem_.lifts_sliding ? 0 : block.bound(problem_.impulses[block.row]);
+  const double bound = block.bound(problem_.impulses[block.row]);
   std::array<double, 2> to{};
   double square = 0;
   for (std::size_t k = 1; k < block.rows; ++k) {
@@ -101,7 +98,7 @@ void ContactSweeps<D>::solve_block(ConstraintBlock& block, const double* w) {
 /// Improves the impulses of a contact in the cone of (5.9). The result is exact unless the rows of
 /// the contact act on each other, which they do in rigid bodies.
 template <int D>
-void ContactSweeps<D>::solve_in_cone(ConstraintBlock& block, const double* w) {
+void ContactSweeps<D>::solve_in_cone(const ConstraintBlock& block, const double* w) {
   // The sums of the rows of (what the rows do to each other)/w bound the eigenvalues. With steps
   // that are shorter by the largest sum the energy of the block falls.
   double largest = 1;
@@ -124,20 +121,18 @@ void ContactSweeps<D>::solve_in_cone(ConstraintBlock& block, const double* w) {
     to[k] = wanted(block.row + k, largest * w[k]);
     if (k > 0) square += to[k] * to[k];
   }
-  const auto cone =
-      FrictionCone::nearest(block.friction, to[0] - block.capacity, std::sqrt(square), w[0], w[1]);
-  change(block.row, block.capacity + cone.load);
-  if (block.has_film()) block.is_in_cone = cone.load > 0;
+  const auto cone = FrictionCone::nearest(block.friction, to[0], std::sqrt(square), w[0], w[1]);
+  change(block.row, cone.load);
   for (std::size_t k = 1; k < block.rows; ++k) change(block.row + k, cone.tangential * to[k]);
 }
 
 template <int D>
 void ContactSweeps<D>::sweep(int count, const std::vector<double>& w) {
   y_ = motions<D>(problem_, problem_.impulses);
-  auto& blocks = problem_.blocks;
+  const auto& blocks = problem_.blocks;
   for (int n = 0; n < count; ++n)
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-      auto& block = blocks[n % 2 == 0 ? i : blocks.size() - 1 - i];
+      const auto& block = blocks[n % 2 == 0 ? i : blocks.size() - 1 - i];
       solve_block(block, &w[block.row]);
     }
 }
@@ -164,24 +159,23 @@ class Iteration {
  public:
   Iteration(ConstraintProblem<D>& problem, ConstraintStart start)
       : problem_(problem), w_(scales_of_rows(problem, start)), sweeps_(problem), start_(start) {
-    for (auto& block : problem.blocks) {
+    for (const auto& block : problem.blocks) {
       if (!block.is_contact) continue;
       problem.impulses[block.row] = std::max(problem.impulses[block.row], block.lowest);
-      block.is_in_cone = problem.lifts_sliding && block.rows > 1 &&
-                         (problem.impulses[block.row] > block.capacity || !block.has_film());
+      has_given_loads_ |= block.friction_bound == FrictionBound::kGiven;
     }
     best_.result.residual = std::numeric_limits<double>::infinity();
     update();
   }
 
   ConstraintSolution<D> solve(int max_iterations) {
+    if (problem_.is_convex) {
+      solve_with_own_loads(max_iterations);
+      return finish();
+    }
     if (start_ == ConstraintStart::kSweeps) sweep_while_it_gains(max_iterations);
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return finish();
     proximal_.emplace(problem_, w_);
-    if (problem_.lifts_sliding) {
-      solve_convex(max_iterations);
-      return finish();
-    }
     proximal_->set_epsilon(epsilon_);
     while (residual_ > 1 && best_.result.iterations < max_iterations)
       take_proximal_step(max_iterations);
@@ -200,7 +194,7 @@ class Iteration {
   /// Before interior points, which need the same time whatever they begin with, only sweeps that
   /// are about to solve the problem are worth their time.
   void sweep_while_it_gains(int max_iterations) {
-    const double gain = problem_.lifts_sliding ? 0.1 : 0.7;
+    const double gain = problem_.is_convex ? 0.1 : 0.7;
     double before = std::numeric_limits<double>::infinity();
     while (residual_ > 1 && residual_ < gain * before && best_.result.iterations < max_iterations) {
       before = residual_;
@@ -237,66 +231,72 @@ class Iteration {
     proximal_->set_epsilon(epsilon_);
   }
 
-  /// Solves the convex relaxation (5.9) by interior points. A solution shows where films give way
-  /// to solids, and another follows with these, at most kMostChanges times: a contact that would go
-  /// on changing keeps the law that it has. Proximal steps make the solution accurate, in a few
+  /// Solves a convex problem. Where loads of its contacts are given, solutions follow each other, each
+  /// with the loads that the one before has found, until these are the loads of the contacts
+  /// themselves, at most kMostSolutions times. A rough solution finds loads for the next one.
+  void solve_with_own_loads(int max_iterations) {
+    constexpr int kMostSolutions = 2;
+    solve_convex(max_iterations);
+    for (int n = 1; n < kMostSolutions && !problem_.is_rough && residual_ <= 1; ++n) {
+      const auto blocks = problem_.blocks;
+      if (!take_loads()) break;
+      const auto solved = best_;
+      const auto impulses = best_impulses_;
+      // What was found with other loads is not a solution.
+      best_.result.residual = std::numeric_limits<double>::infinity();
+      update();
+      solve_convex(max_iterations);
+      if (best_.result.residual <= 1) continue;
+      problem_.blocks = blocks;
+      const int iterations = best_.result.iterations;
+      best_ = solved;
+      best_.result.iterations = iterations;
+      best_impulses_ = impulses;
+      break;
+    }
+  }
+
+  /// Gives contacts the loads that they have in the present solution. Returns whether these change
+  /// what friction does.
+  bool take_loads() {
+    bool has_changed = false;
+    for (auto& block : problem_.blocks) {
+      if (block.friction_bound != FrictionBound::kGiven) continue;
+      const double *v = &values_[block.row], *p = &problem_.impulses[block.row];
+      block.given_load = FrictionLaw::carried(p[0], block.capacity);
+      if (residual_of(block, v, p, &w_[block.row]).share(block) > 1) has_changed = true;
+    }
+    return has_changed;
+  }
+
+  /// Solves a convex problem by interior points. Proximal steps make the solution accurate, in a few
   /// iterations, because it shows which contacts stick and slide.
   void solve_convex(int max_iterations) {
-    constexpr int kMostChanges = 2, kMostIterations = 60;
+    // Where rows are redundant, sweeps depend on their order, and so would loads. Interior points
+    // do not.
+    if (!has_given_loads_ && start_ == ConstraintStart::kSweeps)
+      sweep_while_it_gains(max_iterations);
+    if (residual_ <= 1 || best_.result.iterations >= max_iterations) return;
     // In space, points near the boundary of a second-order cone lose digits.
     constexpr double kRough = 1e-3, kAccurate = D == 2 ? 1e-9 : 1e-6;
-    InteriorPoints<D> interior(problem_, w_);
-    for (int changes = 0; residual_ > 1 && best_.result.iterations < max_iterations; ++changes) {
-      const int most = std::min(max_iterations - best_.result.iterations, kMostIterations);
-      best_.result.iterations += interior.solve(problem_.is_rough ? kRough : kAccurate, most);
-      problem_.impulses = interior.impulses();
-      update();
-      if (changes == kMostChanges || !change_laws() || problem_.is_rough) break;
-    }
+    constexpr int kMostIterations = 60;
+    if (!interior_) interior_.emplace(problem_, w_);
+    const int most = std::min(max_iterations - best_.result.iterations, kMostIterations);
+    best_.result.iterations += interior_->solve(problem_.is_rough ? kRough : kAccurate, most);
+    problem_.impulses = interior_->impulses();
+    update();
     if (problem_.is_rough) return;
     // With a smaller epsilon the rounding errors of the gaps, divided by epsilon, would be larger.
     constexpr double kFirstEpsilonOfConvex = 1e-5;
     epsilon_ = kFirstEpsilonOfConvex;
     is_rising_ = true;
+    if (!proximal_) proximal_.emplace(problem_, w_);
     proximal_->set_epsilon(epsilon_);
     while (residual_ > 1 && best_.result.iterations < max_iterations)
       take_convex_step(max_iterations);
   }
 
-  /// Lets solids carry load whose films are used up, and gives contacts back to their films whose
-  /// solids carry no load. Returns whether there are any.
-  bool change_laws() {
-    bool has_changed = false;
-    for (auto& block : problem_.blocks) {
-      if (!block.is_contact || block.rows == 1 || !block.has_film()) continue;
-      double* p = &problem_.impulses[block.row];
-      const double *v = &values_[block.row], *w = &w_[block.row];
-      bool is_in_cone = p[0] > block.capacity;
-      if (block.is_in_cone) {
-        double square = 0;
-        for (std::size_t k = 1; k < block.rows; ++k)
-          square += (p[k] - v[k] / w[k]) * (p[k] - v[k] / w[k]);
-        const double load = p[0] - v[0] / w[0] - block.capacity;
-        const auto cone =
-            FrictionCone::nearest(block.friction, load, std::sqrt(square), w[0], w[1]);
-        is_in_cone = cone.part != FrictionCone::Part::kApex;
-      }
-      if (is_in_cone == block.is_in_cone) continue;
-      has_changed = true;
-      block.is_in_cone = is_in_cone;
-      if (is_in_cone) continue;
-      p[0] = block.capacity;
-      std::fill_n(p + 1, block.rows - 1, 0.0);
-    }
-    if (has_changed) {
-      // What was found with other laws is not a solution with these.
-      best_.result.residual = std::numeric_limits<double>::infinity();
-      update();
-    }
-    return has_changed;
-  }
-
-  /// Takes a proximal step for the convex relaxation (5.9). Each step leads nearer to the solution
+  /// Takes a proximal step for a convex problem. Each step leads nearer to the solution
   /// but for rounding errors, which are those of the gaps divided by epsilon. Therefore epsilon
   /// rises until the errors are gone. Where impulses between jammed particles must grow, it falls
   /// and rises again.
@@ -332,16 +332,24 @@ class Iteration {
     double length = std::numeric_limits<double>::infinity();
     for (const auto& block : problem_.blocks) {
       if (!block.is_contact) continue;
-      const bool is_cone = block.is_in_cone;
-      ConePoint here{p[block.row] - (is_cone ? block.capacity : block.lowest)}, change{};
-      for (std::size_t k = 0; k < (is_cone ? block.rows : 1); ++k) {
-        if (k > 0) here[k] = p[block.row + k] / block.friction;
-        change[k] = (p[block.row + k] - center[block.row + k]) / (k > 0 ? block.friction : 1);
+      const auto bounded_by = [&](ConePoint here, ConePoint change) {
+        // Contacts on the boundary stay there.
+        constexpr double kInside = 1e-9;
+        if (determinant(here) > kInside * here[0] * here[0])
+          length = std::min(length, length_to_boundary(here, change));
+      };
+      ConePoint here{p[block.row] - block.lowest}, change{p[block.row] - center[block.row]};
+      if (!block.is_in_cone()) bounded_by(here, change);
+      if (block.rows == 1) continue;
+      for (std::size_t k = 1; k < block.rows; ++k) {
+        here[k] = p[block.row + k] / block.friction;
+        change[k] = (p[block.row + k] - center[block.row + k]) / block.friction;
       }
-      // Contacts on the boundary stay there.
-      constexpr double kInside = 1e-9;
-      if (determinant(here) > kInside * here[0] * here[0])
-        length = std::min(length, length_to_boundary(here, change));
+      if (!block.is_in_cone()) {
+        here[0] = block.given_load;
+        change[0] = 0;
+      }
+      bounded_by(here, change);
     }
     if (!std::isfinite(length)) return;
     for (std::size_t r = 0; r < p.size(); ++r) problem_.impulses[r] += length * (p[r] - center[r]);
@@ -358,8 +366,8 @@ class Iteration {
       const auto& block = problem_.blocks[b];
       for (std::size_t r = block.row; r < block.row + block.rows; ++r)
         values_[r] = problem_.rows[r].offset + problem_.product(r, motions_);
-      residuals_[b] = residual_of(block, problem_.lifts_sliding, &values_[block.row],
-                                  &problem_.impulses[block.row], &w_[block.row]);
+      residuals_[b] =
+          residual_of(block, &values_[block.row], &problem_.impulses[block.row], &w_[block.row]);
       const double share = residuals_[b].share(block);
       residual_ = largest_or_nan(residual_, share);
     }
@@ -381,13 +389,14 @@ class Iteration {
   std::vector<double> w_;
   ContactSweeps<D> sweeps_;
   ConstraintStart start_;
+  std::optional<InteriorPoints<D>> interior_;
   std::optional<ProximalStep<D>> proximal_;
   std::vector<double> values_;  // of the rows
   std::vector<double> best_impulses_;
   std::vector<Motion<D>> motions_;
   std::vector<BlockResidual> residuals_;
   ConstraintSolution<D> best_;
-  bool is_rising_ = false;
+  bool is_rising_ = false, has_given_loads_ = false;
   double residual_ = 0, epsilon_ = kFirstEpsilon;
 };
 

@@ -33,9 +33,10 @@ enum class ConstraintStart {
 ///
 /// Sweeps begin and go on as long as they gain. For Coulomb's law, steps of the proximal method
 /// (proximal_step.hpp) follow, whose epsilon falls after a step that was solved easily and grows
-/// after one that was not solved. The convex relaxation (5.9) is solved by interior points
-/// (interior_points.hpp), and proximal steps make the solution accurate. The solution returned is
-/// the best that was found.
+/// after one that was not solved. A convex problem is solved by interior points
+/// (interior_points.hpp), and proximal steps make the solution accurate. Given loads
+/// (ConstraintBlock::given_load) are replaced by those of the solution, and another solution
+/// follows. The solution returned is the best that was found.
 template <int D>
 ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations,
                                         ConstraintStart start = ConstraintStart::kSweeps);

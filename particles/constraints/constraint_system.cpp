@@ -62,7 +62,7 @@ void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
       pair.gamma -
       step_.laws.lowest_gamma(pair, memory, radii_of(pair, particles_, step_.obstacles));
   frictions_.push_back(memory.friction());
-  carried_.push_back(0);
+  carried_.push_back(memory[Remembered::kCarried]);
   residuals_.emplace_back();
 }
 
@@ -108,6 +108,10 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c,
   // A film that no impulse of this step can use up leaves no friction, and needs no rows for it.
   const bool rubs = block.friction > 0 && std::isfinite(block.capacity);
   block.rows = rubs ? static_cast<std::size_t>(D) : 1;
+  if (problem_.is_convex && rubs) {
+    block.friction_bound = block.has_film() ? FrictionBound::kGiven : FrictionBound::kCone;
+    block.given_load = carried_[c];
+  }
   problem_.blocks.push_back(block);
   const auto first = side_of(contact.first), second = side_of(contact.second);
   for (std::size_t k = 0; k < block.rows; ++k) {
@@ -245,7 +249,7 @@ template <int D>
 SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
                                         double allowed_slip, int max_iterations) {
   problem_ = {};
-  problem_.lifts_sliding =
+  problem_.is_convex =
       step_.laws.friction && step_.laws.friction->method == FrictionMethod::kConvex;
   problem_.is_rough = is_rough;
   number_units(system);

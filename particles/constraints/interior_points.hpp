@@ -1,4 +1,4 @@
-// The convex relaxation of friction (5.9) of docs/physics.md by interior points
+// Convex problems with friction, (5.9) and (5.17) of docs/physics.md, by interior points
 // (constraint_problem.hpp). Units are those of the case.
 #pragma once
 
@@ -15,9 +15,11 @@ namespace viscontact::particles {
 
 /// Finds motions y and impulses that minimise |y - y*|^2/2 in the norm of M/h subject to
 ///
-///     u = (gap, mu_s slip) in the cone of a contact that rubs, with the dual point
-///     r = (p_n - capacity, p_t/mu_s) in the same cone and u.r = 0,
+///     u = (gap, mu_s slip) in the cone of a dry contact that rubs (5.9), with the dual point
+///     r = (p_n, p_t/mu_s) in the same cone and u.r = 0,
 ///     gap >= 0 of the other contacts, with the dual p_n - lowest >= 0,
+///     u = (z, slip) in the cone where the friction has a given bound (5.17), with the dual point
+///     r = (bound, p_t) and u.r = 0: the number z >= |slip| is an unknown with the price `bound`,
 ///     bilateral rows as equations,
 ///
 /// by the predictor-corrector method of Mehrotra (1992), scaled after Nesterov & Todd (1997,
@@ -42,32 +44,45 @@ class InteriorPoints {
  private:
   static constexpr std::size_t kMotion = static_cast<std::size_t>(D + kTurns<D>);
   using Cone = std::conditional_t<D == 2, LinearCones, SecondOrderCone>;
-  enum class Role : unsigned char { kEquation, kBound, kCone };
-  // A block, whose numbers are scaled so that impulses and displacements have one unit, in which
-  // the mobility of its first row is 1.
+  enum class Role : unsigned char { kEquation, kBound, kCone, kGivenBound };
+  // Rows of a block, whose numbers are scaled so that impulses and displacements have one unit, in
+  // which the mobility of the first row is 1. Those of kGivenBound are the tangential rows, whose
+  // normal row is another part.
   struct Part {
     Role role = Role::kBound;
-    std::size_t rows = 1;
-    ConePoint scale{};   // of its rows
-    double base = 0;     // impulse at which r is 0 [M L/T]
-    ConePoint u{}, r{};  // the present point
+    std::size_t block = 0, row = 0, rows = 1;  // row: the first one
+    std::size_t first = 0;                     // component of u and r that is of the first row
+    ConePoint scale{};                         // of its rows
+    double base = 0;                           // impulse at which r is 0 [M L/T]
+    ConePoint u{}, r{};                        // the present point
     ConePoint change_of_u{}, change_of_r{};
-    double compliance = 0;  // of an equation
+    double compliance = 0;    // of an equation
+    double scaled_bound = 0;  // first component of r of kGivenBound
     // Of a cone, the value of the rows less u; of an equation, what should be 0.
     ConePoint error{};
     ConePoint goal{};  // W^2 dr + du
     typename Cone::Scaling scaling;
     std::array<ConePoint, 3> inverse{};  // d(r)/d(goal - error)
   };
+  // Components of u and r.
+  static std::size_t dimension(const Part& part) { return part.first + part.rows; }
   // Number of linear conditions that a cone is, and the share of a second-order cone in the mean
   // u.r.
   static double degree(const Part& part) {
-    return inner(Cone::unit(part.rows), Cone::unit(part.rows));
+    return inner(Cone::unit(dimension(part)), Cone::unit(dimension(part)));
+  }
+  // Components of a part in the coordinates of its cone, and back: the change is its own inverse.
+  static ConePoint coordinates(const Part& part, const ConePoint& x) {
+    return part.role == Role::kCone || part.role == Role::kGivenBound ? Cone::coordinates(x) : x;
   }
   void set_parts();
   ConePoint impulse_of(const Part& part, const ConePoint& r) const;
-  ConePoint values(std::size_t b, bool with_offset, const std::vector<Motion<D>>& y) const;
-  void add_impulse(std::size_t b, const ConePoint& r, std::vector<Motion<D>>& to) const;
+  ConePoint values(const Part& part, bool with_offset, const std::vector<Motion<D>>& y) const;
+  void add_impulse(const Part& part, const ConePoint& r, std::vector<Motion<D>>& to) const;
+  void set_scaling(Part& part) const;
+  static std::array<ConePoint, 3> in_other_coordinates(const Part& part,
+                                                       const std::array<ConePoint, 3>& matrix);
+  void start(double size);
   double measure();
   bool factorise();
   void find_direction();

@@ -47,7 +47,7 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const d
       p[k] = q[k] / (1 + rho_[block.row + k] * block.compliance);
     return {true, Friction::kSticks};
   }
-  if (problem_.lifts_sliding && block.rows > 1) return project_relaxed(b, q, p);
+  if (block.is_in_cone()) return project_on_cone(b, q, p);
   Branch branch{q[0] > block.lowest};
   p[0] = branch.is_closed ? q[0] : block.lowest;
   const double bound = block.bound(p[0]);
@@ -63,21 +63,16 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const d
   return branch;
 }
 
-/// The projection of the convex relaxation (5.9).
+/// The projection of a contact in the cone of (5.9).
 template <int D>
-typename ProximalStep<D>::Branch ProximalStep<D>::project_relaxed(std::size_t b, const double* q,
+typename ProximalStep<D>::Branch ProximalStep<D>::project_on_cone(std::size_t b, const double* q,
                                                                   double* p) const {
   const auto& block = problem_.blocks[b];
-  if (!block.is_in_cone) {
-    p[0] = std::max(q[0], block.lowest);
-    std::fill_n(p + 1, block.rows - 1, 0.0);
-    return {q[0] > block.lowest};
-  }
   double square = 0;
   for (std::size_t k = 1; k < block.rows; ++k) square += q[k] * q[k];
-  const auto cone = FrictionCone::nearest(block.friction, q[0] - block.capacity, std::sqrt(square),
-                                          w_[block.row], w_[block.row + 1]);
-  p[0] = block.capacity + cone.load;
+  const auto cone = FrictionCone::nearest(block.friction, q[0], std::sqrt(square), w_[block.row],
+                                          w_[block.row + 1]);
+  p[0] = cone.load;
   for (std::size_t k = 1; k < block.rows; ++k) p[k] = cone.tangential * q[k];
   switch (cone.part) {
     case FrictionCone::Part::kApex:
@@ -133,8 +128,8 @@ void ProximalStep<D>::add_block(std::size_t b) {
                           rho[k] / (1 + rho[k] * block.compliance));
     return;
   }
-  const bool is_on_cone = problem_.lifts_sliding && (branch.friction == Friction::kSlips ||
-                                                     branch.friction == Friction::kSlipsBack);
+  const bool is_on_cone = block.is_in_cone() && (branch.friction == Friction::kSlips ||
+                                                 branch.friction == Friction::kSlipsBack);
   if (branch.is_closed && !is_on_cone) matrix_.add_product(b, block.row, block.row, rho[0]);
   if (branch.friction == Friction::kNone) return;
   if (branch.friction == Friction::kSticks) {
@@ -142,7 +137,7 @@ void ProximalStep<D>::add_block(std::size_t b) {
       matrix_.add_product(b, block.row + k, block.row + k, rho[k]);
     return;
   }
-  // p_t = mu_s (p_n - capacity) q_t/|q_t|.
+  // p_t is the bound times q_t/|q_t|.
   std::array<double, kMostRows> q{};
   unprojected(b, 0, q.data());
   double square = 0;
@@ -156,12 +151,14 @@ void ProximalStep<D>::add_block(std::size_t b) {
     for (std::size_t k = 0; k < block.rows; ++k)
       for (std::size_t l = 0; l < block.rows; ++l)
         matrix_.add_product(b, block.row + k, block.row + l, weight * generator[k] * generator[l]);
-  } else if (branch.is_closed) {
+  } else if (branch.is_closed && block.friction_bound == FrictionBound::kCoulomb) {
     for (std::size_t k = 1; k < block.rows; ++k)
       matrix_.add_product(b, block.row + k, block.row, rho[0] * block.friction * q[k] / length);
   }
   if (block.rows < 3) return;
-  const double factor = rho[1] * block.bound(projected_[block.row]) / length;
+  const double bound = block.is_in_cone() ? block.friction * projected_[block.row]
+                                          : block.bound(projected_[block.row]);
+  const double factor = rho[1] * bound / length;
   for (std::size_t k = 1; k < 3; ++k)
     for (std::size_t l = 1; l < 3; ++l)
       matrix_.add_product(b, block.row + k, block.row + l,
@@ -188,7 +185,7 @@ void ProximalStep<D>::find_direction() {
 /// Length of a step that makes the error fall; 0 if none was found.
 template <int D>
 double ProximalStep<D>::length_of_step(double before) {
-  if (problem_.lifts_sliding) return length_to_minimum();
+  if (problem_.is_convex) return length_to_minimum();
   // A step is shortened until the error falls by a share of what it promises.
   constexpr double kPromised = 0.1;
   constexpr int kMostHalvings = 8;
@@ -284,15 +281,15 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     // In the plane the equation is linear between changes of branches, so that a whole step
     // without a change ends at the solution, within rounding errors.
     const bool is_linear = D == 2 || here <= kExact * first ||
-                           ((is_fresh || !problem_.lifts_sliding) && here > before / 2);
+                           ((is_fresh || !problem_.is_convex) && here > before / 2);
     // In space the matrix also changes along the surface of a cone.
-    if (D == 3 && problem_.lifts_sliding && !is_fresh && here > kSlow * before) has_factor_ = false;
+    if (D == 3 && problem_.is_convex && !is_fresh && here > kSlow * before) has_factor_ = false;
     if (here == 0 || (length == 1 && last == branches_ && is_linear)) break;
     // The error may grow on the way to the minimum of the convex function. Within rounding errors
     // it is made as small as it can be, because impulses that must grow do so with small errors.
     const bool is_rounding = here <= rounding_error();
-    if (problem_.lifts_sliding ? is_rounding && has_factor_ && !(here < before / 2)
-                               : !(here < before)) {
+    if (problem_.is_convex ? is_rounding && has_factor_ && !(here < before / 2)
+                           : !(here < before)) {
       failed_ = !is_rounding;
       break;
     }

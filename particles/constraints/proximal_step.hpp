@@ -74,7 +74,7 @@ class ProximalStep {
 
   void unprojected(std::size_t b, double t, double* q) const;
   Branch project(std::size_t b, const double* q, double* p) const;
-  Branch project_relaxed(std::size_t b, const double* q, double* p) const;
+  Branch project_on_cone(std::size_t b, const double* q, double* p) const;
   double error_at(double t, bool is_kept);
   bool factorise();
   void add_block(std::size_t b);

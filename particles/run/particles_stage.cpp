@@ -246,16 +246,6 @@ void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path
   warn_or_fail_if_not_converged(c, run.record.totals, folder, stop);
 }
 
-/// Warns of films with the convex relaxation of friction, which lifts contacts that slide.
-void warn_of_lifted_films(const ContactLaws& laws) {
-  const bool has_films = laws.film.viscosity || (laws.film.gamma_min && *laws.film.gamma_min < 0);
-  if (!has_films || !laws.friction || laws.friction->method != FrictionMethod::kConvex) return;
-  terminal::warn(
-      "particles: warning: friction.method is 'convex' and the contacts have films: a contact "
-      "that slides opens, and its film pulls it back. This changes gamma, velocities and energy, "
-      "also with a shorter time_step; use 'fixed_point' where contacts slide");
-}
-
 }  // namespace
 
 void run_particles(const ParticlesRequest& request) {
@@ -266,7 +256,6 @@ void run_particles(const ParticlesRequest& request) {
   const results::Provenance provenance = results::provenance_of({inputs, {}});
   const fs::path folder = request.folder;
   check_inputs_stay(c, request.restart, folder);
-  warn_of_lifted_films(c.setting.laws);
   auto state = first_state(c, request.restart);
   const LockedFolder lock(folder, results::kFolderIsLocked);
   check_results(folder);

@@ -85,13 +85,26 @@ ConstraintProblem<D> random_constraints(const RandomConstraints& what, const Pro
       block.rows = static_cast<std::size_t>(D);
       block.compliance = c == 0 ? 0 : random.uniform(0, 1) * in.time / in.mass;
     }
-    block.is_in_cone = block.is_contact && block.rows > 1 && !block.has_film();
     const Vector arm = random.uniform(0.3, 2) * in.length * random.direction(D);
     const Vector other = random.uniform(0.3, 2) * in.length * random.direction(D);
     add_block(first, second, directions, arm, other, block);
     if (c == what.contacts - 1) add_block(first, second, directions, arm, other, block);
   }
   return problem;
+}
+
+/// Makes a problem of dry contacts in the cones of (5.9) and of contacts with films whose loads are
+/// given (5.17): a random one of them has no load.
+template <int D>
+void make_convex(ConstraintProblem<D>& problem, const ProblemUnits& in, unsigned seed) {
+  Random random(seed);
+  problem.is_convex = true;
+  for (auto& block : problem.blocks) {
+    if (!block.is_contact) continue;
+    block.friction_bound = block.has_film() ? FrictionBound::kGiven : FrictionBound::kCone;
+    const double load = random.uniform(-0.2, 0.5) * in.mass * in.length / in.time;
+    block.given_load = block.has_film() ? std::max(load, 0.0) : 0;
+  }
 }
 
 /// Largest value of a row, its offset included, in the motion without constraints [L].

@@ -59,16 +59,16 @@ void expect_solved(const ConstraintProblem<D>& problem, const std::vector<double
     }
     const double slip = D == 3 ? std::hypot(v[1], v[2]) : std::abs(v[1]);
     const double rubbing = D == 3 ? std::hypot(p[1], p[2]) : std::abs(p[1]);
-    const double load = std::max(p[0] - block.capacity, 0.0), bound = block.friction * load;
+    const double bound = block.is_in_cone() ? block.friction * p[0] : block.bound(p[0]);
     EXPECT_LE(rubbing, bound + impulse);
-    const double lift = problem.lifts_sliding && load > impulse ? block.friction * slip : 0;
-    if (v[0] > lift + length && !(problem.lifts_sliding && load > 0)) {
+    const bool is_loaded = block.is_in_cone() && p[0] > impulse;
+    if (v[0] > length && !block.is_in_cone()) {
       EXPECT_NEAR(p[0], block.lowest, impulse);
     }
-    if (load > impulse && problem.lifts_sliding) {
-      EXPECT_NEAR(v[0], lift, length);
+    if (is_loaded) {
+      EXPECT_NEAR(v[0], block.friction * slip, length);
     }
-    if (slip > length && load > impulse) {
+    if (slip > length && bound > block.friction * impulse) {
       // Friction is at its bound, and against the slip.
       EXPECT_NEAR(rubbing, bound, impulse);
       for (std::size_t k = 1; k < block.rows; ++k)
@@ -82,7 +82,7 @@ void expect_solved(const ConstraintProblem<D>& problem, const std::vector<double
 }
 
 template <int D>
-void solve_random_problems(bool lifts_sliding, bool has_films) {
+void solve_random_problems(bool is_convex, bool has_films) {
   unsigned seed = 0;
   for (const double friction : {0.0, 0.1, 0.5, 1.0, 2.0})
     for (const double ratio : {1.0, 1e4})
@@ -97,7 +97,7 @@ void solve_random_problems(bool lifts_sliding, bool has_films) {
           what.has_links = has_links;
           what.has_films = has_films;
           auto problem = random_constraints<D>(what, {}, seed);
-          problem.lifts_sliding = lifts_sliding;
+          if (is_convex) make_convex(problem, {}, seed);
           allow(problem);
           const auto solution = solve_constraints(problem, 10000);
           EXPECT_LE(solution.result.residual, 1);
@@ -114,6 +114,8 @@ TEST(RandomConstraintProblems, ObeyTheRelaxationInThePlane) {
   solve_random_problems<2>(true, false);
 }
 TEST(RandomConstraintProblems, ObeyTheRelaxationInSpace) { solve_random_problems<3>(true, false); }
+TEST(RandomConstraintProblems, ObeyGivenLoadsInThePlane) { solve_random_problems<2>(true, true); }
+TEST(RandomConstraintProblems, ObeyGivenLoadsInSpace) { solve_random_problems<3>(true, true); }
 
 TEST(InteriorPointsOfFriction, SolveRedundantProblemsInThePlane) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
@@ -122,8 +124,9 @@ TEST(InteriorPointsOfFriction, SolveRedundantProblemsInThePlane) {
     what.contacts = 24;
     what.friction = 0.05 * seed;
     what.has_links = seed % 2 == 0;
+    what.has_films = seed % 3 == 0;
     auto problem = random_constraints<2>(what, {}, seed);
-    problem.lifts_sliding = true;
+    make_convex(problem, {}, seed);
     const auto w = row_mobilities<2>(problem);
     InteriorPoints<2> interior(problem, w);
     // The method is known for 10 to 40 iterations, whatever the problem is.
@@ -141,14 +144,14 @@ TEST(InteriorPointsOfFriction, MotionsAreTheSameInAllUnitsAndOrders) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
     auto plain = random_constraints<3>(what, {}, seed);
-    plain.lifts_sliding = true;
+    make_convex(plain, {}, seed);
     allow(plain);
     auto turned = plain;
     std::ranges::reverse(turned.blocks);
     const auto decades = [&] { return random.decades(-5, 5); };
     const ProblemUnits in{decades(), decades(), decades()};
     auto scaled = random_constraints<3>(what, in, seed);
-    scaled.lifts_sliding = true;
+    make_convex(scaled, in, seed);
     allow(scaled);
     const auto expected = solve_constraints(plain, 10000).motions;
     const auto reversed = solve_constraints(turned, 10000).motions;

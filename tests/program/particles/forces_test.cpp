@@ -53,36 +53,5 @@ TEST_F(ParticlesCommand, ACaseThatNamesAMethodOfAnEarlierVersionIsStillRun) {
             rest_of(out("now") / "final_particles.csv"));
 }
 
-TEST_F(ParticlesCommand, WarnsOfFilmsThatTheConvexRelaxationOfFrictionLifts) {
-  const auto text = [](const std::string& gamma_min, const std::string& method) {
-    return R"(title = "A landing disc"
-[space]
-dimension = 2
-[viscous_contact]
-time_step = 0.01
-end_time = 0.1
-gamma_min = )" +
-           gamma_min + R"(
-[friction]
-coefficient = 0.3
-method = ")" +
-           method + R"("
-[[plane]]
-point = [0.0, 0.0]
-normal = [0.0, 1.0]
-[[particle]]
-centre = [0.0, 0.51]
-radius = 0.5
-mass = 1.0
-velocity = [2.0, -1.0]
-)";
-  };
-  const auto warning = ::testing::HasSubstr("warning: friction.method is 'convex'");
-  EXPECT_THAT(run(put_case(text("-0.5", "convex")), out("lifted")).errors, warning);
-  EXPECT_THAT(run(put_case(text("0.0", "convex")), out("dry")).errors, ::testing::Not(warning));
-  EXPECT_THAT(run(put_case(text("-0.5", "fixed_point")), out("law")).errors,
-              ::testing::Not(warning));
-}
-
 }  // namespace
 }  // namespace viscontact
