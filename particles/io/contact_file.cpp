@@ -101,7 +101,7 @@ Vector branch_of(const Particles& p, const CurrentContact& contact) {
   return length * contact.normal;
 }
 
-/// The row of stress.csv, docs/physics.md (5.16).
+/// The row of stress.csv, docs/physics.md (5.19).
 std::string stress_row(const Setting& setting, const State& state, std::span<const double>) {
   const auto n = static_cast<std::size_t>(state.particles.dimension);
   std::array<double, 9> sums{};
