@@ -50,7 +50,8 @@ TEST(SweepPlanCheck, FitIsScaledToTheRadius) {
   // The fit is R = k/q, and k is proportional to mu r^2: twice the radius is four times the
   // viscosity. The film of viscous contact depends on k alone; the roundings are those of 1000 sums.
   const auto film = [](const std::string& variation) {
-    return number(row_of(varied(shipped("vanishing_viscosity.toml"), {variation}), 1),
+    const auto plan = varied(shipped("vanishing_viscosity.toml"), {variation});
+    return number(row_of(with_models(plan, {"viscous_contact"}, "viscous_contact"), 1),
                   "viscous_contact.film");
   };
   const double radius = 0.23032943298089034, viscosity = 1;
