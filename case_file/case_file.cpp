@@ -10,8 +10,10 @@
 
 #include "viscontact/case_file/keys.hpp"
 #include "viscontact/case_file/shared_sections.hpp"
+#include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/named.hpp"
+#include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/lubrication/terms.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
@@ -369,6 +371,23 @@ Case case_of_root(const TomlSection& root, std::string text, const fs::path& pat
   for (const auto& name : reduced_model::model_sections()) (void)root.has(name);
   root.finish();
   return c;
+}
+
+lubrication::Fit fit_for(const Case& c, lubrication::Fit fit, const fs::path& file) {
+  const double radius = fit.radius;
+  fit = lubrication::scaled_to(std::move(fit), c.viscosity, c.radius);
+  if (!c.tabulation || is_exact_plane(fit) || equal_up_to_rounding(radius, c.radius)) return fit;
+  const auto check = [&](std::string_view key, const std::string& of_fit,
+                         const std::string& of_case) {
+    if (!of_fit.empty() && !lubrication::same_words(of_fit, of_case))
+      throw_bad_input({file.string()},
+                      fmt::format("the {} of the fit, scaled from the radius {} to {}, is '{}'; "
+                                  "that of the case is '{}'. Both must be equal in radii",
+                                  key, radius, c.radius, of_fit, of_case));
+  };
+  check("geometry", fit.geometry, geometry_in_words(*c.tabulation));
+  check("container", fit.container, container_in_words(*c.tabulation));
+  return fit;
 }
 
 template <>

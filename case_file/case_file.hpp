@@ -83,6 +83,11 @@ Case case_of_root(const TomlSection& root, std::string text, const std::filesyst
 template <>
 std::vector<std::string_view> sections_with_defaults<Case>();
 
+/// The fit, scaled to radius and viscosity of the case (lubrication/scaling.hpp). `file`, from which
+/// it was read, is named in messages. Throws Error(kBadInput) if the radius is another one and the
+/// case has a tabulation with another geometry or container, in units of the radius.
+lubrication::Fit fit_for(const Case& c, lubrication::Fit fit, const std::filesystem::path& file);
+
 /// What docs/case-file.md says about the keys of each section.
 std::vector<KeyTable> tables_of_sphere_case();
 

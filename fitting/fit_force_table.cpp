@@ -475,6 +475,7 @@ lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const Fi
   fit.weights = settings.weights;
   fit.loss = settings.loss;
   fit.geometry = table.geometry;
+  fit.container = table.container;
   fit.leading_coefficient = table.leading_coefficient;
   set_coefficients(solution.least_squares, settings, fixed, fit);
   fit.condition_number = solution.least_squares.condition_number;

@@ -197,6 +197,7 @@ void fields_of(JsonFields& json, Fit& fit) {
   json("covariance", fit.covariance);
   if (json.reads()) check_covariance(json, fit);
   json("geometry", fit.geometry, kLeftOutIfEmpty);
+  json("container", fit.container, kLeftOutIfEmpty);
   json("leading_coefficient", fit.leading_coefficient, kLeftOutIfEmpty);
   json("diagnostics", fit.diagnostics, kLeftOutIfEmpty);
   json("table_sha256", fit.table_sha256);

@@ -175,6 +175,8 @@ struct Fit {
   std::vector<std::vector<double>> covariance;
   /// What the sphere approaches, as the table says it; may be empty.
   std::string geometry;
+  /// Walls around the fluid, as the table says them; may be empty.
+  std::string container;
   /// Coefficient k of 1/q in the resistance -F_lub/u0 by lubrication theory [M L/T], > 0, if the
   /// table states it.
   std::optional<double> leading_coefficient{};

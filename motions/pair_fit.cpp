@@ -5,9 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
+#include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
+#include "viscontact/lubrication/scaling.hpp"
 
 namespace viscontact::motions {
 namespace {
@@ -88,6 +92,31 @@ double entry_value(const PairFit& fit, PairEntry entry, double gap) {
   for (const auto& term : found->second.fit.terms)
     value += term.coefficient * lubrication::find_term(term.name)->value(gap);
   return value;
+}
+
+PairFit scaled_to(PairFit fit, double viscosity, double radius) {
+  const double ratio = radius / fit.radius;
+  const bool has_radius = equal_up_to_rounding(radius, fit.radius);
+  for (auto& [entry, one] : fit.entries) {
+    // Powers of the length in a force per velocity, a torque per velocity, and a torque per angular
+    // velocity.
+    const int power = entry == PairEntry::kSqueeze || entry == PairEntry::kSlide ? 1
+                      : entry == PairEntry::kSlideRoll                           ? 2
+                                                                                 : 3;
+    if (one.theory && !has_radius) {
+      const auto term = pair_entries()[static_cast<std::size_t>(entry)].leading_term;
+      *one.theory *= std::pow(ratio, power) * lubrication::scale_of_term(term, ratio);
+    }
+    if (one.theory) *one.theory *= viscosity / fit.viscosity;
+    one.fit = lubrication::scaled_to(std::move(one.fit), viscosity, radius, power);
+  }
+  if (!has_radius) {
+    for (auto& gap : fit.gap_interval) gap *= ratio;
+    fit.geometry = lubrication::with_lengths_scaled(fit.geometry, ratio);
+    fit.radius = radius;
+  }
+  fit.viscosity = viscosity;
+  return fit;
 }
 
 }  // namespace viscontact::motions

@@ -76,6 +76,9 @@ struct PairFit {
 /// Error(kBadInput) if the fit lacks the entry. Outside the interval the formula goes on.
 double entry_value(const PairFit& fit, PairEntry entry, double gap);
 
+/// The fit for another viscosity [M/(L T)] > 0 and radius [L] > 0 (lubrication/scaling.hpp).
+PairFit scaled_to(PairFit fit, double viscosity, double radius);
+
 /// True if the path is a regular file with a PairFit. False for a pipe, which is not read, because
 /// it cannot be read a second time.
 bool is_pair_fit(const std::filesystem::path& path);

@@ -411,6 +411,7 @@ std::string fit_table(const results::RunResults& run) {
              fit.largest_relative_residual, fit.rms_relative_residual, fit.condition_number) +
          table_of(rows, headings({"term", "coefficient", "standard error"})) +
          source(link_to(run.folder, "fit.json") +
+                (run.fit_is_scaled ? ", scaled to the radius and the viscosity of the case" : "") +
                 (run.table ? ", the table in " + link_to(run.folder, "table.csv") : "")) +
          (fit.diagnostics ? trust(*fit.diagnostics) : "");
 }

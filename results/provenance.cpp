@@ -115,6 +115,7 @@ Wrapping wrapping_of(TextKind kind) {
       return {"/* provenance: ", " */", "*"};
     case TextKind::kFortran:
       return {"! provenance: ", "", ""};
+    case TextKind::kMatlab:
     case TextKind::kPdf:
       return {"% provenance: ", "", ""};
     case TextKind::kPng:
@@ -137,6 +138,7 @@ std::size_t place_in(TextKind kind, const std::string& text) {
     case TextKind::kHashComment:
     case TextKind::kC:
     case TextKind::kFortran:
+    case TextKind::kMatlab:
     case TextKind::kPng:
       return 0;
     case TextKind::kJson:

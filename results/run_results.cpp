@@ -3,6 +3,9 @@
 // change must still read the runs of earlier versions.
 #include "viscontact/results/run_results.hpp"
 
+#include <utility>
+
+#include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/results/provenance.hpp"
@@ -27,18 +30,23 @@ RunResults read_run(const std::filesystem::path& folder) {
   const RunFolder run{folder};
   RunResults results{run,
                      case_file::read_case(run.case_file()),
-                     lubrication::read_fit(run.fit()),
+                     {},
+                     false,
                      reduced_model::read_comparison(run.comparison()),
                      {},
                      {},
                      {}};
+  auto fit = lubrication::read_fit(run.fit());
+  results.fit_is_scaled = !equal_up_to_rounding(fit.radius, results.c.radius) ||
+                          !equal_up_to_rounding(fit.viscosity, results.c.viscosity);
+  results.fit = case_file::fit_for(results.c, std::move(fit), run.fit());
   for (const auto& model : results.comparison.models)
     if (const auto file = run.trajectory(model.model); std::filesystem::exists(file))
       results.trajectories.push_back(reduced_model::read_trajectory(file));
   if (results.trajectories.empty())
     throw_bad_input({run.trajectories().string()},
                     "has no trajectory of the models that the comparison names");
-  if (has_table(run, results.c, results.fit))
+  if (!results.fit_is_scaled && has_table(run, results.c, results.fit))
     results.table = lubrication::read_force_table(run.table());
   if (std::filesystem::exists(run.uncertainty()))
     results.uncertainty = reduced_model::read_uncertainty(run.uncertainty());

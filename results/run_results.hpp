@@ -20,7 +20,8 @@ namespace viscontact::results {
 struct RunResults {
   RunFolder folder;
   case_file::Case c;
-  lubrication::Fit fit;
+  lubrication::Fit fit;        ///< for the radius and the viscosity of the case
+  bool fit_is_scaled = false;  ///< true: fit.json is that of another radius or viscosity
   reduced_model::Comparison comparison;
   /// The trajectories of the models in the comparison, as far as their files exist; at least one.
   std::vector<reduced_model::Trajectory> trajectories;

@@ -13,7 +13,6 @@
 #include <set>
 #include <string_view>
 
-#include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
@@ -117,17 +116,12 @@ std::string identity_of(const SpherePlan& plan) {
 
 using SphereTemplate = case_file::CaseTemplate<case_file::Case>;
 
-/// The case with these numbers. Throws Error(kBadInput) if it is not valid, or if the fit is not
-/// that of its radius.
+/// The case with these numbers. Throws Error(kBadInput) if it is not valid, or if the fit cannot be
+/// scaled to it.
 case_file::Case case_with(const SphereTemplate& cases, const SpherePlan& plan,
                           const std::vector<std::pair<std::string, double>>& numbers) {
   case_file::Case c = cases.with(numbers);
-  if (!lubrication::is_exact_plane(plan.fit) && !equal_up_to_rounding(c.radius, plan.fit.radius))
-    throw_bad_input(
-        {plan.case_path.string()},
-        fmt::format("sphere.radius is {} and the fit's radius is {}; a fit is valid for "
-                    "one radius only, and only the exact drag allows other radii",
-                    c.radius, plan.fit.radius));
+  (void)case_file::fit_for(c, plan.fit, plan.case_path);
   return c;
 }
 
@@ -136,10 +130,8 @@ case_file::Case case_with(const SphereTemplate& cases, const SpherePlan& plan,
 std::vector<reduced_model::Trajectory> run_models(const SpherePlan& plan, const case_file::Case& c,
                                                   const StopToken& stop, RowResults& results) {
   std::vector<reduced_model::Trajectory> trajectories;
-  const lubrication::Fit fit = lubrication::is_exact_plane(plan.fit)
-                                   ? lubrication::exact_plane_fit(c.viscosity, c.radius)
-                                   : lubrication::with_viscosity(plan.fit, c.viscosity);
-  const lubrication::LubricationForce force(fit, plan.outside);
+  const lubrication::LubricationForce force(case_file::fit_for(c, plan.fit, plan.case_path),
+                                            plan.outside);
   reduced_model::Motion motion = case_file::required_motion(c);
   motion.stop = stop;
   for (const auto& model : plan.models)

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
@@ -17,6 +18,7 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/fitting/export/export_fit.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/motions/fit/export_pair.hpp"
 #include "viscontact/motions/job/pair_fit_stage.hpp"
 #include "viscontact/pipeline/fit_stages.hpp"
@@ -116,15 +118,35 @@ void fit_table(FitOptions& o) {
   if (without_picture) throw Error(*without_picture);
 }
 
+/// What `export` is asked for.
+struct ExportOptions {
+  std::string fit, target, output, below, above;
+  double radius = 0, viscosity = 0;  // 0: those of the fit
+};
+
 /// The text of a fit file for a target, whether it is the fit of one force or of a pair.
-std::string exported(const std::string& file, const std::string& target,
-                     const std::string& source) {
-  if (motions::is_pair_fit(file)) {
-    const auto pair = motions::read_pair_fit(file);
-    return with_place(file, [&] { return motions::export_pair(pair, target, source); });
+std::string exported(const ExportOptions& o, const std::string& source) {
+  const auto or_of_fit = [](double asked, double of_fit) { return asked > 0 ? asked : of_fit; };
+  if (motions::is_pair_fit(o.fit)) {
+    if (!o.below.empty() || !o.above.empty())
+      throw Error(ErrorKind::kWrongUsage, "--below and --above are for the fit of the approach; " +
+                                              o.fit + " is that of a pair");
+    auto pair = motions::read_pair_fit(o.fit);
+    const double viscosity = or_of_fit(o.viscosity, pair.viscosity);
+    const double radius = or_of_fit(o.radius, pair.radius);
+    pair = motions::scaled_to(std::move(pair), viscosity, radius);
+    return with_place(o.fit, [&] { return motions::export_pair(pair, o.target, source); });
   }
-  const auto fit = lubrication::read_fit(file);
-  return with_place(file, [&] { return fitting::export_fit(fit, target, source); });
+  auto fit = lubrication::read_fit(o.fit);
+  const double viscosity = or_of_fit(o.viscosity, fit.viscosity);
+  const double radius = or_of_fit(o.radius, fit.radius);
+  fit = lubrication::scaled_to(std::move(fit), viscosity, radius);
+  lubrication::OutsideInterval outside;
+  if (!o.below.empty())
+    outside.below = o.below == "theory_limit" ? lubrication::BelowInterval::kTheoryLimit
+                                              : lubrication::BelowInterval::kLubricationLimit;
+  if (!o.above.empty()) outside.above = lubrication::AboveInterval::kStokesLimit;
+  return with_place(o.fit, [&] { return fitting::export_fit(fit, o.target, source, outside); });
 }
 
 }  // namespace
@@ -192,11 +214,8 @@ void add_shift(CLI::App& app) {
 }
 
 void add_export(CLI::App& app) {
-  struct Options {
-    std::string fit, target, output;
-  };
   auto* command = app.add_subcommand("export", "write a fit as code or numbers for other programs");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ExportOptions>();
   std::string targets;
   for (const auto& target : fitting::export_targets())
     targets +=
@@ -206,6 +225,20 @@ void add_export(CLI::App& app) {
       ->required();
   auto* output = add_value(*command, "-o,--output", o->output, kFile,
                            "file to write; default: standard output");
+  add_value(*command, "--below", o->below, "lubrication_limit|theory_limit",
+            "the drag below the fit's smallest gap: it grows as k/q, with the fitted k or that of "
+            "theory; default: the function has no value there")
+      ->check(one_of({"lubrication_limit", "theory_limit"}));
+  add_value(*command, "--above", o->above, "stokes_limit",
+            "the drag above the fit's largest gap: it falls to Stokes' drag; default: the function "
+            "has no value there")
+      ->check(one_of({"stokes_limit"}));
+  add_value(*command, "--radius", o->radius, "NUMBER",
+            "radius to which the fit is scaled; default: that of the fit")
+      ->check(CLI::PositiveNumber);
+  add_value(*command, "--viscosity", o->viscosity, "NUMBER",
+            "viscosity to which the fit is scaled; default: that of the fit")
+      ->check(CLI::PositiveNumber);
   command->callback([o, output] {
     if (output->count() > 0) {
       check_outputs({o->output});
@@ -215,7 +248,7 @@ void add_export(CLI::App& app) {
       return &require_named(fitting::export_targets(), o->target, "export target");
     });
     const auto source = std::filesystem::path(o->fit).filename().string();
-    const auto text = exported(o->fit, o->target, source);
+    const auto text = exported(*o, source);
     if (output->count() > 0)
       results::write_output(o->output, find_named(fitting::export_targets(), o->target)->kind, text,
                             results::without_folders(results::provenance_of({{o->fit}, {}})));

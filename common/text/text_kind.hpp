@@ -5,6 +5,6 @@
 namespace viscontact {
 
 /// A kind of file. kHashComment are texts whose comment lines begin with "#" (CSV, Python).
-enum class TextKind { kHashComment, kJson, kSvg, kHtml, kXml, kC, kFortran, kPdf, kPng };
+enum class TextKind { kHashComment, kJson, kSvg, kHtml, kXml, kC, kFortran, kMatlab, kPdf, kPng };
 
 }  // namespace viscontact

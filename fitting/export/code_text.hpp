@@ -1,4 +1,4 @@
-// Numbers and sums of terms as code of C, Fortran and Python, for export_fit.cpp and
+// Numbers and sums of terms as code of C, Fortran, Python and MATLAB, for export_fit.cpp and
 // export_pair.cpp. Numbers have the units of the fit. Nothing is thrown. A change must keep that
 // the code reads back the same doubles. Used by export_fit.cpp and motions/.
 #pragma once
@@ -52,6 +52,40 @@ inline std::string terms_text(const std::vector<WeightedTerm>& terms,
                         (term.*formula).text);
   return text;
 }
+
+/// An expression for the entries of arrays of MATLAB: "a*b/c" becomes "a.*b./c".
+inline std::string elementwise(const std::string& expression) {
+  std::string text;
+  for (const char c : expression) {
+    if (c == '*' || c == '/') text += '.';
+    text += c;
+  }
+  return text;
+}
+
+/// The function of Python that computes a quantity at a number or at each entry of an array. The
+/// module has SMALLEST_GAP and LARGEST_GAP. `formulas` are tuples (low, high, function of q and
+/// log), of which the first that contains a gap is used.
+inline constexpr std::string_view kPythonEvaluate =
+    "def _evaluate(gap, formulas):\n"
+    "    if isinstance(gap, (int, float)):\n"
+    "        for low, high, formula in formulas:\n"
+    "            if low <= gap <= high:\n"
+    "                return formula(gap, math.log)\n"
+    "        outside = gap\n"
+    "    else:\n"
+    "        import numpy  # only arrays need it\n"
+    "        q = numpy.asarray(gap, dtype=float)\n"
+    "        answer = numpy.empty_like(q)\n"
+    "        left = numpy.ones(q.shape, dtype=bool)\n"
+    "        for low, high, formula in formulas:\n"
+    "            here = left & (low <= q) & (q <= high)\n"
+    "            answer[here] = formula(q[here], numpy.log)\n"
+    "            left &= ~here\n"
+    "        if not left.any():\n"
+    "            return answer[()]\n"
+    "        outside = q[left][0]\n"
+    "    raise ValueError(f\"gap {outside} is outside [{formulas[0][0]}, {formulas[0][1]}]\")\n";
 
 /// The lines with blanks in place of control characters, for comments of the code. A line end in a
 /// text of a fit file would otherwise begin a line of code.

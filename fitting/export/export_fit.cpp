@@ -1,5 +1,5 @@
 // The text of each target: the resistance R and its primitive Gamma, sums of terms by physics.md
-// (3.2) and (4.2), as code or numbers. Numbers are in the units of the fit. An impossible fit is an
+// (3.2), (3.3) and (4.2), as code or numbers. Numbers are in the units of the fit. An impossible fit is an
 // Error(kBadInput). Names, keys and the order of sums must stay.
 #include "viscontact/fitting/export/export_fit.hpp"
 
@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/text/csv.hpp"
@@ -17,9 +18,12 @@
 #include "viscontact/fitting/export/code_text.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/lubrication/spread_gaps.hpp"
+#include "viscontact/lubrication/stokes_drag.hpp"
 
 namespace viscontact::fitting {
 namespace {
+
+using Limits = lubrication::OutsideInterval;
 
 /// R(q) = sum of weight * value, Gamma(q) = sum of weight * antiderivative - offset [M L/T]. Value
 /// and antiderivative of a term are functions of the gap q.
@@ -39,8 +43,72 @@ Sum sum_of(const lubrication::Fit& fit) {
   return sum;
 }
 
+/// The drag outside the interval [q1, q2] (physics.md (3.3)): R = k/q + constant below it,
+/// R = stokes + reflected/(q + r) above it, with the limits that the user has chosen.
+struct Outside {
+  bool has_below = false, has_above = false;
+  double smallest = 0, largest = 0, radius = 0;  ///< q1, q2 and r [L]
+  double k = 0, constant = 0;                    ///< [M L/T], [M/T]
+  double stokes = 0, reflected = 0;              ///< [M/T], [M L/T]
+  double impulse_below = 0, impulse_above = 0;   ///< Gamma(q1) and Gamma(q2) [M L/T]
+};
+
+Outside outside_of(const lubrication::Fit& fit, const lubrication::OutsideInterval& limits) {
+  const lubrication::LubricationForce force(fit, limits);
+  const auto [smallest, largest] = fit.gap_interval;
+  Outside outside{.smallest = smallest, .largest = largest, .radius = fit.radius};
+  outside.has_below = limits.below != lubrication::BelowInterval::kError;
+  outside.has_above = limits.above != lubrication::AboveInterval::kError;
+  if (outside.has_below) {
+    const bool is_theory = limits.below == lubrication::BelowInterval::kTheoryLimit;
+    outside.k = is_theory ? fit.leading_coefficient.value() : force.leading_coefficient();
+    outside.constant = force.resistance(smallest) - outside.k / smallest;
+    outside.impulse_below = force.impulse(smallest);
+  }
+  if (outside.has_above) {
+    outside.stokes = lubrication::stokes_resistance(fit.viscosity, fit.radius);
+    outside.reflected = (force.resistance(largest) - outside.stokes) * (largest + fit.radius);
+    outside.impulse_above = force.impulse(largest);
+  }
+  return outside;
+}
+
+/// What a quantity, R or Gamma, is in a language: expressions in q and l = ln q inside the interval,
+/// and in q outside of it; empty if there is none.
+struct Expressions {
+  std::string inside, below, above;
+};
+
+Expressions resistance_of(const Sum& sum, const Outside& o, Literal number,
+                          std::string_view between) {
+  Expressions e{terms_text(sum.terms, &lubrication::Term::value, number, between), "", ""};
+  if (o.has_below) e.below = fmt::format("({})/q{}({})", number(o.k), between, number(o.constant));
+  if (o.has_above)
+    e.above = fmt::format("({}){}({})/(q + ({}))", number(o.stokes), between, number(o.reflected),
+                          number(o.radius));
+  return e;
+}
+
+Expressions impulse_of(const Sum& sum, const Outside& o, Literal number, std::string_view between) {
+  std::string minus(between);
+  minus.replace(minus.rfind('+'), 1, "-");
+  Expressions e{terms_text(sum.terms, &lubrication::Term::antiderivative, number, between) +
+                    fmt::format("{}({})", minus, number(sum.offset)),
+                "", ""};
+  if (o.has_below)
+    e.below = fmt::format("({0}){5}({1}) * log(q/({3})){5}({2}) * (q - ({4}))",
+                          number(o.impulse_below), number(o.k), number(o.constant),
+                          number(o.smallest), number(o.smallest), between);
+  if (o.has_above)
+    e.above = fmt::format("({0}){5}({1}) * (q - ({3})){5}({2}) * log((q + ({4}))/(({3}) + ({4})))",
+                          number(o.impulse_above), number(o.stokes), number(o.reflected),
+                          number(o.largest), number(o.radius), between);
+  return e;
+}
+
 /// What a reader must know to use the numbers, one line for each fact.
-std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view source) {
+std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view source,
+                               const Outside& outside = {}) {
   const auto version = fit.versions.find("Viscontact");
   std::vector<std::string> lines = {
       fmt::format("Lubrication force of a sphere, written by 'viscontact export' (Viscontact {}).",
@@ -55,6 +123,10 @@ std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view sou
       fmt::format("The sphere approaches: {}.", fit.geometry.empty() ? "not said" : fit.geometry),
       fmt::format("Basis {}; relative residuals: largest {:.3g}, root mean square {:.3g}.",
                   fit.basis, fit.largest_relative_residual, fit.rms_relative_residual)};
+  if (outside.has_below)
+    lines.emplace_back("Below this interval R = k/q + constant, the lubrication limit.");
+  if (outside.has_above)
+    lines.emplace_back("Above this interval R = R_S + c/(q + r), which tends to Stokes' drag R_S.");
   if (fit.diagnostics && fit.diagnostics->largest_error_estimate > 0)
     lines.push_back(fmt::format("Largest error estimate of the table: {:.3g}.",
                                 fit.diagnostics->largest_error_estimate));
@@ -64,58 +136,76 @@ std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view sou
   return on_lines_of_comments(std::move(lines));
 }
 
-std::string commented(const lubrication::Fit& fit, std::string_view source, std::string_view mark) {
+std::string commented(const lubrication::Fit& fit, std::string_view source, std::string_view mark,
+                      const Outside& outside = {}) {
   std::string text;
-  for (const auto& line : facts(fit, source)) text += fmt::format("{} {}\n", mark, line);
+  for (const auto& line : facts(fit, source, outside)) text += fmt::format("{} {}\n", mark, line);
   return text;
 }
 
-std::string write_c_header(const lubrication::Fit& fit, std::string_view source) {
+std::string write_c_header(const lubrication::Fit& fit, std::string_view source,
+                           const Limits& limits) {
   const Sum sum = sum_of(fit);
-  const auto function = [&](std::string_view name, lubrication::Formula lubrication::Term::*formula,
-                            const std::string& tail) {
-    return fmt::format(
+  const Outside outside = outside_of(fit, limits);
+  const auto function = [&](std::string_view name, const Expressions& e) {
+    std::string text = fmt::format(
         "static inline double viscontact_{}(double gap) {{\n"
         "  const double q = gap, l = log(gap);\n"
-        "  (void)q;\n  (void)l;\n"
-        "  if (!(gap >= VISCONTACT_SMALLEST_GAP && gap <= VISCONTACT_LARGEST_GAP)) return NAN;\n"
-        "  return {}{};\n}}\n\n",
-        name, terms_text(sum.terms, formula, c_literal, "\n      + "), tail);
+        "  (void)q;\n  (void)l;\n",
+        name);
+    if (!e.below.empty())
+      text +=
+          fmt::format("  if (gap > 0 && gap < VISCONTACT_SMALLEST_GAP)\n    return {};\n", e.below);
+    if (!e.above.empty())
+      text += fmt::format("  if (gap > VISCONTACT_LARGEST_GAP && gap < HUGE_VAL)\n    return {};\n",
+                          e.above);
+    return text +
+           fmt::format(
+               "  if (!(gap >= VISCONTACT_SMALLEST_GAP && gap <= VISCONTACT_LARGEST_GAP)) return "
+               "NAN;\n  return {};\n}}\n\n",
+               e.inside);
   };
-  return commented(fit, source, "//") +
-         "// C99 or C++11. Outside the interval the answer is NaN.\n" +
+  constexpr std::string_view kBetween = "\n      + ";
+  return commented(fit, source, "//", outside) +
+         "// C99 or C++11. At other gaps the answer is NaN.\n" +
          fmt::format(
              "#ifndef VISCONTACT_LUBRICATION_H\n#define VISCONTACT_LUBRICATION_H\n\n"
              "#include <math.h>\n\n#define VISCONTACT_SMALLEST_GAP {}\n"
              "#define VISCONTACT_LARGEST_GAP {}\n\n",
              c_literal(fit.gap_interval[0]), c_literal(fit.gap_interval[1])) +
-         "// R(q), > 0.\n" + function("resistance", &lubrication::Term::value, "") +
-         "// Gamma(q).\n" +
-         function("impulse", &lubrication::Term::antiderivative,
-                  fmt::format("\n      - ({})", c_literal(sum.offset))) +
+         "// R(q), > 0.\n" +
+         function("resistance", resistance_of(sum, outside, c_literal, kBetween)) +
+         "// Gamma(q).\n" + function("impulse", impulse_of(sum, outside, c_literal, kBetween)) +
          "// F(q, u).\nstatic inline double viscontact_force(double gap, double velocity) {\n"
          "  return -viscontact_resistance(gap) * velocity;\n}\n\n#endif\n";
 }
 
-std::string write_fortran(const lubrication::Fit& fit, std::string_view source) {
+std::string write_fortran(const lubrication::Fit& fit, std::string_view source,
+                          const Limits& limits) {
   const Sum sum = sum_of(fit);
-  const auto function = [&](std::string_view name, lubrication::Formula lubrication::Term::*formula,
-                            const std::string& tail) {
+  const Outside outside = outside_of(fit, limits);
+  const auto function = [&](std::string_view name, const Expressions& e) {
+    const auto branch = [](std::string_view condition, const std::string& answer) {
+      return answer.empty() ? ""
+                            : fmt::format(
+                                  "    if ({}) then\n      answer = {}\n"
+                                  "      return\n    end if\n",
+                                  condition, answer);
+    };
     return fmt::format(
-        "  elemental function viscontact_{0}(gap) result(answer)\n"
-        "    real(real64), intent(in) :: gap\n"
-        "    real(real64) :: answer, q, l\n"
-        "    if (.not. (gap >= smallest_gap .and. gap <= largest_gap)) then\n"
-        "      answer = ieee_value(answer, ieee_quiet_nan)\n"
-        "      return\n"
-        "    end if\n"
-        "    q = gap\n"
-        "    l = log(gap)\n"
-        "    answer = {1}{2}\n"
-        "  end function\n\n",
-        name, terms_text(sum.terms, formula, fortran_literal, " &\n      + "), tail);
+               "  elemental function viscontact_{0}(gap) result(answer)\n"
+               "    real(real64), intent(in) :: gap\n"
+               "    real(real64) :: answer, q, l\n"
+               "    q = gap\n",
+               name) +
+           branch("gap > 0 .and. gap < smallest_gap", e.below) +
+           branch("gap > largest_gap .and. gap <= huge(gap)", e.above) +
+           branch(".not. (gap >= smallest_gap .and. gap <= largest_gap)",
+                  "ieee_value(answer, ieee_quiet_nan)") +
+           fmt::format("    l = log(gap)\n    answer = {}\n  end function\n\n", e.inside);
   };
-  return commented(fit, source, "!") + "! Outside the interval the answer is NaN.\n" +
+  constexpr std::string_view kBetween = " &\n      + ";
+  return commented(fit, source, "!", outside) + "! At other gaps the answer is NaN.\n" +
          fmt::format(
              "module viscontact_lubrication\n"
              "  use, intrinsic :: iso_fortran_env, only: real64\n"
@@ -124,10 +214,10 @@ std::string write_fortran(const lubrication::Fit& fit, std::string_view source) 
              "  real(real64), parameter :: smallest_gap = {}, largest_gap = {}\n"
              "contains\n\n",
              fortran_literal(fit.gap_interval[0]), fortran_literal(fit.gap_interval[1])) +
-         "  ! R(q), > 0.\n" + function("resistance", &lubrication::Term::value, "") +
+         "  ! R(q), > 0.\n" +
+         function("resistance", resistance_of(sum, outside, fortran_literal, kBetween)) +
          "  ! Gamma(q).\n" +
-         function("impulse", &lubrication::Term::antiderivative,
-                  fmt::format(" &\n      - ({})", fortran_literal(sum.offset))) +
+         function("impulse", impulse_of(sum, outside, fortran_literal, kBetween)) +
          "  ! F(q, u).\n"
          "  elemental function viscontact_force(gap, velocity) result(answer)\n"
          "    real(real64), intent(in) :: gap, velocity\n"
@@ -137,39 +227,83 @@ std::string write_fortran(const lubrication::Fit& fit, std::string_view source) 
          "end module\n";
 }
 
-std::string write_python(const lubrication::Fit& fit, std::string_view source) {
+std::string write_python(const lubrication::Fit& fit, std::string_view source,
+                         const Limits& limits) {
   const Sum sum = sum_of(fit);
-  const auto function = [&](std::string_view name, std::string_view what,
-                            lubrication::Formula lubrication::Term::*formula,
-                            const std::string& tail) {
-    return fmt::format(
-        "def {0}(gap):\n"
-        "    \"\"\"{1} Raises ValueError outside the interval.\"\"\"\n"
-        "    _check(gap)\n"
-        "    q, l = gap, math.log(gap)\n"
-        "    return ({2}{3})\n\n\n",
-        name, what, terms_text(sum.terms, formula, plain, "\n            + "), tail);
+  const Outside outside = outside_of(fit, limits);
+  const auto function = [&](std::string_view name, std::string_view what, const Expressions& e) {
+    std::string text, tuples;
+    const auto formula = [&](std::string_view place, std::string_view low, std::string_view high,
+                             const std::string& expression) {
+      if (expression.empty()) return;
+      text += fmt::format("def _{0}_{1}(q, log):\n{2}    return ({3})\n\n\n", name, place,
+                          place == "inside" ? "    l = log(q)\n" : "", expression);
+      tuples += fmt::format("({}, {}, _{}_{}), ", low, high, name, place);
+    };
+    formula("inside", "SMALLEST_GAP", "LARGEST_GAP", e.inside);
+    formula("below", "sys.float_info.min", "SMALLEST_GAP", e.below);
+    formula("above", "LARGEST_GAP", "sys.float_info.max", e.above);
+    return text + fmt::format(
+                      "def {0}(gap):\n"
+                      "    \"\"\"{1} Raises ValueError at other gaps.\"\"\"\n"
+                      "    return _evaluate(gap, ({2}))\n\n\n",
+                      name, what, tuples.substr(0, tuples.size() - 1));
   };
-  return commented(fit, source, "#") +
-         fmt::format("import math\n\nSMALLEST_GAP, LARGEST_GAP = {}, {}\n\n\n",
+  constexpr std::string_view kBetween = "\n            + ";
+  return commented(fit, source, "#", outside) +
+         "# A gap is a number or an array of NumPy, and so is the answer.\n" +
+         fmt::format("import math\nimport sys\n\nSMALLEST_GAP, LARGEST_GAP = {}, {}\n\n\n",
                      plain(fit.gap_interval[0]), plain(fit.gap_interval[1])) +
-         "def _check(gap):\n"
-         "    if not SMALLEST_GAP <= gap <= LARGEST_GAP:\n"
-         "        raise ValueError(f\"gap {gap} is outside [{SMALLEST_GAP}, "
-         "{LARGEST_GAP}]\")\n\n\n" +
-         function("resistance", "R(q), > 0.", &lubrication::Term::value, "") +
-         function("impulse", "Gamma(q).", &lubrication::Term::antiderivative,
-                  fmt::format("\n            - ({})", plain(sum.offset))) +
+         std::string(kPythonEvaluate) + "\n\n" +
+         function("resistance", "R(q), > 0.", resistance_of(sum, outside, plain, kBetween)) +
+         function("impulse", "Gamma(q).", impulse_of(sum, outside, plain, kBetween)) +
          "def force(gap, velocity):\n"
-         "    \"\"\"F(q, u). Raises ValueError outside the interval.\"\"\"\n"
+         "    \"\"\"F(q, u). Raises ValueError as resistance(gap).\"\"\"\n"
          "    return -resistance(gap) * velocity\n";
 }
 
-std::string write_json(const lubrication::Fit& fit, std::string_view source) {
+std::string write_matlab(const lubrication::Fit& fit, std::string_view source,
+                         const Limits& limits) {
   const Sum sum = sum_of(fit);
+  const Outside outside = outside_of(fit, limits);
+  const auto function = [&](std::string_view name, const Expressions& e) {
+    const auto branch = [](std::string_view condition, const std::string& answer) {
+      return answer.empty() ? ""
+                            : fmt::format("  here = {};\n  q = gap(here);\n  answer(here) = {};\n",
+                                          condition, elementwise(answer));
+    };
+    return fmt::format(
+        "function answer = {}(gap)\n  answer = NaN(size(gap));\n{}{}"
+        "  here = gap >= {} & gap <= {};\n  q = gap(here);\n  l = log(q);\n"
+        "  answer(here) = {};\nend\n",
+        name, branch(fmt::format("gap > 0 & gap < {}", plain(outside.smallest)), e.below),
+        branch(fmt::format("gap > {} & gap < Inf", plain(outside.largest)), e.above),
+        plain(outside.smallest), plain(outside.largest), elementwise(e.inside));
+  };
+  constexpr std::string_view kBetween = " ...\n      + ";
+  return commented(fit, source, "%", outside) +
+         fmt::format(
+             "% MATLAB or Octave, in a file viscontact_lubrication.m: f = "
+             "viscontact_lubrication();\n"
+             "% f.force(gap, velocity). A gap is a number or an array. At other gaps the answer "
+             "is\n"
+             "% NaN.\n"
+             "function f = viscontact_lubrication()\n"
+             "  f.smallest_gap = {};\n  f.largest_gap = {};\n"
+             "  f.resistance = @resistance;  % R(q), > 0\n"
+             "  f.impulse = @impulse;  % Gamma(q)\n"
+             "  f.force = @(gap, velocity) -resistance(gap) .* velocity;  % F(q, u)\nend\n\n",
+             plain(outside.smallest), plain(outside.largest)) +
+         function("resistance", resistance_of(sum, outside, plain, kBetween)) + "\n" +
+         function("impulse", impulse_of(sum, outside, plain, kBetween));
+}
+
+std::string write_json(const lubrication::Fit& fit, std::string_view source, const Limits& limits) {
+  const Sum sum = sum_of(fit);
+  const Outside outside = outside_of(fit, limits);
   const lubrication::LubricationForce force(fit);
   nlohmann::ordered_json json;
-  json["about"] = facts(fit, source);
+  json["about"] = facts(fit, source, outside);
   json["formulas"] =
       "q: gap, l: ln q; R = sum of weight * value, Gamma = sum of weight * antiderivative - "
       "impulse_offset";
@@ -185,6 +319,13 @@ std::string write_json(const lubrication::Fit& fit, std::string_view source) {
                              {"value", term.value.text},
                              {"antiderivative", term.antiderivative.text}});
   json["impulse_offset"] = sum.offset;
+  if (outside.has_below)
+    json["below"] = {
+        {"formula", "R = k/q + constant"}, {"k", outside.k}, {"constant", outside.constant}};
+  if (outside.has_above)
+    json["above"] = {{"formula", "R = stokes + reflected/(q + radius)"},
+                     {"stokes", outside.stokes},
+                     {"reflected", outside.reflected}};
   json["reference_velocity"] = fit.reference_velocity;
   for (const double gap : lubrication::spread_gaps(fit.gap_interval)) {
     json["samples"]["gap"].push_back(gap);
@@ -195,7 +336,12 @@ std::string write_json(const lubrication::Fit& fit, std::string_view source) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string write_csv(const lubrication::Fit& fit, std::string_view source) {
+std::string write_csv(const lubrication::Fit& fit, std::string_view source, const Limits& limits) {
+  if (limits.below != lubrication::BelowInterval::kError ||
+      limits.above != lubrication::AboveInterval::kError)
+    throw Error(ErrorKind::kWrongUsage,
+                "csv has samples within the interval of the fit only; leave out --below and "
+                "--above, or choose another target");
   const lubrication::LubricationForce force(fit);
   std::string text = commented(fit, source, "#");
   text += fmt::format("# force: at velocity {}\ngap,resistance,impulse,force\n",
@@ -210,7 +356,9 @@ std::string write_csv(const lubrication::Fit& fit, std::string_view source) {
 constexpr std::array kTargets = {
     ExportTarget{"c-header", "functions of C99 and C++", TextKind::kC, write_c_header},
     ExportTarget{"fortran", "a module of Fortran 2008", TextKind::kFortran, write_fortran},
-    ExportTarget{"python", "a module of Python 3", TextKind::kHashComment, write_python},
+    ExportTarget{"python", "a module of Python 3, also for arrays of NumPy", TextKind::kHashComment,
+                 write_python},
+    ExportTarget{"matlab", "functions of MATLAB and Octave", TextKind::kMatlab, write_matlab},
     ExportTarget{"json", "terms, formulas and 201 samples", TextKind::kJson, write_json},
     ExportTarget{"csv", "201 samples", TextKind::kHashComment, write_csv},
 };
@@ -220,9 +368,9 @@ constexpr std::array kTargets = {
 std::span<const ExportTarget> export_targets() { return kTargets; }
 
 std::string export_fit(const lubrication::Fit& fit, std::string_view target,
-                       std::string_view source) {
+                       std::string_view source, const Limits& outside) {
   (void)lubrication::LubricationForce(fit);  // refuses a fit whose drag is not positive
-  return require_named(kTargets, target, "export target").write(fit, source);
+  return require_named(kTargets, target, "export target").write(fit, source, outside);
 }
 
 }  // namespace viscontact::fitting

@@ -104,23 +104,47 @@ std::string pair_in_fortran(const PairFit& fit, std::string_view source) {
 }
 
 std::string pair_in_python(const PairFit& fit, std::string_view source) {
-  std::string text = commented_facts(fit, source, "#") +
-                     fmt::format(
-                         "import math\n\nSMALLEST_GAP, LARGEST_GAP = {}, {}\n\n\n"
-                         "def _check(gap):\n"
-                         "    if not SMALLEST_GAP <= gap <= LARGEST_GAP:\n"
-                         "        raise ValueError(f\"gap {{gap}} is outside [{{SMALLEST_GAP}}, "
-                         "{{LARGEST_GAP}}]\")\n",
-                         fitting::plain(fit.gap_interval[0]), fitting::plain(fit.gap_interval[1]));
+  std::string text =
+      commented_facts(fit, source, "#") +
+      "# A gap is a number or an array of NumPy, and so is the answer.\n" +
+      fmt::format("import math\n\nSMALLEST_GAP, LARGEST_GAP = {}, {}\n\n\n",
+                  fitting::plain(fit.gap_interval[0]), fitting::plain(fit.gap_interval[1])) +
+      std::string(fitting::kPythonEvaluate);
   for (const auto& [entry, one] : fit.entries)
     text += fmt::format(
-        "\n\ndef {}(gap):\n"
-        "    \"\"\"{}. Raises ValueError outside the interval.\"\"\"\n"
-        "    _check(gap)\n    q, l = gap, math.log(gap)\n    return ({})\n",
+        "\n\ndef _{0}(q, log):\n    l = log(q)\n    return ({2})\n\n\n"
+        "def {0}(gap):\n"
+        "    \"\"\"{1}. Raises ValueError outside the interval.\"\"\"\n"
+        "    return _evaluate(gap, ((SMALLEST_GAP, LARGEST_GAP, _{0}),))\n",
         named(entry).name, named(entry).description,
         fitting::terms_text(weighted_terms(one), &lubrication::Term::value, fitting::plain,
                             "\n            + "));
   return text;
+}
+
+std::string pair_in_matlab(const PairFit& fit, std::string_view source) {
+  const auto smallest = fitting::plain(fit.gap_interval[0]);
+  const auto largest = fitting::plain(fit.gap_interval[1]);
+  std::string text =
+      commented_facts(fit, source, "%") +
+      fmt::format(
+          "% MATLAB or Octave, in a file viscontact_pair.m: f = viscontact_pair(); f.slide(gap). "
+          "A\n"
+          "% gap is a number or an array. Outside the interval the answer is NaN.\n"
+          "function f = viscontact_pair()\n  f.smallest_gap = {};\n  f.largest_gap = {};\n",
+          smallest, largest);
+  std::string functions;
+  for (const auto& [entry, one] : fit.entries) {
+    text += fmt::format("  f.{0} = @{0};  % {1}\n", named(entry).name, named(entry).description);
+    functions += fmt::format(
+        "\nfunction answer = {}(gap)\n  answer = NaN(size(gap));\n"
+        "  here = gap >= {} & gap <= {};\n  q = gap(here);\n  l = log(q);\n"
+        "  answer(here) = {};\nend\n",
+        named(entry).name, smallest, largest,
+        fitting::elementwise(fitting::terms_text(weighted_terms(one), &lubrication::Term::value,
+                                                 fitting::plain, " ...\n      + ")));
+  }
+  return text + "end\n" + functions;
 }
 
 std::string pair_in_json(const PairFit& fit, std::string_view source) {
@@ -163,9 +187,9 @@ struct PairTarget {
   std::string (*write)(const PairFit& fit, std::string_view source);
 };
 constexpr std::array kPairTargets = {
-    PairTarget{"c-header", pair_in_c}, PairTarget{"fortran", pair_in_fortran},
-    PairTarget{"python", pair_in_python}, PairTarget{"json", pair_in_json},
-    PairTarget{"csv", pair_in_csv}};
+    PairTarget{"c-header", pair_in_c},    PairTarget{"fortran", pair_in_fortran},
+    PairTarget{"python", pair_in_python}, PairTarget{"matlab", pair_in_matlab},
+    PairTarget{"json", pair_in_json},     PairTarget{"csv", pair_in_csv}};
 
 }  // namespace
 

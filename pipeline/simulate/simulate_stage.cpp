@@ -82,19 +82,18 @@ results::FailedModel failure_of(const reduced_model::ModelChoice& choice, const 
   return {choice.name, reason, error.kind(), {}};
 }
 
-/// The force of the fit, after a check that the fit was made for the case.
-lubrication::LubricationForce force_for(const case_file::Case& c, const lubrication::Fit& fit,
-                                        const fs::path& fit_path,
-                                        const lubrication::OutsideInterval& outside) {
-  // A fit for another radius cannot be used. A fit for another viscosity could be scaled, but not
-  // without the user's knowledge, because the case and the fit contradict each other.
+/// The fit of a text, scaled to the case. The user is told if it was made for another sphere or
+/// fluid.
+lubrication::Fit fit_of_text(const case_file::Case& c, const FitFile& file) {
+  auto fit = lubrication::parse_fit(file.text, file.path.string());
   if (!equal_up_to_rounding(fit.viscosity, c.viscosity) ||
       !equal_up_to_rounding(fit.radius, c.radius))
-    throw_bad_input({fit_path.string()},
-                    fmt::format("was made for viscosity {} and radius {}, but the case has "
-                                "viscosity {} and radius {}; tabulate and fit for the case",
-                                fit.viscosity, fit.radius, c.viscosity, c.radius));
-  return with_place(fit_path.string(), [&] { return lubrication::LubricationForce(fit, outside); });
+    terminal::say(fmt::format(
+        "simulate: the fit is that of radius {} and viscosity {}{}; it is scaled to radius {} and "
+        "viscosity {}",
+        fit.radius, fit.viscosity, fit.container.empty() ? "" : ", container: " + fit.container,
+        c.radius, c.viscosity));
+  return case_file::fit_for(c, std::move(fit), file.path);
 }
 
 /// Adds comments that say how the trajectory was computed, and drops rows if the case asks for it.
@@ -136,8 +135,9 @@ Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
   motion.stop = stop;
   Simulated simulated;
   simulated.fit_text = fit_file.text;
-  const lubrication::Fit fit = lubrication::parse_fit(fit_file.text, fit_file.path.string());
-  const lubrication::LubricationForce force = force_for(c, fit, fit_file.path, outside);
+  const lubrication::Fit fit = fit_of_text(c, fit_file);
+  const auto force = with_place(fit_file.path.string(),
+                                [&] { return lubrication::LubricationForce(fit, outside); });
   const auto names = models_to_run(c, models);
   check_parameters(c, names);
   simulated.made_from = identity_of_trajectory(c, simulated.fit_text, outside);

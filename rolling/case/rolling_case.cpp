@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "viscontact/case_file/shared_sections.hpp"
-#include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/freefem_axi/geometry.hpp"
@@ -132,9 +131,10 @@ void rolling_sphere_keys(case_file::Keys& keys, RollingCase& c) {
 
 void pair_fit_keys(case_file::Keys& keys, RollingCase& c) {
   std::string file;
-  keys.required("file", case_file::text(file),
-                {"fit of a pair (JSON) beside a plane, with the radius of the sphere; its "
-                 "viscosity may be another one"});
+  keys.required(
+      "file", case_file::text(file),
+      {"fit of a pair (JSON) beside a plane, which is [scaled](physics.md#3-the-fit-fitting) "
+       "to radius and viscosity of the case"});
   c.fit = c.path.parent_path() / file;
 }
 
@@ -176,18 +176,11 @@ RollingCase read_rolling_case(const std::filesystem::path& path) {
 
 motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
                          const std::filesystem::path& file) {
-  if (!equal_up_to_rounding(fit.radius, c.radius))
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: the sphere of the fit has the radius {}, that of the case {}",
-                            file.string(), fit.radius, c.radius));
   if (!fit.geometry.empty() && fit.geometry != freefem_axi::default_geometry().name)
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: is the fit of a sphere beside: {}; it must be a plane",
                             file.string(), fit.geometry));
-  for (auto& [entry, one] : fit.entries)
-    one.fit = lubrication::with_viscosity(std::move(one.fit), c.viscosity);
-  fit.viscosity = c.viscosity;
-  return fit;
+  return motions::scaled_to(std::move(fit), c.viscosity, c.radius);
 }
 
 std::vector<case_file::KeyTable> tables_of_rolling_case() {

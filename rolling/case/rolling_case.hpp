@@ -41,9 +41,8 @@ struct RollingCase {
 /// value and what is allowed.
 RollingCase read_rolling_case(const std::filesystem::path& path);
 
-/// `fit`, converted to the viscosity of the case. `file`, from which it was read, is named in
-/// messages. Throws Error(kBadInput) if the fit is that of another radius, or not that of a sphere
-/// above a plane.
+/// `fit`, scaled to radius and viscosity of the case. `file`, from which it was read, is named in
+/// messages. Throws Error(kBadInput) if the fit is not that of a sphere above a plane.
 motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
                          const std::filesystem::path& file);
 

@@ -22,8 +22,8 @@ constexpr std::array kRollingColumns = {"gap",   "smallest_gap", "position",
 
 /// Throws Error(kWrongUsage) if the fit depends on the key, or if the key changes no row.
 void check_rolling_key(const std::string& key) {
-  constexpr std::array kOther = {"fluid.viscosity", "fluid.density", "sphere.mass",
-                                 "sphere.density", "sphere.moment_of_inertia"};
+  constexpr std::array kOther = {"fluid.viscosity", "fluid.density",  "sphere.radius",
+                                 "sphere.mass",     "sphere.density", "sphere.moment_of_inertia"};
   if (key.starts_with("rolling.") || std::ranges::find(kOther, key) != kOther.end()) return;
   throw Error(
       ErrorKind::kWrongUsage,

@@ -32,7 +32,7 @@ RollingPlan planned_rolling(const RollingCase& c);
 /// model that fails are empty. `version` is that of Viscontact.
 ///
 /// Reads the case and the fit. Throws Error(kBadInput) if the first or the last point gives no
-/// valid case, or if the fit is not that of its radius above a plane. Throws Error(kWrongUsage) if
+/// valid case, or if the fit is not that of a sphere above a plane. Throws Error(kWrongUsage) if
 /// nothing is varied, if a key is varied twice or changes the tables of the fit, or if a model is
 /// not known or is given twice.
 sweep::Study rolling_study(RollingPlan plan, const std::string& version);

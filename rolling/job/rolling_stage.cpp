@@ -10,6 +10,7 @@
 #include <array>
 #include <filesystem>
 
+#include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locks.hpp"
@@ -69,6 +70,18 @@ void make_fit(const RollingCase& c, const RollingFolder& folder, const RollingRe
 motions::PairFit fit_of(const RollingCase& c, const RollingFolder& folder) {
   const auto file = c.fit.value_or(folder.fit());
   return fit_for(c, motions::read_pair_fit(file), file);
+}
+
+/// Tells the user if the fit of the case was made for another sphere or fluid.
+void tell_of_scaling(const RollingCase& c) {
+  if (!c.fit) return;
+  const auto fit = motions::read_pair_fit(*c.fit);
+  if (!equal_up_to_rounding(fit.radius, c.radius) ||
+      !equal_up_to_rounding(fit.viscosity, c.viscosity))
+    terminal::say(fmt::format(
+        "rolling: the fit is that of radius {} and viscosity {}; it is scaled to radius {} and "
+        "viscosity {}",
+        fit.radius, fit.viscosity, c.radius, c.viscosity));
 }
 
 /// The columns of a trajectory before `contact`.
@@ -184,6 +197,7 @@ void run_rolling(const RollingRequest& request) {
   pipeline::RowFailure rows_failed;
   make_fit(results.c, folder, request, rows_failed);
   results.fit = fit_of(results.c, folder);
+  tell_of_scaling(results.c);
   std::vector<fs::path> given = {results.c.path};
   if (results.c.fit) given.push_back(*results.c.fit);
   const auto provenance = results::provenance_of(

@@ -7,9 +7,12 @@
 
 #include <utility>
 
+#include "viscontact/common/error.hpp"
 #include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 #include "viscontact/swimmer/swim.hpp"
+#include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 namespace viscontact::swimmer {
 namespace {
@@ -36,8 +39,7 @@ void check_swimmer_key(const std::string& key) {
 
 sweep::RowResults swim_strokes(const SwimmerCase& c, ResistanceFit fit, const StopToken& stop) {
   sweep::RowResults results;
-  fit.viscosity = c.spheres.viscosity;  // the resistances of the fit are proportional to it
-  const Swimmer swimmer(fit);
+  const Swimmer swimmer(scaled_to(std::move(fit), c.spheres.viscosity, c.spheres.radii));
   if (c.stroke)
     sweep::add_part(results, [&] { add_sums("", swim_sums(swimmer, *c.stroke), results); });
   if (c.optimal)
@@ -61,10 +63,16 @@ sweep::Study swimmer_study(const std::filesystem::path& case_path, sweep::Points
   SwimmerCase last;
   sweep::check_ends(points, [&](const auto& numbers) {
     last = cases.with(numbers);
-    if (last.spheres.radii != fit.radii)
+    const auto scaled = with_place(case_path.string(), [&] {
+      return scaled_to(fit, last.spheres.viscosity, last.spheres.radii);
+    });
+    const auto around = surroundings_in_words(last.spheres);
+    if (last.spheres.radii != fit.radii && !scaled.container.empty() &&
+        !lubrication::same_words(scaled.container, around))
       throw_bad_input({case_path.string()},
-                      "swimmer.radii differ from the radii of the fit; give the fit that "
-                      "`viscontact swimmer` made from this case");
+                      fmt::format("the container of the fit is '{}', that of the case is '{}'; "
+                                  "give the fit that `viscontact swimmer` made from this case",
+                                  scaled.container, around));
   });
   if (!last.stroke && !last.optimal)
     throw Error(ErrorKind::kWrongUsage, "the case has neither [stroke] nor [optimal]");

@@ -42,6 +42,11 @@ struct ResistanceFit {
   std::map<std::string, std::string> versions;  ///< program name to version
 };
 
+/// The fit for spheres of other radii [L] > 0 in the same ratios, and another viscosity [M/(L T)] >
+/// 0. R/(mu l) depends on the gaps in units of l alone. Throws Error(kBadInput) if the ratios
+/// differ.
+ResistanceFit scaled_to(ResistanceFit fit, double viscosity, const std::vector<double>& radii);
+
 /// The text of the fit file (JSON).
 std::string write_resistance_fit(const ResistanceFit& fit);
 

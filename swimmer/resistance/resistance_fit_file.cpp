@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <functional>
 
+#include "viscontact/common/equal_up_to_rounding.hpp"
+#include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/json_fields.hpp"
+#include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/swimmer/resistance/pair_lubrication.hpp"
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
 
@@ -89,6 +92,25 @@ void fields_of(JsonFields& json, ResistanceFit& fit) {
   if (json.reads()) check_gaps(json, fit);
   logarithms(json, fit);
   json.foreign_object("provenance");
+}
+
+ResistanceFit scaled_to(ResistanceFit fit, double viscosity, const std::vector<double>& radii) {
+  const double ratio = radii.front() / fit.radii.front();
+  const bool has_ratios = std::ranges::equal(radii, fit.radii, [&](double one, double other) {
+    return equal_up_to_rounding(one, ratio * other);
+  });
+  if (!has_ratios)
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("the radii [{}] of the case are no multiple of those of the fit, [{}]; "
+                            "give a fit of the same ratios",
+                            fmt::join(radii, ", "), fmt::join(fit.radii, ", ")));
+  fit.viscosity = viscosity;
+  if (radii == fit.radii) return fit;
+  for (auto& nodes : fit.gaps)
+    for (auto& gap : nodes) gap *= ratio;
+  fit.radii = radii;
+  fit.container = lubrication::with_lengths_scaled(fit.container, ratio);
+  return fit;
 }
 
 std::string write_resistance_fit(const ResistanceFit& fit) { return JsonFields::text_of(fit, 1); }

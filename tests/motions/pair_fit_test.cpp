@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -31,6 +34,41 @@ TEST(PairBasis, HasTheTermsThatTheoryHas) {
             "1, q ln q, q, q^2 ln q, q^2, q^3, q^3 ln q, ");
   EXPECT_THAT(bad_input([&] { (void)basis_of_entry(entries[0], "lecture"); }),
               HasSubstr("asymptotic, asymptotic_extended, asymptotic_cubic, asymptotic_quartic"));
+}
+
+TEST(ScaledPairFit, HasTheResistancesOfTheSameGapInRadii) {
+  const auto fit = read_pair_fit(kPlane);
+  const double ratio = 5e-4 / fit.radius, viscous = 0.1 / fit.viscosity;
+  const auto scaled = scaled_to(fit, 0.1, 5e-4);
+  EXPECT_EQ(scaled.radius, 5e-4);
+  EXPECT_EQ(scaled.viscosity, 0.1);
+  EXPECT_DOUBLE_EQ(scaled.gap_interval[1], fit.gap_interval[1] * ratio);
+  // Force per velocity, torque per velocity, torque per angular velocity (2.12).
+  const std::map<PairEntry, int> powers = {{PairEntry::kSqueeze, 1},
+                                           {PairEntry::kSlide, 1},
+                                           {PairEntry::kSlideRoll, 2},
+                                           {PairEntry::kRoll, 3},
+                                           {PairEntry::kSpin, 3}};
+  for (const auto& [entry, power] : powers)
+    for (const double gap : {1e-3, 0.03, 1.0})
+      EXPECT_NEAR(entry_value(scaled, entry, gap * ratio) / entry_value(fit, entry, gap) /
+                      (viscous * std::pow(ratio, power)),
+                  1, 1e-12)
+          << static_cast<int>(entry) << " " << gap;
+  // Theory's coefficients scale as the fitted ones: a fit of them is at the same distance.
+  for (const auto& [entry, one] : fit.entries)
+    if (one.theory) {
+      const auto leading = pair_entries()[static_cast<std::size_t>(entry)].leading_term;
+      const auto coefficient = [&](const EntryFit& of) {
+        for (const auto& term : of.fit.terms)
+          if (term.name == leading) return term.coefficient;
+        return 0.0;
+      };
+      EXPECT_NEAR(*scaled.entries.at(entry).theory * coefficient(one),
+                  *one.theory * coefficient(scaled.entries.at(entry)),
+                  1e-12 * std::abs(*one.theory * coefficient(scaled.entries.at(entry))));
+    }
+  EXPECT_EQ(write_pair_fit(scaled_to(fit, fit.viscosity, fit.radius)), write_pair_fit(fit));
 }
 
 TEST(PairFitFile, IsReadAsItWasWritten) {

@@ -28,6 +28,7 @@ inline std::vector<TextOfKind> texts_of_all_kinds() {
           {TextKind::kXml, "<?xml version=\"1.0\"?>\n<VTKFile>\n</VTKFile>\n"},
           {TextKind::kC, "double force(double gap);\n"},
           {TextKind::kFortran, "real function force(gap)\n"},
+          {TextKind::kMatlab, "function f = force()\nend\n"},
           {TextKind::kPdf, "%PDF-1.5\ntrailer\n<< >>\nstartxref\n9\n%%EOF\n"},
           {TextKind::kPng, png}};
 }

@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedRolling{"AnAngleInDegrees", "incline = 0.3", "incline = 17.0",
                        "rolling.incline is 17; it must be a number of radians from -1.6 to 1.6"},
         RefusedRolling{"InclineOfAForce", "weight = 1.0", "force = [1.0, -1.0]",
-                       "belongs to weight; give weight in place of force"},
+                       "belongs to weight and gravity; give one of them in place of force"},
         RefusedRolling{"ForceOfThreeNumbers", "weight = 1.0\nincline = 0.3",
                        "force = [1.0, 2.0, 3.0]", "has 3 numbers; it must have two"},
         RefusedRolling{"RoughnessOfARadius", "roughness = 1e-3", "roughness = 1.0",

@@ -84,8 +84,8 @@ TEST_F(RollingStudy, SectionOfTheCaseGivesThePlan) {
 
 TEST_F(RollingStudy, WrongPlansAreRefused) {
   EXPECT_THAT(refusal(plan({})), HasSubstr("nothing to vary"));
-  EXPECT_THAT(refusal(plan({"sphere.radius=1,2"})),
-              HasSubstr("sphere.radius cannot be varied with one fit"));
+  EXPECT_THAT(refusal(plan({"tabulation.relative_accuracy=1e-3,1e-4"})),
+              HasSubstr("tabulation.relative_accuracy cannot be varied with one fit"));
   EXPECT_THAT(refusal(plan({"sphere.mass=1,2", "motion.mass=1,2"})),
               HasSubstr("sphere.mass is given twice"));
   auto other = plan({"sphere.mass=1,2"});

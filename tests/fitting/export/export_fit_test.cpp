@@ -59,6 +59,11 @@ std::vector<Values> values_of(const std::string& output) {
   return values;
 }
 
+/// Gaps from far below the interval to far above it.
+std::array<double, 2> wide(const lubrication::Fit& fit) {
+  return {1e-4 * fit.gap_interval[0], 50 * fit.gap_interval[1]};
+}
+
 void expect_values(const std::vector<Values>& values, const lubrication::Fit& fit) {
   const lubrication::LubricationForce force(fit);
   const auto gaps = lubrication::spread_gaps(fit.gap_interval);
@@ -74,16 +79,36 @@ void expect_values(const std::vector<Values>& values, const lubrication::Fit& fi
   }
 }
 
+/// Both limits of the drag outside the interval.
+lubrication::OutsideInterval both_limits() { return lubrication::OutsideInterval{}.with_limits(); }
+
+/// Compares with the force that has both limits, from far below the interval to far above it.
+void expect_values_outside(const std::vector<Values>& values, const lubrication::Fit& fit) {
+  const lubrication::LubricationForce force(fit, both_limits());
+  const auto gaps = lubrication::spread_gaps(wide(fit));
+  ASSERT_EQ(values.size(), gaps.size());
+  // What is asked of an export. Libraries for arrays have logarithms of their own.
+  constexpr double kRounding = 1e-14;
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const double resistance = force.resistance(gaps[i]);
+    EXPECT_NEAR(values[i].resistance / resistance, 1, kRounding) << gaps[i];
+    EXPECT_NEAR(values[i].force / (-resistance * kVelocity), 1, kRounding) << gaps[i];
+    EXPECT_NEAR(values[i].impulse, force.impulse(gaps[i]),
+                kRounding * std::max(std::abs(force.impulse(gaps[i])), resistance * gaps[i]))
+        << gaps[i];
+  }
+}
+
 class Export : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
   /// The gaps as a list in the language's source.
-  static std::string gap_list(const lubrication::Fit& fit, const std::string& suffix = "") {
+  static std::string gap_list(const std::array<double, 2>& interval, char exponent = 'e') {
     std::string list;
-    for (const double gap : lubrication::spread_gaps(fit.gap_interval)) {
+    for (const double gap : lubrication::spread_gaps(interval)) {
       std::string text = fmt::format("{:.17e}", gap);
-      if (!suffix.empty()) std::ranges::replace(text, 'e', suffix[0]);
+      std::ranges::replace(text, 'e', exponent);
       list += (list.empty() ? "" : ", ") + text;
     }
     return list;
@@ -93,6 +118,12 @@ class Export : public ::testing::Test {
     const auto result = run_process(command);
     EXPECT_EQ(result.exit_status, 0) << result.output;
     return result.output;
+  }
+
+  /// What Octave prints that runs a script in its folder.
+  std::string octave(const std::string& script) const {
+    return output_of(
+        {"octave-cli", "--norc", "--no-history", "--path", folder_.path().string(), script});
   }
 
   lubrication::Fit fit_ = fit_of_all_terms();
@@ -114,7 +145,7 @@ int main(void) {{
            isnan(viscontact_force(-1, 1)));
 }}
 )",
-                                       gap_list(fit_), kVelocity));
+                                       gap_list(fit_.gap_interval), kVelocity));
   for (const auto& compiler : {std::vector<std::string>{"gcc", "-std=c99", "-x", "c"},
                                std::vector<std::string>{"g++", "-std=c++11", "-x", "c++"}}) {
     auto command = compiler;
@@ -162,8 +193,120 @@ for gap in (9e-4, 2.1, float("nan")):
             continue
         raise SystemExit("no error at " + str(gap))
 )",
-                                        gap_list(fit_), kVelocity));
+                                        gap_list(fit_.gap_interval), kVelocity));
   expect_values(values_of(output_of({"python3", path("main.py")})), fit_);
+}
+
+TEST_F(Export, PythonModuleTakesArraysOfNumPy) {
+  // Debian's python3, for which python3-numpy is.
+  put_text(path("lubrication.py"), export_fit(fit_, "python", "", both_limits()));
+  put_text(path("main.py"), fmt::format(R"(
+import lubrication, numpy
+gaps = numpy.array([{}])
+columns = lubrication.resistance(gaps), lubrication.force(gaps, {}), lubrication.impulse(gaps)
+for row in zip(*columns):
+    print(*(repr(float(value)) for value in row))
+grid = gaps[:200].reshape(4, 50)
+assert (lubrication.resistance(grid) == columns[0][:200].reshape(4, 50)).all()
+assert lubrication.impulse(numpy.array(0.5)).shape == ()
+assert isinstance(lubrication.resistance(numpy.float64(0.5)), float)
+assert lubrication.resistance(list(gaps)).shape == gaps.shape
+for bad in ([0.5, -1.0], [0.0, 0.5], [0.5, float("nan")], [float("inf")]):
+    try:
+        lubrication.resistance(numpy.array(bad))
+    except ValueError as error:
+        assert "is outside [0.001, 2]" in str(error), error
+        continue
+    raise SystemExit("no error at " + str(bad))
+)",
+                                        gap_list(wide(fit_)), kVelocity));
+  expect_values_outside(values_of(output_of({"/usr/bin/python3", path("main.py")})), fit_);
+}
+
+TEST_F(Export, OctaveFunctionsHaveTheValuesAndAreNanOutside) {
+  // scripts/setup does not install it.
+  if (run_process({"sh", "-c", "command -v octave-cli"}).exit_status != 0)
+    GTEST_SKIP() << "octave-cli is not installed";
+  put_text(path("viscontact_lubrication.m"), export_fit(fit_, "matlab"));
+  put_text(path("main.m"), fmt::format(R"(
+f = viscontact_lubrication();
+gaps = [{}];
+printf("%.17g %.17g %.17g\n", [f.resistance(gaps); f.force(gaps, {}); f.impulse(gaps)]);
+assert(all(isnan(f.resistance([9e-4, 2.1; NaN, -1])(:))));
+assert(size(f.impulse(gaps')), size(gaps'));
+assert(f.resistance(f.smallest_gap) > f.resistance(f.largest_gap));
+)",
+                                       gap_list(fit_.gap_interval), kVelocity));
+  expect_values(values_of(octave(path("main.m"))), fit_);
+  put_text(path("viscontact_lubrication.m"), export_fit(fit_, "matlab", "", both_limits()));
+  put_text(path("main.m"), fmt::format(R"(
+f = viscontact_lubrication();
+gaps = [{}];
+printf("%.17g %.17g %.17g\n", [f.resistance(gaps); f.force(gaps, {}); f.impulse(gaps)]);
+assert(all(isnan(f.resistance([0, -1, NaN, Inf]))));
+)",
+                                       gap_list(wide(fit_)), kVelocity));
+  expect_values_outside(values_of(octave(path("main.m"))), fit_);
+}
+
+TEST_F(Export, CHeaderHasTheLimitsOutsideTheInterval) {
+  put_text(path("force.h"), export_fit(fit_, "c-header", "", both_limits()));
+  put_text(path("main.c"), fmt::format(R"(
+#include <stdio.h>
+#include "force.h"
+int main(void) {{
+  const double gaps[] = {{{}}};
+  for (unsigned i = 0; i < sizeof gaps / sizeof *gaps; ++i)
+    printf("%.17g %.17g %.17g\n", viscontact_resistance(gaps[i]),
+           viscontact_force(gaps[i], {}), viscontact_impulse(gaps[i]));
+  return !(isnan(viscontact_resistance(0)) && isnan(viscontact_impulse(HUGE_VAL)) &&
+           isnan(viscontact_force(-1, 1)) && isnan(viscontact_resistance(NAN)));
+}}
+)",
+                                       gap_list(wide(fit_)), kVelocity));
+  output_of({"gcc", "-std=c99", "-x", "c", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
+             path("main.c"), "-o", path("program"), "-lm"});
+  expect_values_outside(values_of(output_of({path("program")})), fit_);
+}
+
+TEST_F(Export, FortranModuleHasTheLimitsOutsideTheInterval) {
+  put_text(path("force.f90"), export_fit(fit_, "fortran", "", both_limits()));
+  std::string calls;
+  for (const double gap : lubrication::spread_gaps(wide(fit_))) {
+    std::string text = fmt::format("{:.17e}", gap);
+    std::ranges::replace(text, 'e', 'd');
+    calls += fmt::format(
+        "  print '(3es25.16e3)', viscontact_resistance({0}), viscontact_force({0}, {1}d0), &\n"
+        "    viscontact_impulse({0})\n",
+        text, kVelocity);
+  }
+  put_text(path("main.f90"),
+           "program main\n  use viscontact_lubrication\n  use, intrinsic :: ieee_arithmetic\n"
+           "  implicit none\n" +
+               calls +
+               "  if (.not. ieee_is_nan(viscontact_resistance(0d0))) stop 1\nend program\n");
+  output_of({"gfortran", "-std=f2008", "-Wall", "-Wextra", "-pedantic", "-Werror", "-J",
+             folder_.path().string(), path("force.f90"), path("main.f90"), "-o", path("program")});
+  expect_values_outside(values_of(output_of({path("program")})), fit_);
+}
+
+TEST_F(Export, JsonHasTheLimitsAndCsvRefusesThem) {
+  fit_.leading_coefficient = 90;
+  auto limits = both_limits();
+  limits.below = lubrication::BelowInterval::kTheoryLimit;
+  const auto json = nlohmann::json::parse(export_fit(fit_, "json", "", limits));
+  const lubrication::LubricationForce force(fit_, limits);
+  const auto& below = json.at("below");
+  EXPECT_EQ(below.at("k"), 90);
+  EXPECT_NEAR(below.at("k").get<double>() / 1e-5 + below.at("constant").get<double>(),
+              force.resistance(1e-5), 1e-14 * force.resistance(1e-5));
+  const auto& above = json.at("above");
+  EXPECT_NEAR(
+      above.at("stokes").get<double>() + above.at("reflected").get<double>() / (7 + fit_.radius),
+      force.resistance(7), 1e-14 * force.resistance(7));
+  EXPECT_FALSE(nlohmann::json::parse(export_fit(fit_, "json")).contains("below"));
+  EXPECT_THAT(failure(ErrorKind::kWrongUsage, [&] { export_fit(fit_, "csv", "", limits); }),
+              HasSubstr("within the interval of the fit only"));
 }
 
 TEST_F(Export, CsvHasTheValuesAtTheReferenceVelocity) {
@@ -222,7 +365,7 @@ TEST_F(Export, SaysIntervalErrorAndSource) {
 
 TEST_F(Export, ToAnUnknownLanguageIsRefusedWithTheNamesThereAre) {
   EXPECT_THAT(bad_input([&] { export_fit(fit_, "cobol"); }),
-              HasSubstr("c-header, fortran, python, json, csv"));
+              HasSubstr("c-header, fortran, python, matlab, json, csv"));
 }
 
 TEST_F(Export, OfADragThatIsNotPositiveIsRefused) {

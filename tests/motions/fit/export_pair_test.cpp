@@ -90,6 +90,26 @@ TEST_F(ExportOfAPair, PythonModuleHasAllFunctions) {
   expect_values({"python3", path("main.py")});
 }
 
+TEST_F(ExportOfAPair, PythonAndOctaveTakeArrays) {
+  const std::string gaps = fmt::format("[{:.17e}]", fmt::join(kGaps, ", "));
+  put_text(path("pair.py"), export_pair(fit_, "python", ""));
+  put_text(path("main.py"),
+           "import numpy, pair\ngaps = numpy.array(" + gaps +
+               ")\nfor row in zip(pair.squeeze(gaps), pair.slide(gaps), pair.roll(gaps),\n"
+               "               pair.slide_roll(gaps), pair.spin(gaps)):\n"
+               "    print(*(repr(float(value)) for value in row))\n");
+  expect_values({"/usr/bin/python3", path("main.py")});  // Debian's, which has NumPy
+  if (run_process({"sh", "-c", "command -v octave-cli"}).exit_status != 0)
+    GTEST_SKIP() << "octave-cli is not installed, nor does scripts/setup install it";
+  put_text(path("viscontact_pair.m"), export_pair(fit_, "matlab", "plane.json"));
+  put_text(path("main.m"),
+           "f = viscontact_pair();\ngaps = " + gaps +
+               ";\nprintf('%.17g\\n', [f.squeeze(gaps); f.slide(gaps); f.roll(gaps); "
+               "f.slide_roll(gaps); f.spin(gaps)]);\nassert(isnan(f.roll(2)));\n");
+  expect_values(
+      {"octave-cli", "--norc", "--no-history", "--path", folder_.path().string(), path("main.m")});
+}
+
 TEST_F(ExportOfAPair, JsonAndCsvHaveSamplesOfAllFunctions) {
   const auto json = nlohmann::json::parse(export_pair(fit_, "json", ""));
   for (const auto& entry : pair_entries()) {

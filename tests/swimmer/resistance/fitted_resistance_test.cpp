@@ -2,6 +2,7 @@
 // file and its evaluation.
 #include "viscontact/swimmer/resistance/fitted_resistance.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -99,6 +100,25 @@ TEST(FittedResistance, FileReadsBackBitForBit) {
   EXPECT_EQ(again.largest_left_one_out_error, fit.largest_left_one_out_error);
   const std::array gaps = {1.0, 2.0};
   EXPECT_EQ(FittedResistance(again)(gaps).value, FittedResistance(fit)(gaps).value);
+}
+
+TEST(ScaledResistanceFit, HasTheResistancesOfTheSameGapsInRadii) {
+  auto fit = fit_resistance(exact_table({1, 2, 0.5}, 3.5, 9, 4));
+  fit.container = "closed cylinder, radius 40, height 80";
+  const double ratio = 3e-6, viscosity = 1e-3;
+  const auto scaled = scaled_to(fit, viscosity, {ratio, 2 * ratio, 0.5 * ratio});
+  const auto expected = FittedResistance(fit)(std::array{1.0, 2.0}).value;
+  const auto value = FittedResistance(scaled)(std::array{ratio, 2 * ratio}).value;
+  EXPECT_LT((value / (viscosity / fit.viscosity * ratio) - expected).norm(),
+            1e-12 * expected.norm());
+  EXPECT_EQ(scaled.container,
+            fmt::format("closed cylinder, radius {}, height {}", 40 * ratio, 80 * ratio));
+  EXPECT_EQ(write_resistance_fit(scaled_to(fit, fit.viscosity, fit.radii)),
+            write_resistance_fit(fit));
+  EXPECT_THAT(bad_input([&] {
+                (void)scaled_to(fit, 1, {1, 2, 0.6});
+              }),
+              HasSubstr("are no multiple of those of the fit, [1, 2, 0.5]"));
 }
 
 TEST(FittedResistance, DamagedFileIsBadInputWithItsPlace) {
