@@ -39,7 +39,7 @@ reduced_model::Trajectory by_reduced_model(const Case& c) {
                                reduced_model::ExternalForce(c.pieces)};
   motion.set(reduced_model::kContactTimeStep, c.step);
   // The model viscous_contact without the fit: contact at q = 0, gamma_min, no drag.
-  return reduced_model::run_contact_model(motion, {0, c.gamma_min, {}, {}});
+  return reduced_model::run_contact_model(motion, {.contact_gap = 0, .gamma_min = c.gamma_min});
 }
 
 /// The plane anywhere, at any slope; half of the force is weight.

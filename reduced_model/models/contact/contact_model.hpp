@@ -35,7 +35,7 @@ struct ContactModel {
   /// The resolved drag; nothing if only f_ext acts at a distance.
   std::optional<ResolvedDrag> drag;
   /// Thickness [L] of the film that is recovered from gamma [M L/T].
-  std::function<double(double gamma)> film_thickness;
+  std::function<double(double gamma)> film_thickness{};
   /// The function film_thickness as a formula, for the header of trajectory files.
   std::string film_law{};
   /// Coefficient e_d of restitution of the solids [1], 0 to 1; run_contact_model sets it.
