@@ -33,7 +33,7 @@ struct ContactModel {
   /// 0 without a film.
   double solid_resistance = 0;
   /// The resolved drag; nothing if only f_ext acts at a distance.
-  std::optional<ResolvedDrag> drag;
+  std::optional<ResolvedDrag> drag{};
   /// Thickness [L] of the film that is recovered from gamma [M L/T].
   std::function<double(double gamma)> film_thickness{};
   /// The function film_thickness as a formula, for the header of trajectory files.
