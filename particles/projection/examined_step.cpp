@@ -63,8 +63,7 @@ void StepProjection<D>::examine_links(const SolverSettings& settings, double mea
   for (const auto& link : links) {
     bool is_named = false;
     for_particles(link, [&](std::size_t k) { is_named = is_named || is_held[k] != 0; });
-    if (is_named && link.kind != LinkEquations::Kind::kTorsion &&
-        link.kind != LinkEquations::Kind::kSpring)
+    if (is_named && !link.is_spring())
       result.unsolved_links.push_back(name_of(link, *links_, state_.particles));
   }
 }
