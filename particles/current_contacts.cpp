@@ -36,7 +36,7 @@ double smallest_gap_of_images(const Particles& p) {
   double smallest = 0;
   for (std::size_t j = 0; j < p.count(); ++j)
     for (std::size_t i = 0; i < j; ++i) {
-      if (p.bodies.are_one(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j))) continue;
+      if (p.are_joined(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j))) continue;
       const Vector apart = nearest_image(p.cell, p.position(j) - p.position(i));
       smallest = std::min(smallest, norm(apart) - p.radii[i] - p.radii[j]);
     }
@@ -78,7 +78,7 @@ double largest_overlap(const Setting& setting, const State& state) {
                                  : close_pairs(p.dimension, p.positions, p.radii, pool);
   }
   for (const auto& pair : close)
-    if (!p.bodies.are_one(pair.first, pair.second))
+    if (!p.are_joined(pair.first, pair.second))
       smallest =
           std::min(smallest, place_of(p, {pair.first, pair.second, 0, 0, 0, pair.image}, {}).gap);
   for (const auto& place : positions_of(obstacles_of(setting), state.time))

@@ -26,10 +26,7 @@ std::array<double, 2> WallVelocity::at(double time, double from, double to) cons
 
 bool Fluid::are_of_one_membrane(std::int32_t first, std::int32_t second) const {
   return std::ranges::any_of(membranes, [&](const Membrane& membrane) {
-    const auto has = [&](std::int32_t k) {
-      return k >= membrane.first && k < membrane.first + membrane.beads;
-    };
-    return has(first) && has(second);
+    return membrane.has(first) && membrane.has(second);
   });
 }
 

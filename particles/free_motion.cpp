@@ -111,6 +111,8 @@ std::vector<char> Simulation::free_particles() const {
     bind(arm.first);
     bind(arm.second);
   }
+  for (const auto& membrane : setting_.links.membranes)
+    for (const auto bead : membrane.beads) bind(bead);
   return is_free;
 }
 

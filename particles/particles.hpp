@@ -43,9 +43,20 @@ struct Particles {
   PeriodicCell cell{};
   /// Rigid bodies of several particles. The case gives them; the restart file stores their motion.
   RigidBodies bodies{};
+  /// Numbers of the two beads that are next to each bead on its membrane, -1 for other particles;
+  /// empty without membranes, and in a fluid. The case gives them, the restart file does not.
+  std::vector<std::array<std::int32_t, 2>> neighbours{};
 
   std::size_t count() const { return radii.size(); }         ///< number of particles
   bool turn() const { return !angular_velocities.empty(); }  ///< whether rotation matters
+  /// True if two particles make no contact, because they belong to one body or are neighbours on a
+  /// membrane.
+  bool are_joined(std::int32_t first, std::int32_t second) const {
+    if (bodies.are_one(first, second)) return true;
+    if (neighbours.empty()) return false;
+    const auto& next = neighbours[static_cast<std::size_t>(first)];
+    return next[0] == second || next[1] == second;
+  }
   /// Name of particle k < count() in files.
   std::int32_t id(std::size_t k) const {
     return ids.empty() ? static_cast<std::int32_t>(k) : ids[k];

@@ -62,7 +62,9 @@ Simulation::Simulation(Setting setting, State state, int threads)
       obstacles_(obstacles_of(setting_)),
       grid_(setting_.time_step, setting_.scheme == Scheme::kLeapfrog, jump_times(setting_)) {
   state_.particles.cell = cell_of(setting_.domain);
+  join_neighbours(setting_.links.membranes, state_.particles);
   wrap_into_cell(state_);
+  if (state_.steps > 0) check_shapes(setting_.links.membranes, state_.particles);
 }
 
 /// Multiplies the impulses of all pairs, which are guesses for a part of a step of another length.

@@ -113,16 +113,16 @@ MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles:
                 fmt::format("the case has {} membranes; at most {} are allowed", membranes_.size(),
                             kMostMembranes));
   // With fewer nodes on the edges a force on a bead would not be smooth on the edges.
-  for (const auto& membrane : membranes_) edges_ = std::max(edges_, (2 * membrane.beads + 2) / 3);
+  for (const auto& membrane : membranes_) edges_ = std::max(edges_, (2 * membrane.count() + 2) / 3);
   // Without particles, the rigid motions are unknowns that are not there.
   auto rigid = fluid;
   rigid.constraint = particles::RigidConstraint::kRigid;
   std::string text =
       opening(rigid, domain_, {}, 2) + fmt::format("membranes {}\n", membranes_.size());
   for (const auto& membrane : membranes_) {
-    const auto& smoothing = nodes_.emplace_back(nodes_of(membrane.beads, edges_)).smoothing;
-    text +=
-        fmt::format("{} {} {}\n", membrane.beads, edges_, format_number(membrane.viscosity_ratio));
+    const auto& smoothing = nodes_.emplace_back(nodes_of(membrane.count(), edges_)).smoothing;
+    text += fmt::format("{} {} {}\n", membrane.count(), edges_,
+                        format_number(membrane.viscosity_ratio));
     for (Eigen::Index i = 0; i < smoothing.rows(); ++i) {
       const Eigen::VectorXd row = smoothing.row(i);
       append(text, {row.data(), row.data() + row.size()}, "a weight");
@@ -145,9 +145,10 @@ void MembraneProcess::start() {
 void MembraneProcess::place(const particles::FluidParticles& bodies) {
   NodesOfMembranes nodes;
   for (std::size_t m = 0; m < nodes_.size(); ++m) {
-    Eigen::MatrixXd own(membranes_[m].beads, 2);
+    Eigen::MatrixXd own(membranes_[m].count(), 2);
     for (Eigen::Index k = 0; k < own.rows(); ++k) {
-      const auto at = bodies.particles->position(static_cast<std::size_t>(membranes_[m].first + k));
+      const auto at = bodies.particles->position(
+          particles::index_of(membranes_[m].beads[static_cast<std::size_t>(k)]));
       own.row(k) << at[0], at[1];
     }
     if (!own.allFinite())

@@ -28,6 +28,11 @@ void check_members(const case_file::TomlSection& section, const std::vector<std:
                     "body only",
                     id, body);
     section.require(
+        std::ranges::none_of(c.setting.links.membranes,
+                             [&](const Membrane& membrane) { return membrane.has(*member); }),
+        "particles", "contains particle {}, which is a bead of a membrane; beads belong to no body",
+        id);
+    section.require(
         !c.setting.given_motions.contains(*member), "particles",
         "contains particle {}, whose motion is given; a particle of a body must be free", id);
   }

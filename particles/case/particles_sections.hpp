@@ -56,10 +56,10 @@ struct ParticleLines {
 /// box; and if its discs do not fit.
 ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c);
 
-/// Reads [[membrane]], called by read_particles_of_case(): makes the beads, which become particles,
-/// and the membranes of c.setting.fluid. Also throws if the case has other particles, planes,
-/// bodies, links or forces, or a fluid that cannot have membranes; if so few beads cannot have the
-/// reduced area; and for membranes that cross.
+/// Reads [[membrane]], called by read_particles_of_case(): makes beads, which become particles, and
+/// the membranes of c.setting.fluid or, without a fluid, of c.setting.links. Also throws if the
+/// case has what cannot stand beside membranes, or a fluid that cannot have them; if so few beads
+/// cannot have the reduced area; and for membranes that cross.
 void read_membranes(const case_file::TomlSection& root, ParticlesCase& c, ParticleLines& lines);
 /// Describes this section.
 std::vector<case_file::KeyTable> membrane_tables();

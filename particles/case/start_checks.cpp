@@ -87,7 +87,7 @@ std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
   for (const auto& [first, second, image] :
        cell.is_periodic() ? close_pairs_in_period(cell, p.positions, extents, pool)
                           : close_pairs(p.dimension, p.positions, extents, pool)) {
-    if (p.bodies.are_one(first, second)) continue;
+    if (p.are_joined(first, second)) continue;
     if (c.setting.fluid && c.setting.fluid->are_of_one_membrane(first, second)) continue;
     const auto i = index_of(first), j = index_of(second);
     const auto shift = shift_of(cell, image);

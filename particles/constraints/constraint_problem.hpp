@@ -151,6 +151,9 @@ struct ConstraintProblem {
   /// Whether a rough solution of a convex problem is enough, which shows about how units move and which
   /// contacts carry load.
   bool is_rough = false;
+  /// Whether bilateral rows hold long chains of units together, as those of a membrane, through
+  /// which sweeps would carry impulses too slowly.
+  bool has_long_chains = false;
 
   /// Adds a row with these parts and a guess of its impulse [M L/T].
   void add_row(double offset, std::span<const RowPart<D>> of_row, double impulse) {

@@ -191,10 +191,10 @@ class Iteration {
   }
 
   /// A sweep costs a small part of a factorisation, so that sweeps go on as long as they gain.
-  /// Before interior points, which need the same time whatever they begin with, only sweeps that
-  /// are about to solve the problem are worth their time.
+  /// Before interior points, which need the same time whatever they begin with, and where units
+  /// make long chains, only sweeps that are about to solve the problem are worth their time.
   void sweep_while_it_gains(int max_iterations) {
-    const double gain = problem_.is_convex ? 0.1 : 0.7;
+    const double gain = problem_.is_convex || problem_.has_long_chains ? 0.1 : 0.7;
     double before = std::numeric_limits<double>::infinity();
     while (residual_ > 1 && residual_ < gain * before && best_.result.iterations < max_iterations) {
       before = residual_;

@@ -130,7 +130,7 @@ void ConstraintSystem<D>::add_link(std::size_t l, double mean_radius) {
   const bool is_stop = link.kind == LinkEquations::Kind::kStop;
   block.is_contact = is_stop;
   block.allowed = links_allowed[l];
-  if (link.is_of_angles()) block.allowed /= mean_radius;
+  if (link.is_angle()) block.allowed /= mean_radius;
   block.compliance = link.rows.front().compliance;
   problem_.blocks.push_back(block);
   for (std::size_t k = 0; k < link.rows.size(); ++k) {
@@ -193,8 +193,7 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system,
       shift(c, 0, gap_after(contact, displacements_));
   }
   for (std::size_t l = 0; l < links_.size(); ++l) {
-    const auto kind = links_[l].kind;
-    if (kind != LinkEquations::Kind::kArm && kind != LinkEquations::Kind::kHinge) continue;
+    if (links_[l].is_spring()) continue;
     const std::size_t b = system.contacts.size() + l;
     std::vector<UnitMotion> of_units;
     for (const auto& part : problem_.parts_of(problem_.blocks[b].row))
@@ -228,7 +227,7 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
     const auto& link = links_[l];
     const auto& block = problem_.blocks[b];
     link_residuals_[l] = solution.residuals[b].normal + shifts_[b];
-    if (link.is_of_angles()) link_residuals_[l] *= mean_radius_;
+    if (link.is_angle()) link_residuals_[l] *= mean_radius_;
     // The torque of a hinge is that of its spring and of its stops.
     const bool is_stop = link.kind == LinkEquations::Kind::kStop;
     const double sign = is_stop ? link.parts().front().direction[2] : 1;
@@ -252,6 +251,7 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   problem_.is_convex =
       step_.laws.friction && step_.laws.friction->method == FrictionMethod::kConvex;
   problem_.is_rough = is_rough;
+  problem_.has_long_chains = !step_.links->membranes.empty();
   number_units(system);
   for (std::size_t c = 0; c < system.contacts.size(); ++c)
     add_contact(system.contacts[c], c, allowed_slip);

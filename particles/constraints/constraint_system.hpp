@@ -79,7 +79,7 @@ class ConstraintSystem {
   }
   /// Residual of contact number `c` in the last solution [L].
   const BlockResidual& residual(std::size_t c) const { return residuals_[c]; }
-  /// Residual of link number `l` of links() in the last solution [L]; of angles times the mean
+  /// Residual of link number `l` of links() in the last solution [L]; of an angle times the mean
   /// radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
 

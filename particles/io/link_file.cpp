@@ -133,14 +133,13 @@ std::vector<TimeTable> time_tables(const Setting& setting, const Particles& part
       links.hinges.size(), hinge_rows);
   add("springs.csv", "length,force" + error, links.springs.size(), spring_rows);
   add("arms.csv", "length,force,power" + error, links.arms.size(), arm_rows);
-  add("membranes.csv", kMembraneColumns, setting.fluid ? setting.fluid->membranes.size() : 0,
-      membrane_rows);
+  add("membranes.csv", kMembraneColumns, membranes_of(setting).size(), membrane_rows);
   return tables;
 }
 
 namespace {
 
-enum class Kind : std::int32_t { kHinge, kSpring, kArm };
+enum class Kind : std::int32_t { kHinge, kSpring, kArm, kMembrane };
 
 /// The arrays of the file.
 struct DrawnCells {
@@ -162,7 +161,7 @@ struct DrawnCells {
 /// A place in space; on an axis the first number is along z.
 Vector in_space(const Vector& x, int dimension) { return dimension == 1 ? Vector{0, 0, x[0]} : x; }
 
-/// Adds the line of a spring or arm that pushes its ends apart with `force`.
+/// Adds the line of a spring or arm, or between beads, that pushes its ends apart with `force`.
 void add_line(DrawnCells& drawn, const Particles& p, Kind kind, std::size_t id, std::int32_t first,
               std::int32_t second, double force) {
   const Vector from = p.position(index_of(first));
@@ -197,6 +196,13 @@ std::string write_links(const Setting& setting, const State& state) {
   for (std::size_t k = 0; k < links.arms.size(); ++k)
     add_line(drawn, p, Kind::kArm, k, links.arms[k].first, links.arms[k].second,
              force(links.place_of_arm(k, p.dimension)));
+  for (std::size_t m = 0; m < links.membranes.size(); ++m) {
+    const auto& membrane = links.membranes[m];
+    const auto first = links.place_of_membrane(m, p.dimension);
+    for (std::int32_t k = 0; k < membrane.count(); ++k)
+      add_line(drawn, p, Kind::kMembrane, m, membrane.bead(k), membrane.bead(k + 1),
+               force(first + static_cast<std::size_t>(k)));
+  }
   AppendedData data;
   auto text = AppendedData::opening("PolyData");
   text += drawn.cells.opening(drawn.points.size() / 3);

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/membranes/necklace_rows.hpp"
 #include "viscontact/particles/rotation.hpp"
 
 namespace viscontact::particles {
@@ -189,6 +191,11 @@ std::vector<LinkEquations> link_equations(const Links& links, const Particles& p
         links.place_of_spring(k, dimension));
   for (std::size_t k = 0; k < links.arms.size(); ++k)
     add(arm_equations(links.arms[k], particles, times), k, links.place_of_arm(k, dimension));
+  for (std::size_t m = 0; m < links.membranes.size(); ++m) {
+    auto place = links.place_of_membrane(m, dimension);
+    for (auto& equations : membrane_equations(links.membranes[m], particles, times))
+      add(std::move(equations), m, place++);
+  }
   return all;
 }
 
@@ -236,6 +243,8 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
   if (equations.kind == LinkEquations::Kind::kArm)
     return {norm(apart_after(equations, links, particles, motions)) -
             length_at(links.arms[equations.number].length, times.end)};
+  if (equations.is_of_membrane() && !equations.is_spring())
+    return {membrane_value_after(equations, links.membranes[equations.number], particles, motions)};
   std::vector<double> values;
   if (equations.kind == LinkEquations::Kind::kHinge) {
     const Vector by = moved(equations.parts().front(), motions.front(), particles.dimension);
@@ -274,6 +283,11 @@ std::string name_of(const LinkEquations& equations, const Links& links,
     return pair("arm", links.arms[k].first, links.arms[k].second);
   if (equations.kind == LinkEquations::Kind::kSpring)
     return pair("spring", links.springs[k].first, links.springs[k].second);
+  if (equations.is_of_membrane()) {
+    const auto& membrane = links.membranes[k];
+    if (equations.kind == LinkEquations::Kind::kArea) return fmt::format("membrane {} (area)", k);
+    return pair("membrane", membrane.bead(equations.bead), membrane.bead(equations.bead + 1));
+  }
   const auto& hinge = links.hinges[k];
   if (equations.kind == LinkEquations::Kind::kStop) return fmt::format("a stop of hinge {}", k);
   if (hinge.body >= 0) return fmt::format("hinge {} (body {})", k, hinge.body);

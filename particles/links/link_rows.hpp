@@ -1,4 +1,5 @@
-// The equations of hinges, springs and arms in a time step, docs/physics.md (5.12) to (5.14).
+// The equations of hinges, springs and arms in a time step, docs/physics.md (5.12) to (5.14), and
+// those of membranes without a fluid (membranes/necklace_rows.hpp).
 // Lengths, masses and times are in the units of the case. Equations of displacements [L] have
 // impulses [M L/T], equations of turns [rad] moments of impulses [M L^2/T]; where a member has two
 // dimensions, the first is that of displacements. constraints/ and fluid/ solve the equations.
@@ -20,9 +21,10 @@ namespace viscontact::particles {
 /// with its component along z the turn of the unit about z.
 struct LinkPart {
   std::int32_t particle = 0;  ///< number of the particle, or of a member of the body
-  Vector direction{};         ///< a unit vector; with `is_turn` (0, 0, 1) or (0, 0, -1)
-  Vector arm{};               ///< [L]
-  bool is_turn = false;       ///< true: the turn about z; false: the displacement
+  /// A unit vector; of membranes a vector [1, 1/L]. With `is_turn` (0, 0, 1) or (0, 0, -1).
+  Vector direction{};
+  Vector arm{};          ///< [L]
+  bool is_turn = false;  ///< true: the turn about z; false: the displacement
   /// Numbers of periods from the particle to the image of it that the equation means.
   Periods image{};
 };
@@ -43,18 +45,32 @@ struct LinkRow {
 /// The equations of one link, and what they are called. All have parts of the same units in one
 /// order.
 struct LinkEquations {
-  /// The kind of link; kTorsion is the torsion spring of a hinge, kStop one of its stops.
-  enum class Kind { kHinge, kTorsion, kSpring, kArm, kStop };
+  /// The kind of link; kTorsion is the torsion spring of a hinge, kStop one of its stops. The last
+  /// four are those of a membrane: the distance of two neighbours, the bending spring and the turn
+  /// of a bead, and the area inside.
+  enum class Kind { kHinge, kTorsion, kSpring, kArm, kStop, kDistance, kBend, kTurn, kArea };
   Kind kind = Kind::kArm;       ///< the kind of this link
   std::size_t number = 0;       ///< of the link in its list
+  std::int32_t bead = 0;        ///< of a membrane: place in Membrane::beads; not of the area
   std::size_t first_force = 0;  ///< place of the force of the first row in State::link_forces
   /// The equations, at least one.
   std::vector<LinkRow> rows{};
 
+  /// True for the four kinds of a membrane.
+  bool is_of_membrane() const {
+    return kind == Kind::kDistance || kind == Kind::kBend || kind == Kind::kTurn ||
+           kind == Kind::kArea;
+  }
+  /// True if the rows are angles [rad] and their impulses moments.
+  bool is_angle() const {
+    return kind == Kind::kTorsion || kind == Kind::kTurn || kind == Kind::kStop;
+  }
+  /// True if the link gives way: its rows have a compliance, and are linear in the motion.
+  bool is_spring() const {
+    return kind == Kind::kTorsion || kind == Kind::kSpring || kind == Kind::kBend;
+  }
   /// The parts of the first row, one for each unit.
   const std::vector<LinkPart>& parts() const { return rows.front().parts; }
-  /// Whether the rows are of angles [rad].
-  bool is_of_angles() const { return kind == Kind::kTorsion || kind == Kind::kStop; }
 };
 
 /// The times of a step on which the equations of links depend.

@@ -1,6 +1,7 @@
-// Hinges, springs and arms that hold particles and rigid bodies. Lengths, masses and times are in
-// the units of the case. particles/case checks the values; link_rows.hpp makes the equations. A
-// change must keep the order of the forces in State::link_forces, which restart files contain.
+// Hinges, springs, arms and membranes that hold particles and rigid bodies. Lengths, masses and
+// times are in the units of the case. particles/case checks the values; link_rows.hpp makes the
+// equations. A change must keep the order of the forces in State::link_forces, which restart files
+// contain.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "viscontact/particles/links/arm_length.hpp"
+#include "viscontact/particles/membranes/membrane.hpp"
 #include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
@@ -57,14 +59,18 @@ struct Links {
   std::vector<Hinge> hinges;    ///< in the order of the case
   std::vector<Spring> springs;  ///< in the order of the case
   std::vector<Arm> arms;        ///< in the order of the case
+  /// Membranes without a fluid (those in a fluid are in Fluid), in the order of the case.
+  std::vector<Membrane> membranes{};
 
   /// True if there are no links.
-  bool empty() const { return hinges.empty() && springs.empty() && arms.empty(); }
+  bool empty() const {
+    return hinges.empty() && springs.empty() && arms.empty() && membranes.empty();
+  }
   /// Number of forces in State::link_forces, in `dimension` dimensions: those of all hinges
   /// (`dimension` components and, in the plane, the torque of the spring and the stops), of all
-  /// springs and of all arms.
+  /// springs, of all arms and of all membranes.
   std::size_t force_count(int dimension) const {
-    return hinges.size() * forces_of_hinge(dimension) + springs.size() + arms.size();
+    return place_of_membrane(membranes.size(), dimension);
   }
   /// Number of forces of one hinge in State::link_forces.
   static std::size_t forces_of_hinge(int dimension) {
@@ -77,6 +83,18 @@ struct Links {
   /// Place of the force of arm `k` (from 0) in State::link_forces.
   std::size_t place_of_arm(std::size_t k, int dimension) const {
     return place_of_spring(springs.size(), dimension) + k;
+  }
+  /// Place of the first force of membrane `m` (from 0) in State::link_forces.
+  std::size_t place_of_membrane(std::size_t m, int dimension) const {
+    auto place = place_of_arm(arms.size(), dimension);
+    for (std::size_t k = 0; k < m; ++k) place += forces_of_membrane(membranes[k]);
+    return place;
+  }
+  /// Number of forces of one membrane in State::link_forces: of the distances and the turns of all
+  /// beads, of the bends if it resists bending, and of the area if it is kept.
+  static std::size_t forces_of_membrane(const Membrane& membrane) {
+    return (membrane.resists_bending() ? 3 : 2) * membrane.beads.size() +
+           (membrane.keeps_area ? 1 : 0);
   }
 };
 

@@ -1,37 +1,68 @@
-// Membranes in a fluid, as a case describes them. A membrane is a closed necklace of particles, its
-// beads. The curve through them bends; it does not change its length, nor that of any of its parts,
-// nor the area inside (docs/physics.md, section 8). Lengths, masses and times are in the units of
-// the case; in the plane masses and forces are per unit length of the third dimension.
+// Membranes, as a case describes them. A membrane is a closed necklace of particles, its beads,
+// that bends and does not change its length, nor that of any of its parts, nor the area inside. In
+// a fluid it is the curve through the centres of the beads, without a fluid the polygon
+// (docs/physics.md, section 8). Lengths, masses and times are in the units of the case; in a fluid
+// masses and forces are per unit length of the third dimension.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "viscontact/particles/domain/periods.hpp"
-
 namespace viscontact::particles {
 
+struct Particles;
 struct Setting;
 struct State;
 
-/// A membrane of a case. Its beads are particles whose numbers follow each other, in the order
-/// counter-clockwise around the area inside. The curve goes through their centres by trigonometric
-/// interpolation over the number of the bead.
+/// A membrane of a case. In a fluid its curve goes through the centres of the beads by
+/// trigonometric interpolation over the place in `beads`.
 struct Membrane {
-  std::int32_t first = 0;   ///< number of its first bead, >= 0
-  std::int32_t beads = 48;  ///< number of its beads, >= kLeastBeads
-  /// kappa of (kappa/2) integral of curvature^2 ds [M L^2/T^2], > 0; M is no mass per unit length.
+  /// Numbers of the particles that are its beads, counter-clockwise around the area inside.
+  std::vector<std::int32_t> beads;
+  /// kappa of (kappa/2) integral of curvature^2 ds [M L^3/T^2], where M is a mass per unit length
+  /// in a fluid; > 0 in a fluid, >= 0 without one.
   double bending_rigidity = 1;
+  double perimeter = 0;  ///< kept; in a fluid with equal lengths between beads [L], > 0
+  double area = 0;       ///< inside at the start, kept if `keeps_area` [L^2], > 0
+  // In a fluid:
   /// Viscosity of the fluid inside over that of the fluid outside [1], > 0.
   double viscosity_ratio = 1;
-  double perimeter = 0;  ///< kept, with equal lengths between beads [L], > 0
-  double area = 0;       ///< kept, of the fluid inside [L^2], > 0
+  // Without a fluid:
+  /// Moment against the rate at which the curvature changes [M L^3/T], >= 0.
+  double bending_viscosity = 0;
+  bool keeps_area = true;  ///< false: only the lengths are kept; always true in a fluid
+  /// The distances that neighbours keep [L], > 0: entry k is that of beads k and k + 1. Empty in a
+  /// fluid.
+  std::vector<double> lengths;
+
+  /// True if bending takes a force.
+  bool resists_bending() const { return bending_rigidity > 0 || bending_viscosity > 0; }
+  /// Makes `count` particles from number `first` on its beads.
+  void set_beads(std::int32_t first, std::int32_t count) {
+    beads.resize(static_cast<std::size_t>(count));
+    std::iota(beads.begin(), beads.end(), first);
+  }
+  /// Number of its beads.
+  std::int32_t count() const { return static_cast<std::int32_t>(beads.size()); }
+  /// The particle that is bead k, where k counts around the membrane from 0 in both directions.
+  std::int32_t bead(std::int32_t k) const {
+    return beads[static_cast<std::size_t>(((k % count()) + count()) % count())];
+  }
+  /// True if a particle is one of its beads.
+  bool has(std::int32_t particle) const {
+    return std::ranges::find(beads, particle) != beads.end();
+  }
 };
 
 /// With fewer beads the interpolation does not resolve an ellipse of reduced area 0.9.
 inline constexpr std::int32_t kLeastBeads = 12;
+
+/// The membranes of a case, in a fluid or without one.
+const std::vector<Membrane>& membranes_of(const Setting& setting);
 
 /// What a table says of a membrane at one time.
 struct MembraneMeasures {
@@ -46,10 +77,16 @@ struct MembraneMeasures {
   double tank_treading_frequency = 0;
 };
 
-/// Measures a membrane by the centres and the velocities of all particles, two numbers for each. In
-/// a periodic domain the centre is that of the image in which its first bead is.
-MembraneMeasures measure(const Membrane& membrane, const PeriodicCell& cell,
-                         std::span<const double> positions, std::span<const double> velocities);
+/// Measures a membrane in the state of these particles. In a periodic domain the centre is that of
+/// the image in which its first bead is.
+MembraneMeasures measure(const Membrane& membrane, const Particles& particles);
+
+/// Throws Error(kBadInput) if membranes of a state from a file have other perimeters or areas than
+/// those of the case. In a run both are kept.
+void check_shapes(std::span<const Membrane> membranes, const Particles& particles);
+
+/// Sets Particles::neighbours for membranes without a fluid.
+void join_neighbours(std::span<const Membrane> membranes, Particles& particles);
 
 /// The rows of membranes.csv of all membranes of a state:
 /// time,id,x,y,inclination,area,perimeter,membrane_speed,tank_treading_frequency.

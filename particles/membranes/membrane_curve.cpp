@@ -193,20 +193,13 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
 
 namespace {
 
-/// The centre of the area inside, and its second moments about that centre.
-struct Moments {
-  double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
-  /// The direction of the long axis, in (-pi/2, pi/2].
-  double inclination() const { return 0.5 * std::atan2(2 * xy, xx - yy); }
-};
-
-Moments moments_of(const MembraneCurve& curve, const Eigen::VectorXd& positions) {
+AreaMoments moments_of(const MembraneCurve& curve, const Eigen::VectorXd& positions) {
   const int n = curve.beads();
   const Eigen::MatrixXd tangents = curve.tangents(positions);
   // Integrals along the curve (Green), about the mean of the beads.
   const double mean_x = positions.head(n).mean(), mean_y = positions.tail(n).mean();
   double mx = 0, my = 0;
-  Moments moments;
+  AreaMoments moments;
   for (int i = 0; i < n; ++i) {
     const double x = positions(i) - mean_x, y = positions(n + i) - mean_y;
     const double dx = kTwoPi / n * tangents(i, 0), dy = kTwoPi / n * tangents(i, 1);
@@ -227,36 +220,51 @@ Moments moments_of(const MembraneCurve& curve, const Eigen::VectorXd& positions)
 
 }  // namespace
 
+double AreaMoments::inclination() const { return 0.5 * std::atan2(2 * xy, xx - yy); }
+
 MembraneMeasures measure(const MembraneCurve& curve, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities) {
-  const int n = curve.beads();
-  const auto moments = moments_of(curve, positions);
+  const Eigen::MatrixXd tangents = curve.tangents(positions);
+  return measure(
+      {.area = curve.area(positions),
+       .perimeter = curve.perimeter(positions),
+       .moments = [&](const Eigen::VectorXd& at) { return moments_of(curve, at); },
+       .circulation =
+           [&](const Eigen::VectorXd& moving) {
+             const int n = curve.beads();
+             return kTwoPi / n *
+                    (moving.head(n).dot(tangents.col(0)) + moving.tail(n).dot(tangents.col(1)));
+           }},
+      positions, velocities);
+}
+
+MembraneMeasures measure(const MeasuredLine& line, const Eigen::VectorXd& positions,
+                         const Eigen::VectorXd& velocities) {
+  const auto n = positions.size() / 2;
+  const auto moments = line.moments(positions);
   MembraneMeasures measures;
   measures.x = moments.x;
   measures.y = moments.y;
   measures.inclination = moments.inclination();
-  measures.area = curve.area(positions);
-  measures.perimeter = curve.perimeter(positions);
+  measures.area = line.area;
+  measures.perimeter = line.perimeter;
   if (velocities.size() == 0) return measures;
-  const Eigen::MatrixXd tangents = curve.tangents(positions);
-  const double u = velocities.head(n).mean(), v = velocities.tail(n).mean();
-  double circulation = 0;
-  for (int i = 0; i < n; ++i) {
-    const double vx = velocities(i) - u, vy = velocities(n + i) - v;
-    measures.membrane_speed += std::hypot(vx, vy) / n;
-    circulation += kTwoPi / n * (vx * tangents(i, 0) + vy * tangents(i, 1));
-  }
+  Eigen::VectorXd relative = velocities;
+  relative.head(n).array() -= velocities.head(n).mean();
+  relative.tail(n).array() -= velocities.tail(n).mean();
+  for (Eigen::Index i = 0; i < n; ++i)
+    measures.membrane_speed += std::hypot(relative(i), relative(n + i)) / static_cast<double>(n);
   if (measures.membrane_speed == 0) return measures;
   // The rate of the inclination, by a central difference over a time in which the beads move by
   // this fraction of the perimeter: truncation and rounding are then below 1e-9 of the rate.
   constexpr double kOfPerimeter = 1e-6;
   const double time = kOfPerimeter * measures.perimeter / measures.membrane_speed;
-  const double turn = moments_of(curve, positions + time * velocities).inclination() -
-                      moments_of(curve, positions - time * velocities).inclination();
+  const double turn = line.moments(positions + time * velocities).inclination() -
+                      line.moments(positions - time * velocities).inclination();
   const double rate = std::remainder(turn, std::numbers::pi) / (2 * time);
   // A rigid rotation of this rate has the circulation 2 rate area.
-  measures.tank_treading_frequency =
-      (circulation - 2 * rate * measures.area) / (measures.perimeter * measures.perimeter);
+  measures.tank_treading_frequency = (line.circulation(relative) - 2 * rate * measures.area) /
+                                     (measures.perimeter * measures.perimeter);
   return measures;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <numbers>
 
 #include "viscontact/particles/membranes/membrane.hpp"
@@ -68,7 +69,32 @@ class MembraneCurve {
 bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, double area,
                               Eigen::VectorXd& positions);
 
-/// Measures a membrane. `velocities` may be empty.
+/// The centre of the area inside a line [L], and the second moments about it [L^4].
+struct AreaMoments {
+  double x = 0,   ///< of the centre [L]
+      y = 0;      ///< of the centre [L]
+  double xx = 0,  ///< integral of x^2, x from the centre [L^4]
+      yy = 0,     ///< integral of y^2 [L^4]
+      xy = 0;     ///< integral of x y [L^4]
+  /// The direction of the long axis, in (-pi/2, pi/2] [rad].
+  double inclination() const;
+};
+
+/// What is measured of a closed line through beads, and how: MembraneCurve or the polygon of
+/// necklace.hpp.
+struct MeasuredLine {
+  double area = 0;       ///< inside [L^2]
+  double perimeter = 0;  ///< [L]
+  /// The moments at other positions of the beads.
+  std::function<AreaMoments(const Eigen::VectorXd&)> moments;
+  /// The integral of a velocity of the beads along the line [L^2/T].
+  std::function<double(const Eigen::VectorXd&)> circulation;
+};
+
+/// Measures a membrane by its line. `velocities` may be empty.
+MembraneMeasures measure(const MeasuredLine& line, const Eigen::VectorXd& positions,
+                         const Eigen::VectorXd& velocities);
+/// Measures a membrane in a fluid. `velocities` may be empty.
 MembraneMeasures measure(const MembraneCurve& curve, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities);
 

@@ -1,12 +1,13 @@
 // Reads [[membrane]] of a case (particles/case/particles_sections.hpp), and makes the beads.
 // Lengths and masses are in the units of the case.
-#include <array>
-#include <cmath>
+#include <algorithm>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
+#include "viscontact/particles/membranes/membrane_checks.hpp"
 #include "viscontact/particles/membranes/membrane_shape.hpp"
 
 namespace viscontact::particles {
@@ -20,123 +21,137 @@ constexpr Allowed kReducedArea = {[](double v) { return v >= 0.3 && v <= 0.999; 
 /// A table [[membrane]].
 struct MembraneTable {
   Membrane membrane;
-  Vector centre{};
-  double reduced_area = 0;
-  double angle = 0;
-  double inner_viscosity = 0;
+  Vector centre{}, velocity{};
+  std::int32_t beads = 48;
+  double reduced_area = 0, angle = 0, inner_viscosity = 0, bead_mass = 0;
   double bead_radius = 0;  // 0: the default
 };
 
-void membrane_keys(case_file::Keys& keys, MembraneTable& table, const Fluid& fluid) {
+/// The keys of a membrane that is made, which one of given particles does not have.
+void shape_keys(case_file::Keys& keys, MembraneTable& table, bool in_fluid) {
   auto& membrane = table.membrane;
-  keys.required("centre", vector(table.centre, 2), {"centre of the area inside at the start"});
-  keys.required("perimeter", case_file::number(membrane.perimeter, kModeratelyPositive),
-                {"length of the membrane, which is kept"});
-  keys.required(
-      "reduced_area", case_file::number(table.reduced_area, kReducedArea),
-      {"4 pi area/perimeter^2; the area inside is kept. The membrane begins as an ellipse"});
-  keys.required("bending_rigidity",
-                case_file::number(membrane.bending_rigidity, kModeratelyPositive),
-                {"kappa of the energy (kappa/2) times the integral of the squared curvature"});
-  keys.optional("inner_viscosity", case_file::number(table.inner_viscosity, kModeratelyPositive),
-                {"of the fluid inside", "`fluid.viscosity`"});
+  const bool is_made = !keys.has("particles");
+  const auto needs = [&](std::string_view key, const case_file::KeyValue& value,
+                         std::string_view meaning) {
+    keys.required_if(is_made, key, value, {meaning, "required without `particles`"});
+  };
+  for (const auto* key : {"centre", "perimeter", "reduced_area", "angle", "beads", "bead_radius",
+                          "bead_mass", "velocity"})
+    keys.require(is_made || !keys.has(key), key,
+                 "must be left out, because the key particles gives the beads");
+  needs("centre", vector(table.centre, 2), "centre of the area inside at the start");
+  needs("perimeter", case_file::number(membrane.perimeter, kModeratelyPositive),
+        "length of the membrane, which is kept");
+  needs("reduced_area", case_file::number(table.reduced_area, kReducedArea),
+        "4 pi area/perimeter^2 at the start. The membrane begins as an ellipse");
   keys.optional("angle", case_file::number(table.angle, kModerate),
                 {"of the long axis of the ellipse at the start, in radians"});
-  keys.optional("beads", case_file::count(membrane.beads, kLeastBeads, 400),
+  keys.optional("beads", case_file::count(table.beads, kLeastBeads, 400),
                 {"particles on the membrane, at equal distances"});
   keys.optional("bead_radius", case_file::number(table.bead_radius, kModeratelyPositive),
-                {"radius of the beads, with which they are drawn", "0.45 of their distance"});
-  if (!keys.has("inner_viscosity")) table.inner_viscosity = fluid.viscosity;
-  membrane.viscosity_ratio = table.inner_viscosity / fluid.viscosity;
-  const double distance = membrane.perimeter / membrane.beads;
-  keys.require(table.bead_radius <= distance / 2, "bead_radius",
+                {"radius of the beads",
+                 "0.45 of their distance in a fluid, 0.5 of it without one: the beads touch"});
+  const double distance = membrane.perimeter / table.beads;
+  keys.require(!is_made || table.bead_radius <= distance / 2, "bead_radius",
                "is {}; it must be at most {}, half of the distance of neighbouring beads",
                table.bead_radius, distance / 2);
-  if (table.bead_radius == 0) table.bead_radius = 0.45 * distance;
+  if (table.bead_radius == 0) table.bead_radius = (in_fluid ? 0.45 : 0.5) * distance;
+  keys.require(!in_fluid || !keys.has("bead_mass"), "bead_mass",
+               "has no effect in a fluid, where membranes have no mass; it must be left out");
+  keys.required_if(is_made && !in_fluid, "bead_mass",
+                   case_file::number(table.bead_mass, kModeratelyPositive),
+                   {"mass of each bead, without a fluid only",
+                    "required without `particles` and without a fluid"});
+  keys.require(!in_fluid || !keys.has("velocity"), "velocity",
+               "has no effect in a fluid, which moves the membrane; it must be left out");
+  keys.optional("velocity", vector(table.velocity, 2),
+                {"of all beads at the start, without a fluid only", "0"});
+}
+
+void membrane_keys(case_file::Keys& keys, MembraneTable& table, const ParticlesCase& c,
+                   const ParticleIds& ids) {
+  const bool in_fluid = c.setting.fluid.has_value();
+  auto& membrane = table.membrane;
+  keys.optional("particles", case_file::custom("a list of ids", read_ids, membrane.beads, ids),
+                {"the beads, in their order around the membrane, in place of a membrane that is "
+                 "made; at least 4, in a fluid 12",
+                 "made"});
+  shape_keys(keys, table, in_fluid);
+  keys.required("bending_rigidity",
+                case_file::number(membrane.bending_rigidity, kModeratelyPositiveOr0),
+                {"kappa of the energy (kappa/2) times the integral of the squared curvature",
+                 {},
+                 "from 1e-100 to 1e100, without a fluid also 0"});
+  keys.require(!in_fluid || membrane.bending_rigidity > 0, "bending_rigidity",
+               "is 0; in a fluid it must be > 0, because nothing else keeps the membrane smooth");
+  keys.require(!in_fluid || !keys.has("bending_viscosity"), "bending_viscosity",
+               "belongs to a membrane without a fluid; the fluid damps bending, and the key must "
+               "be left out");
+  keys.optional("bending_viscosity",
+                case_file::number(membrane.bending_viscosity, kModeratelyPositiveOr0),
+                {"moment over the rate of the curvature, without a fluid only: damps bending"});
+  keys.optional("inner_area",
+                case_file::one_of(membrane.keeps_area, {{"kept", true}, {"free", false}}),
+                {"whether the area inside is kept; `\"free\"` without a fluid only"});
+  keys.require(!in_fluid || membrane.keeps_area, "inner_area",
+               "is 'free'; in a fluid it must be \"kept\", because the fluid inside is "
+               "incompressible and does not pass through the membrane");
+  keys.require(in_fluid || !keys.has("inner_viscosity"), "inner_viscosity",
+               "belongs to a case with a fluid; it must be left out");
+  keys.optional("inner_viscosity", case_file::number(table.inner_viscosity, kModeratelyPositive),
+                {"of the fluid inside, from 1e-4 to 1e3 times that outside", "`fluid.viscosity`"});
+  if (!in_fluid || !keys.reads()) return;
+  const double outside = c.setting.fluid->viscosity;
+  if (!keys.has("inner_viscosity")) table.inner_viscosity = outside;
+  membrane.viscosity_ratio = table.inner_viscosity / outside;
+}
+
+/// Takes over the shape of a membrane of given particles.
+void take_shape(const case_file::TomlSection& section, ParticlesCase& c, Membrane& membrane) {
+  c.particles.cell = cell_of(c.setting.domain);
+  check_given_beads(section, c, membrane);
+  if (!c.setting.fluid) {
+    shape_polygon(membrane, c.particles);
+    return;
+  }
+  // Rounded numbers are moved to equal distances.
+  constexpr double kRounded = 0.02;
+  const double moved = shape_curve(membrane, c.particles);
+  const double allowed = kRounded * membrane.perimeter / membrane.count();
+  section.require(moved <= allowed, "particles",
+                  "are not at equal distances along the membrane, as they must be in a fluid: a "
+                  "bead would move by {:.3g}, and at most {:.3g} is allowed",
+                  moved, allowed);
+}
+
+/// Adds the beads of a membrane that is made to the particles.
+void make_beads(const case_file::TomlSection& section, ParticlesCase& c, MembraneTable& table,
+                ParticleLines& lines) {
+  auto& p = c.particles;
+  auto& membrane = table.membrane;
+  const bool in_fluid = c.setting.fluid.has_value();
+  membrane.set_beads(static_cast<std::int32_t>(p.count()), table.beads);
   membrane.area =
       table.reduced_area * membrane.perimeter * membrane.perimeter / (4 * std::numbers::pi);
-}
-
-/// Throws if the case has what cannot be computed together with membranes.
-void check_case(const case_file::TomlSection& root, const case_file::TomlSection& first,
-                const ParticlesCase& c) {
-  const FilePosition at{c.path.string(), first.line()};
-  if (!c.setting.fluid)
-    throw_bad_input(at,
-                    "section [[membrane]] belongs to a case with a fluid; the case must have "
-                    "sections [fluid] and [domain]");
-  if (c.particles.dimension != 2)
-    throw_bad_input(at, "section [[membrane]] belongs to the plane; space.dimension must be 2");
-  for (const auto* key :
-       {"particles", "particle", "arrangement", "body", "hinge", "spring", "arm", "force", "plane"})
-    if (root.has(key))
-      throw_bad_input(at,
-                      fmt::format("section [[membrane]] stands beside {}; a case with membranes "
-                                  "must have no other particles, no planes, bodies, links and "
-                                  "forces",
-                                  key));
-  const auto& fluid = *c.setting.fluid;
-  const auto section = root.section("fluid");
-  section.require(!fluid.has_inertia(), "density",
-                  "is {}; it must be 0 or left out in a case with membranes, which move in Stokes "
-                  "flow",
-                  fluid.density);
-  section.require(fluid.solver.empty(), "solver",
-                  "is a program of your own, which does not know membranes; it must be left out");
-  section.require(
-      fluid.mesh == FluidMesh::kFitted, "mesh",
-      "is 'fixed'; it must be \"fitted\" in a case with membranes, which the mesh follows");
-  section.require(fluid.coupling == Coupling::kConstrained, "coupling",
-                  "is 'splitting'; it must be \"constrained\" in a case with membranes");
-  section.require(fluid.constraint == RigidConstraint::kPenalty, "constraint",
-                  "is 'rigid'; it must be left out in a case with membranes, which has no rigid "
-                  "particles");
-  root.section("space").require(
-      c.setting.gravity == Vector{}, "gravity",
-      "has no effect on membranes, which have no mass; it must be 0 or left out");
-  root.section("viscous_contact")
-      .require(!c.setting.laws.restitution.is_on(), "restitution",
-               "has no effect on membranes, which have no mass; it must be 0 or left out");
-  const auto* box = std::get_if<BoxDomain>(&c.setting.domain);
-  if (box != nullptr && box->periodic[1])
-    throw_bad_input(at,
-                    "section [[membrane]] stands in a box that is periodic along y; the box must "
-                    "have walls below and above");
-}
-
-/// Centres of the beads of membrane `m`, two numbers for each.
-std::span<const double> beads_of(const ParticlesCase& c, const Membrane& membrane) {
-  return std::span(c.particles.positions)
-      .subspan(2 * index_of(membrane.first), 2 * index_of(membrane.beads));
-}
-
-/// Throws if beads of the last membrane that are no neighbours overlap, or if it crosses or
-/// contains another one or an image of it in the next period.
-void check_place(const case_file::TomlSection& section, const ParticlesCase& c) {
-  const auto& membranes = c.setting.fluid->membranes;
-  const auto& membrane = membranes.back();
-  const auto own = beads_of(c, membrane);
-  const double r = c.particles.radii[index_of(membrane.first)];
-  const auto count = index_of(membrane.beads);
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t j = i + 2; j < count; ++j)
-      section.require(
-          (i == 0 && j + 1 == count) ||
-              std::hypot(own[2 * i] - own[2 * j], own[2 * i + 1] - own[2 * j + 1]) >= 2 * r,
-          "reduced_area",
-          "is so small that beads {} and {} overlap across the membrane; it must be larger, or the "
-          "membrane must have more beads (or a smaller bead_radius)",
-          i, j);
-  const double period = periods_of(c.setting.domain)[0];
-  for (std::size_t m = 0; m + 1 < membranes.size(); ++m) {
-    const auto other = beads_of(c, membranes[m]);
-    for (const double shift : {0.0, -period, period}) {
-      std::vector<double> image(other.begin(), other.end());
-      for (std::size_t i = 0; i < image.size(); i += 2) image[i] += shift;
-      section.require(!do_meet(own, image), "centre",
-                      "makes the membrane cross or contain membrane {}; membranes must be apart",
-                      m);
-    }
+  if (!in_fluid) membrane.lengths.assign(membrane.beads.size(), membrane.perimeter / table.beads);
+  const auto places = ellipse_of(membrane, table.centre, table.angle);
+  section.require(places.has_value(), "reduced_area",
+                  "is {}, which {} beads cannot have; it must be {}, or the membrane must have "
+                  "more beads",
+                  table.reduced_area, table.beads, table.reduced_area > 0.9 ? "smaller" : "larger");
+  p.positions.insert(p.positions.end(), places->begin(), places->end());
+  // Tables [[particle]] come first, and discs of an [arrangement] have no lines.
+  lines.in_case.resize(p.count() - lines.in_file.size());
+  for (std::int32_t k = 0; k < table.beads; ++k) {
+    p.velocities.insert(p.velocities.end(), {table.velocity[0], table.velocity[1]});
+    p.radii.push_back(table.bead_radius);
+    p.masses.push_back(table.bead_mass);
+    if (!p.ids.empty()) p.ids.push_back(std::ranges::max(p.ids) + 1);
+    lines.in_case.push_back(section.line());
+    if (!in_fluid) continue;
+    p.angles.push_back(0);
+    p.angular_velocities.push_back(0);
+    p.inertias.push_back(0);
   }
 }
 
@@ -145,35 +160,28 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
 void read_membranes(const case_file::TomlSection& root, ParticlesCase& c, ParticleLines& lines) {
   if (!root.has("membrane")) return;
   const auto sections = root.sections("membrane");
-  check_case(root, sections.front(), c);
-  auto& p = c.particles;
+  check_case_of_membranes(root, sections.front(), c);
+  auto& membranes = c.setting.fluid ? c.setting.fluid->membranes : c.setting.links.membranes;
+  const ParticleIds ids(c);
   for (const auto& section : sections) {
     MembraneTable table;
-    case_file::read_keys(section, membrane_keys, table, *c.setting.fluid);
-    table.membrane.first = static_cast<std::int32_t>(p.count());
-    const auto beads = ellipse_of(table.membrane, table.centre, table.angle);
-    section.require(
-        beads.has_value(), "reduced_area",
-        "is {}, which {} beads cannot have; it must be larger, or the membrane must have "
-        "more beads",
-        table.reduced_area, table.membrane.beads);
-    p.positions.insert(p.positions.end(), beads->begin(), beads->end());
-    p.velocities.resize(p.positions.size());
-    for (std::int32_t k = 0; k < table.membrane.beads; ++k) {
-      p.radii.push_back(table.bead_radius);
-      p.masses.push_back(0);
-      p.angles.push_back(0);
-      p.angular_velocities.push_back(0);
-      p.inertias.push_back(0);
-      lines.in_case.push_back(section.line());
-    }
-    c.setting.fluid->membranes.push_back(table.membrane);
+    case_file::read_keys(section, membrane_keys, table, c, ids);
+    if (table.membrane.beads.empty())
+      make_beads(section, c, table, lines);
+    else
+      take_shape(section, c, table.membrane);
+    membranes.push_back(std::move(table.membrane));
     check_place(section, c);
+    if (c.setting.fluid) check_in_fluid(section, c);
   }
+  check_others(sections.front(), c);
+  if (!c.setting.fluid) join_neighbours(membranes, c.particles);
 }
 
 std::vector<case_file::KeyTable> membrane_tables() {
-  return {case_file::describe_keys("[[membrane]]", membrane_keys, Fluid{})};
+  const ParticlesCase c;
+  const ParticleIds ids(c);
+  return {case_file::describe_keys("[[membrane]]", membrane_keys, c, ids)};
 }
 
 }  // namespace viscontact::particles

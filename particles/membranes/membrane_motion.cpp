@@ -1,25 +1,20 @@
 // Newton's method for a step of membranes (membrane_motion.hpp).
 #include "viscontact/particles/membranes/membrane_motion.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/text/number.hpp"
-#include "viscontact/particles/setting.hpp"
-#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 
 Membranes::Membranes(std::span<const Membrane> membranes) : membranes_(membranes), first_{0} {
   for (const auto& membrane : membranes) {
-    curves_.emplace_back(membrane.beads);
-    first_.push_back(first_.back() + membrane.beads);
+    curves_.emplace_back(membrane.count());
+    first_.push_back(first_.back() + membrane.count());
   }
 }
 
@@ -33,7 +28,7 @@ Eigen::VectorXd Membranes::places(std::span<const double> positions, const Perio
       const auto begin = d * beads() + first_[m];
       if (near != nullptr)
         all(begin) -= period * std::round((all(begin) - (*near)(begin)) / period);
-      for (Eigen::Index k = begin + 1; k < begin + membranes_[m].beads; ++k)
+      for (Eigen::Index k = begin + 1; k < begin + membranes_[m].count(); ++k)
         all(k) -= period * std::round((all(k) - all(k - 1)) / period);
     }
   return all;
@@ -43,8 +38,8 @@ Eigen::VectorXd Membranes::from_particles(std::span<const double> numbers,
                                           std::size_t components) const {
   Eigen::VectorXd all(2 * beads());
   for (std::size_t m = 0; m < membranes_.size(); ++m)
-    for (Eigen::Index k = 0; k < membranes_[m].beads; ++k) {
-      const auto at = components * static_cast<std::size_t>(membranes_[m].first + k);
+    for (Eigen::Index k = 0; k < membranes_[m].count(); ++k) {
+      const auto at = components * index_of(membranes_[m].beads[static_cast<std::size_t>(k)]);
       all(first_[m] + k) = numbers[at];
       all(beads() + first_[m] + k) = numbers[at + 1];
     }
@@ -54,8 +49,8 @@ Eigen::VectorXd Membranes::from_particles(std::span<const double> numbers,
 void Membranes::to_particles(const Eigen::VectorXd& all, std::size_t components,
                              std::vector<double>& numbers) const {
   for (std::size_t m = 0; m < membranes_.size(); ++m)
-    for (Eigen::Index k = 0; k < membranes_[m].beads; ++k) {
-      const auto at = components * static_cast<std::size_t>(membranes_[m].first + k);
+    for (Eigen::Index k = 0; k < membranes_[m].count(); ++k) {
+      const auto at = components * index_of(membranes_[m].beads[static_cast<std::size_t>(k)]);
       numbers[at] = all(first_[m] + k);
       numbers[at + 1] = all(beads() + first_[m] + k);
     }
@@ -262,29 +257,6 @@ Eigen::MatrixXd Membranes::response(double time, const FluidAnswer& answer,
   const Eigen::MatrixXd solved = matrix.partialPivLu().solve(right).topRows(2 * n);
   // Rounding errors are not symmetric.
   return (solved + solved.transpose()) / 2;
-}
-
-MembraneMeasures measure(const Membrane& membrane, const PeriodicCell& cell,
-                         std::span<const double> positions, std::span<const double> velocities) {
-  const std::array one = {membrane};
-  return measure(MembraneCurve(membrane.beads), Membranes(one).places(positions, cell),
-                 Membranes(one).from_particles(velocities, 2));
-}
-
-std::string membrane_rows(const Setting& setting, const State& state,
-                          std::span<const double> /*force_errors*/) {
-  std::string text;
-  const auto& p = state.particles;
-  for (std::size_t m = 0; m < setting.fluid->membranes.size(); ++m) {
-    const auto measures = measure(setting.fluid->membranes[m], p.cell, p.positions, p.velocities);
-    text += fmt::format("{},{}", format_number(state.time), m);
-    for (const double value :
-         {measures.x, measures.y, measures.inclination, measures.area, measures.perimeter,
-          measures.membrane_speed, measures.tank_treading_frequency})
-      text += "," + format_number(value);
-    text += '\n';
-  }
-  return text;
 }
 
 }  // namespace viscontact::particles

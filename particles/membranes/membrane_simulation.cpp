@@ -2,15 +2,12 @@
 // may depend on nothing but the setting and the state.
 #include "viscontact/particles/membranes/membrane_simulation.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Core>
 #include <chrono>
 #include <cmath>
 #include <functional>
 #include <utility>
 
-#include "viscontact/common/error.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 #include "viscontact/particles/membranes/membrane_motion.hpp"
@@ -36,7 +33,6 @@ class MembraneSimulation::Implementation {
   const FluidSolver& solver() const { return *solver_; }
 
  private:
-  void check_shapes() const;
   void place(const Eigen::VectorXd& positions);
   FluidAnswer ask(const Eigen::VectorXd& positions);
   StepContacts solve_contacts_of(const Eigen::VectorXd& free, double h, double next,
@@ -70,7 +66,7 @@ MembraneSimulation::Implementation::Implementation(Setting setting, State state,
   p.angular_velocities.resize(p.count());
   wrap_into_cell(state_);
   if (state_.steps > 0) {
-    check_shapes();
+    check_shapes(setting_.fluid->membranes, p);
     return;
   }
   const auto positions = membranes_.places(p.positions, p.cell);
@@ -78,25 +74,6 @@ MembraneSimulation::Implementation::Implementation(Setting setting, State state,
   membranes_.to_particles(motion.velocities, 2, p.velocities);
   state_.earlier_forces.assign(kComponents * p.count(), 0);
   membranes_.to_particles(motion.forces, kComponents, state_.earlier_forces);
-}
-
-/// Throws Error(kBadInput) if the membranes of a state from a file have other perimeters or areas
-/// than the case. Those of a run are kept to rounding errors.
-void MembraneSimulation::Implementation::check_shapes() const {
-  constexpr double kKept = 1e-6;
-  const auto& p = state_.particles;
-  const auto& membranes = setting_.fluid->membranes;
-  for (std::size_t m = 0; m < membranes.size(); ++m) {
-    const auto& asked = membranes[m];
-    const auto found = measure(asked, p.cell, p.positions, p.velocities);
-    if (std::abs(found.perimeter - asked.perimeter) <= kKept * asked.perimeter &&
-        std::abs(found.area - asked.area) <= kKept * asked.area)
-      continue;
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("membrane {} of the restart file has the perimeter {:.7g} and the area "
-                            "{:.7g}, that of the case {:.7g} and {:.7g}; both must be the same",
-                            m, found.perimeter, found.area, asked.perimeter, asked.area));
-  }
 }
 
 void MembraneSimulation::Implementation::place(const Eigen::VectorXd& positions) {

@@ -132,7 +132,7 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
   };
   for (const auto& pair : close) {
     keep_until(place_of(pair));
-    if (p.bodies.are_one(pair.first, pair.second)) continue;
+    if (p.are_joined(pair.first, pair.second)) continue;
     if (old != before.end() && place_of(*old) == place_of(pair))
       pairs.push_back(*old++);
     else

@@ -31,7 +31,7 @@ ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
     w += mobilities_[index_of(part.particle)];
     length += norm(state_.particles.position(index_of(part.particle)));
     // An angle is known to the rounding errors of a radian.
-    if (link.is_of_angles())
+    if (link.is_angle())
       length +=
           state_.particles.radii[index_of(part.particle)] * (1 + std::abs(link.rows.front().value));
   }
@@ -67,7 +67,7 @@ void StepProjection<D>::examine_links(const SolverSettings& settings, double mea
   for (const auto& link : links) {
     bool is_named = false;
     for_particles(link, [&](std::size_t k) { is_named = is_named || is_held[k] != 0; });
-    if (is_named && !(link.rows.front().stiffness > 0))
+    if (is_named && !link.is_spring())
       result.unsolved_links.push_back(name_of(link, *links_, state_.particles));
   }
 }

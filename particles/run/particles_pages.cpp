@@ -39,11 +39,9 @@ Playback without_frames(const ParticlesCase& c) {
   for (const auto& arm : c.setting.links.arms)
     playback.links.arms.push_back({arm.first, arm.second});
   // Lines between neighbouring beads of a membrane are drawn as those of arms.
-  if (c.setting.fluid)
-    for (const auto& membrane : c.setting.fluid->membranes)
-      for (std::int32_t k = 0; k < membrane.beads; ++k)
-        playback.links.arms.push_back(
-            {membrane.first + k, membrane.first + (k + 1) % membrane.beads});
+  for (const auto& membrane : membranes_of(c.setting))
+    for (std::int32_t k = 0; k < membrane.count(); ++k)
+      playback.links.arms.push_back({membrane.bead(k), membrane.bead(k + 1)});
   return playback;
 }
 

@@ -30,7 +30,7 @@ struct Scene {
 
   void start(int edges, int count = 24) {
     Membrane membrane;
-    membrane.beads = count;
+    membrane.set_beads(0, count);
     membrane.viscosity_ratio = ratio;
     membrane.area = std::numbers::pi * unit * unit;
     membrane.perimeter = unit * 2 * std::numbers::pi / std::sqrt(0.85);

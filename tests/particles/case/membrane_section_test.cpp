@@ -1,4 +1,5 @@
 // [[membrane]] of a case: what is read and what is refused.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,6 +7,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
@@ -49,10 +51,10 @@ TEST_F(MembraneSection, MakesBeads) {
                            membrane("-2.5, 0.5")));
   const auto& membranes = c.setting.fluid->membranes;
   ASSERT_EQ(membranes.size(), 2U);
-  EXPECT_EQ(membranes[0].first, 0);
-  EXPECT_EQ(membranes[0].beads, 30);
-  EXPECT_EQ(membranes[1].first, 30);
-  EXPECT_EQ(membranes[1].beads, 48);
+  EXPECT_EQ(membranes[0].beads.front(), 0);
+  EXPECT_EQ(membranes[0].count(), 30);
+  EXPECT_EQ(membranes[1].beads.front(), 30);
+  EXPECT_EQ(membranes[1].count(), 48);
   EXPECT_EQ(membranes[0].viscosity_ratio, 2.5);
   EXPECT_EQ(membranes[1].viscosity_ratio, 1);
   EXPECT_EQ(membranes[0].bending_rigidity, 3);
@@ -106,11 +108,154 @@ TEST_F(MembraneSection, WhatCannotBeComputedWithMembranesIsRefused) {
   expect_refused(with("end_time = 4.0", "gamma_min = 0.0\nrestitution = 0.5"), 10,
                  "viscous_contact.restitution has no effect");
   expect_refused(text(membrane(), "", "true, true"), 12, "section [[membrane]] stands in a box");
-  expect_refused(
-      "title = \"Dry\"\n[space]\ndimension = 2\n[viscous_contact]\ntime_step = 0.1\n"
-      "end_time = 4.0\n" +
-          membrane(),
-      7, "section [[membrane]] belongs to a case with a fluid");
+  expect_refused(text(membrane("0.0, 0.0", "0.8", "bead_mass = 1.0\n")), 17,
+                 "membrane[0].bead_mass has no effect in a fluid");
+  expect_refused(text(membrane("0.0, 0.0", "0.8", "velocity = [1.0, 0.0]\n")), 17,
+                 "membrane[0].velocity has no effect in a fluid");
+  expect_refused(text(membrane("0.0, 0.0", "0.8", "bending_viscosity = 1.0\n")), 17,
+                 "membrane[0].bending_viscosity belongs to a membrane without a fluid");
+  expect_refused(text(membrane("0.0, 0.0", "0.8", "inner_area = \"free\"\n")), 17,
+                 "membrane[0].inner_area is 'free'; in a fluid it must be \"kept\"");
+}
+
+TEST_F(MembraneSection, ViscosityRatiosThatCannotBeComputedAreErrors) {
+  for (const auto* number : {"1e-8", "1e-5", "1e4", "1e100"})
+    expect_refused(text(membrane("0.0, 0.0", "0.8", fmt::format("inner_viscosity = {}\n", number))),
+                   17, "membrane[0].inner_viscosity is ");
+  for (const auto* number : {"2.1e-4", "1.9e3"})
+    EXPECT_NO_THROW(
+        read(text(membrane("0.0, 0.0", "0.8", fmt::format("inner_viscosity = {}\n", number)))));
+}
+
+// R0 is 0.998 here and the viscosity 2, so that the limit of the rigidity is 199 at the rate 1.
+TEST_F(MembraneSection, StiffMembranesNeedBeads) {
+  const auto stiff = [&](const std::string& rigidity, const std::string& beads) {
+    auto changed = text(membrane("0.0, 0.0", "0.8", beads), "velocity = { shear_rate = 1.0 }");
+    return changed.replace(changed.find("= 3.0\n") + 2, 3, rigidity);
+  };
+  expect_refused(stiff("250.0", "beads = 31\n"), 17, "membrane[0].beads makes 31 beads, too few");
+  EXPECT_NO_THROW(read(stiff("250.0", "beads = 32\n")));
+  EXPECT_NO_THROW(read(stiff("250.0", "")));
+  EXPECT_NO_THROW(read(stiff("150.0", "beads = 31\n")));
+}
+
+/// A case of particles without a fluid.
+std::string dry(const std::string& sections) {
+  return "title = \"Dry\"\n[space]\ndimension = 2\n[viscous_contact]\ntime_step = 0.1\n"
+         "end_time = 4.0\n" +
+         sections;
+}
+
+TEST_F(MembraneSection, MakesANecklaceWithoutAFluid) {
+  const auto c =
+      read(dry(membrane("1.0, 0.5", "0.8", "bead_mass = 0.5\nbeads = 30\nvelocity = [1.0, 2.0]\n") +
+               membrane("-2.5, 0.5", "0.8", "bead_mass = 1.0\ninner_area = \"free\"\n")));
+  const auto& membranes = c.setting.links.membranes;
+  ASSERT_EQ(membranes.size(), 2U);
+  EXPECT_EQ(membranes[0].count(), 30);
+  EXPECT_TRUE(membranes[0].keeps_area);
+  EXPECT_FALSE(membranes[1].keeps_area);
+  EXPECT_EQ(membranes[0].lengths, std::vector<double>(30, 7.0 / 30));
+  EXPECT_NEAR(measure(membranes[0], c.particles).area, 0.8 * 49 / (4 * std::numbers::pi), 1e-12);
+  EXPECT_NEAR(measure(membranes[0], c.particles).x, 1, 1e-12);
+  EXPECT_EQ(c.particles.masses[0], 0.5);
+  EXPECT_EQ(c.particles.velocity(3), (Vector{1, 2, 0}));
+  EXPECT_NEAR(c.particles.radii[0], 0.5 * 7 / 30, 1e-12);
+  EXPECT_TRUE(c.particles.turn());
+  EXPECT_TRUE(c.particles.are_joined(29, 0));
+  EXPECT_FALSE(c.particles.are_joined(0, 2));
+  EXPECT_FALSE(c.particles.are_joined(29, 30));
+}
+
+/// Tables [[particle]] on a circle of radius 2, in the order of `places`.
+std::string ring(int count, const std::vector<int>& places, const std::string& more) {
+  std::string text;
+  for (const int k : places)
+    text += fmt::format("[[particle]]\ncentre = [{:.6f}, {:.6f}]\n{}\n",
+                        2 * std::cos(2 * std::numbers::pi * k / count),
+                        1.6 * std::sin(2 * std::numbers::pi * k / count), more);
+  return text;
+}
+
+TEST_F(MembraneSection, TakesGivenParticles) {
+  const std::string of_six =
+      "[[membrane]]\nparticles = [0, 1, 2, 3, 4, 5]\n"
+      "bending_rigidity = 0.0\n";
+  // Clockwise: the order becomes counter-clockwise.
+  const auto c = read(dry(ring(6, {0, 5, 4, 3, 2, 1}, "radius = 0.5\nmass = 1.0") + of_six));
+  const auto& membrane = c.setting.links.membranes.front();
+  EXPECT_EQ(membrane.beads, (std::vector<std::int32_t>{5, 4, 3, 2, 1, 0}));
+  EXPECT_NEAR(membrane.area, 3 * 2 * 1.6 * std::sin(std::numbers::pi / 3), 1e-5);
+  EXPECT_NEAR(membrane.lengths[0], 2, 1e-5);
+  EXPECT_NEAR(membrane.lengths[1], std::hypot(1, 1.6 * std::sin(std::numbers::pi / 3)), 1e-5);
+  const auto shuffled = dry(ring(6, {0, 3, 4, 1, 2, 5}, "radius = 0.5\nmass = 1.0") + of_six);
+  EXPECT_THAT(bad_input([&] { read(shuffled); }),
+              HasSubstr("membrane[0].particles makes a membrane that crosses itself"));
+  for (const auto& [wrong, said] :
+       {std::pair("[0, 1, 2]", "has 3 beads; a membrane without a fluid must have at least 4"),
+        {"[0, 1, 2, 3, 0]", "contains particle 0 a second time"},
+        {"[0, 1, 2, 9]", "contains 9, which is not the number of a particle"},
+        {"[0, 1, 2, 3]\nbeads = 4", "beads must be left out, because the key particles"}}) {
+    const auto text = dry(ring(6, {0, 1, 2, 3, 4, 5}, "radius = 0.5\nmass = 1.0") +
+                          "[[membrane]]\nbending_rigidity = 0.0\nparticles = " + wrong + "\n");
+    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr(said));
+  }
+  const auto twice = dry(ring(6, {0, 1, 2, 3, 4, 5}, "radius = 0.5\nmass = 1.0") + of_six + of_six);
+  EXPECT_THAT(
+      bad_input([&] { read(twice); }),
+      HasSubstr("membrane[1].particles contains particle 0, which is a bead of membrane 0"));
+  const auto body = dry(ring(6, {0, 1, 2, 3, 4, 5}, "radius = 0.5\nmass = 1.0") + of_six +
+                        "[[body]]\nparticles = [0, 1]\n");
+  EXPECT_THAT(bad_input([&] { read(body); }),
+              HasSubstr("body[0].particles contains particle 0, which is a bead of a membrane"));
+}
+
+// In a fluid the beads are at equal distances along the curve.
+TEST_F(MembraneSection, TakesGivenParticlesInAFluid) {
+  const auto made = read(text(membrane("0.3, 0.2", "0.8", "beads = 16\nangle = 0.4\n")));
+  const auto given = [&](double moved) {
+    std::string sections, list;
+    for (std::size_t k = 0; k < 16; ++k) {
+      const auto x = made.particles.position(k);
+      sections += fmt::format("[[particle]]\ncentre = [{:.6f}, {:.6f}]\nradius = 0.1\n",
+                              x[0] + (k == 3 ? moved : 0), x[1]);
+      list += fmt::format("{}{}", k == 0 ? "" : ", ", k);
+    }
+    return text(sections + "[[membrane]]\nparticles = [" + list + "]\nbending_rigidity = 3.0\n");
+  };
+  const auto c = read(given(0));
+  EXPECT_NEAR(c.setting.fluid->membranes[0].perimeter, 7, 1e-5);
+  EXPECT_NEAR(c.setting.fluid->membranes[0].area, made.setting.fluid->membranes[0].area, 1e-5);
+  for (std::size_t k = 0; k < 16; ++k)
+    EXPECT_NEAR(norm(c.particles.position(k) - made.particles.position(k)), 0, 1e-5);
+  EXPECT_THAT(bad_input([&] { read(given(0.05)); }),
+              HasSubstr("membrane[0].particles are not at equal distances along the membrane"));
+}
+
+TEST_F(MembraneSection, WhatCannotStandBesideANecklaceIsRefused) {
+  const auto expect = [&](const std::string& text, const std::string& said) {
+    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr(said));
+  };
+  const std::string mass = "bead_mass = 1.0\n";
+  expect(dry(membrane("0.0, 0.0", "0.8")), "membrane[0].bead_mass");
+  expect(dry(membrane("0.0, 0.0", "0.8", mass + "inner_viscosity = 1.0\n")),
+         "membrane[0].inner_viscosity belongs to a case with a fluid");
+  expect(dry(membrane("0.0, 0.0", "0.8", mass) + membrane("1.0, 0.0", "0.8", mass)),
+         "membrane[1].centre makes the membrane cross membrane 0");
+  // The regular polygon of 20 corners has the reduced area 0.9918.
+  expect(dry(membrane("0.0, 0.0", "0.995", mass + "beads = 20\n")),
+         "membrane[0].reduced_area is 0.995, which 20 beads cannot have; it must be smaller");
+  auto rebound = dry(membrane("0.0, 0.0", "0.8", mass));
+  rebound.insert(rebound.find("end_time"), "gamma_min = 0.0\nrestitution = 0.5\n");
+  expect(rebound, "viscous_contact.restitution must be left out, because the case has membranes");
+  auto space = dry(membrane("0.0, 0.0", "0.8", mass));
+  space.replace(space.find("= 2"), 3, "= 3");
+  expect(space, "section [[membrane]] belongs to the plane");
+  // A membrane may contain another one.
+  EXPECT_NO_THROW(read(dry(membrane("0.0, 0.0", "0.8", mass) +
+                           "[[membrane]]\ncentre = [0.0, 0.0]\nperimeter = 2.0\n"
+                           "reduced_area = 0.8\nbending_rigidity = 0.0\n" +
+                           mass)));
 }
 
 }  // namespace

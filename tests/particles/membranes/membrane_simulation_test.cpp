@@ -65,7 +65,7 @@ struct Vesicle {
     setting.time_step = time_step;
     setting.fluid.emplace();
     Membrane membrane;
-    membrane.beads = beads;
+    membrane.set_beads(0, beads);
     membrane.bending_rigidity = rigidity;
     membrane.perimeter = 7 * size;
     membrane.area = reduced_area * 49 * size * size / (4 * std::numbers::pi);
@@ -84,9 +84,9 @@ struct Vesicle {
   }
   MembraneMeasures measures(const MembraneSimulation& simulation) const {
     Membrane membrane;
-    membrane.beads = beads;
+    membrane.set_beads(0, beads);
     const auto& p = simulation.state().particles;
-    return measure(membrane, p.cell, p.positions, p.velocities);
+    return measure(membrane, p);
   }
 };
 
@@ -201,8 +201,7 @@ struct Pressed {
     auto& p = state.particles;
     for (const double y : {1.3, -1.3}) {
       Membrane membrane;
-      membrane.first = static_cast<std::int32_t>(p.count());
-      membrane.beads = 20;
+      membrane.set_beads(static_cast<std::int32_t>(p.count()), 20);
       membrane.perimeter = 6.6;
       membrane.area = 0.9 * 6.6 * 6.6 / (4 * std::numbers::pi);
       const auto places = *ellipse_of(membrane, {y > 0 ? 0.02 : 0, y, 0}, 0);

@@ -39,8 +39,8 @@ TEST_F(MembraneCase, EachHasATest) {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(kCases))
     if (entry.path().extension() == ".toml") names.insert(entry.path().stem());
-  EXPECT_EQ(names,
-            (std::set<std::string>{"poiseuille", "tank_treading", "tumbling", "two_that_meet"}));
+  EXPECT_EQ(names, (std::set<std::string>{"poiseuille", "tank_treading", "track", "tumbling",
+                                          "two_that_meet"}));
 }
 
 // In a box of ten R0 the inclination is 30.6 degrees and the speed 0.444: 0.4 degrees and 1.7 %
@@ -68,6 +68,20 @@ TEST_F(MembraneCase, AVesicleTankTreads) {
   EXPECT_LT(least, 0.05);
   EXPECT_NEAR(most, 5, 1e-9);
   EXPECT_THAT(content(out() / "particles.html"), HasSubstr("A vesicle that tank-treads"));
+}
+
+// Without a fluid a necklace rolls down an incline: the membrane runs clockwise, as fast as the
+// centre moves, and both area and perimeter stay.
+TEST_F(MembraneCase, ANecklaceRollsDownAnIncline) {
+  compute("track", {{"end_time", "1.2"}, {"beads", "20"}, {"every", "0.2"}});
+  const auto x = column("x"), speed = column("membrane_speed");
+  const double moved = (x[6] - x[5]) / 0.2;
+  EXPECT_GT(moved, 0.5);
+  EXPECT_NEAR((speed[6] + speed[5]) / 2 / moved, 1, 0.15);
+  EXPECT_LT(column("tank_treading_frequency").back(), -0.05);
+  for (const double area : column("area"))
+    EXPECT_NEAR(area, 0.85 * 6.6 * 6.6 / (4 * std::numbers::pi), 1e-8);
+  for (const double perimeter : column("perimeter")) EXPECT_NEAR(perimeter, 6.6, 1e-8);
 }
 
 // The angle falls below 0, where a vesicle that tank-treads never comes, and goes on around.

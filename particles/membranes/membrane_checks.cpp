@@ -1,0 +1,222 @@
+// Checks of membranes when a case is read (membrane_checks.hpp).
+#include "viscontact/particles/membranes/membrane_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/particles/membranes/membrane_shape.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+/// Throws if a case without a fluid has what a membrane cannot stand beside.
+void check_case_without_fluid(const case_file::TomlSection& root, const ParticlesCase& c) {
+  root.section("viscous_contact")
+      .require(!c.setting.laws.restitution.is_on(), "restitution",
+               "must be left out, because the case has membranes, through which a blow would pass");
+}
+
+/// Throws if a fluid cannot have membranes.
+void check_case_in_fluid(const case_file::TomlSection& root, const case_file::TomlSection& first,
+                         const ParticlesCase& c) {
+  const FilePosition at{c.path.string(), first.line()};
+  for (const auto* key : {"arrangement", "body", "hinge", "spring", "arm", "force", "plane"})
+    if (root.has(key))
+      throw_bad_input(at,
+                      fmt::format("section [[membrane]] stands beside {}; a case with membranes in "
+                                  "a fluid must have no arrangement, planes, bodies, links and "
+                                  "forces",
+                                  key));
+  const auto& fluid = *c.setting.fluid;
+  const auto section = root.section("fluid");
+  section.require(!fluid.has_inertia(), "density",
+                  "is {}; it must be 0 or left out in a case with membranes, which move in Stokes "
+                  "flow",
+                  fluid.density);
+  section.require(fluid.solver.empty(), "solver",
+                  "is a program of your own, which does not know membranes; it must be left out");
+  section.require(
+      fluid.mesh == FluidMesh::kFitted, "mesh",
+      "is 'fixed'; it must be \"fitted\" in a case with membranes, which the mesh follows");
+  section.require(fluid.coupling == Coupling::kConstrained, "coupling",
+                  "is 'splitting'; it must be \"constrained\" in a case with membranes");
+  section.require(fluid.constraint == RigidConstraint::kPenalty, "constraint",
+                  "is 'rigid'; it must be left out in a case with membranes, which has no rigid "
+                  "particles");
+  root.section("space").require(
+      c.setting.gravity == Vector{}, "gravity",
+      "has no effect on membranes, which have no mass; it must be 0 or left out");
+  root.section("viscous_contact")
+      .require(!c.setting.laws.restitution.is_on(), "restitution",
+               "has no effect on membranes, which have no mass; it must be 0 or left out");
+  const auto* box = std::get_if<BoxDomain>(&c.setting.domain);
+  if (box != nullptr && box->periodic[1])
+    throw_bad_input(at,
+                    "section [[membrane]] stands in a box that is periodic along y; the box must "
+                    "have walls below and above");
+}
+
+/// A rate at which the boundary deforms the fluid [1/T]: the largest entry of its velocity
+/// gradient, or the largest speed of a side over the smallest extent of the box.
+double rate_of_deformation(const ParticlesCase& c) {
+  const auto& boundary = c.setting.fluid->boundary;
+  double largest = 0;
+  if (const auto* flow = std::get_if<LinearFlow>(&boundary)) {
+    for (const double entry : flow->gradient) largest = std::max(largest, std::abs(entry));
+    return largest;
+  }
+  const auto& box = std::get<BoxDomain>(c.setting.domain);
+  for (const auto& wall : std::get<SideVelocities>(boundary))
+    largest = std::max(largest, std::hypot(wall.value[0], wall.value[1]));
+  return largest / std::min(box.to[0] - box.from[0], box.to[1] - box.from[1]);
+}
+
+}  // namespace
+
+void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& c) {
+  const auto& membrane = c.setting.fluid->membranes.back();
+  // Below, the solution is lost in rounding errors (1e-6 ends in errors of FreeFEM). Above, the
+  // elements resist the tank-treading that is left: in a vesicle of reduced area 0.9 that turns for
+  // half a time unit, the inclination changes by 0.002 between 1e2 and 1e3, and by 0.015 between
+  // 1e3 and 1e4, where it should hardly change.
+  constexpr double kLeast = 1e-4, kMost = 1e3;
+  section.require(membrane.viscosity_ratio >= kLeast && membrane.viscosity_ratio <= kMost,
+                  "inner_viscosity",
+                  "is {:.6g} times the viscosity of the fluid outside; it must be from 1e-4 to 1e3 "
+                  "times as large",
+                  membrane.viscosity_ratio);
+  // Tensions that keep lengths and bending that keeps the curve smooth leave a coarse curve too few
+  // ways to run around: with 12 beads and a rigidity of 1000 the inclination is 0.43 where 0.58 is
+  // right.
+  constexpr double kStiff = 100;
+  constexpr std::int32_t kBeadsOfStiff = 32;
+  const double scale = c.setting.fluid->viscosity * rate_of_deformation(c) *
+                       std::pow(membrane.area / std::numbers::pi, 1.5);
+  section.require(
+      membrane.count() >= kBeadsOfStiff || membrane.bending_rigidity <= kStiff * scale ||
+          scale == 0,
+      section.has("particles") ? "particles" : "beads",
+      "makes {} beads, too few for so stiff a membrane: the bending rigidity is {:.3g} times "
+      "viscosity, rate of deformation and R0^3, R0^2 = area/pi; from 100 on a membrane must have "
+      "at "
+      "least {} beads",
+      membrane.count(), membrane.bending_rigidity / scale, kBeadsOfStiff);
+}
+
+void check_case_of_membranes(const case_file::TomlSection& root,
+                             const case_file::TomlSection& first, const ParticlesCase& c) {
+  if (c.particles.dimension != 2)
+    throw_bad_input({c.path.string(), first.line()},
+                    "section [[membrane]] belongs to the plane; space.dimension must be 2");
+  if (c.setting.fluid)
+    check_case_in_fluid(root, first, c);
+  else
+    check_case_without_fluid(root, c);
+}
+
+void check_given_beads(const case_file::TomlSection& section, const ParticlesCase& c,
+                       const Membrane& membrane) {
+  const bool in_fluid = c.setting.fluid.has_value();
+  const auto& p = c.particles;
+  // With three beads their distances determine the area.
+  constexpr std::int32_t kLeastWithoutFluid = 4;
+  const auto least = in_fluid ? kLeastBeads : kLeastWithoutFluid;
+  section.require(membrane.count() >= least, "particles",
+                  "has {} beads; a membrane {} must have at least {}", membrane.count(),
+                  in_fluid ? "in a fluid" : "without a fluid", least);
+  const auto& earlier = membranes_of(c.setting);
+  for (auto bead = membrane.beads.begin(); bead != membrane.beads.end(); ++bead) {
+    const auto id = p.id(index_of(*bead));
+    section.require(std::find(membrane.beads.begin(), bead, *bead) == bead, "particles",
+                    "contains particle {} a second time", id);
+    for (std::size_t m = 0; m < earlier.size(); ++m)
+      section.require(!earlier[m].has(*bead), "particles",
+                      "contains particle {}, which is a bead of membrane {}", id, m);
+    section.require(!in_fluid || p.masses[index_of(*bead)] == 0, "particles",
+                    "contains particle {} with the mass {}; in a fluid beads must have no mass", id,
+                    p.masses[index_of(*bead)]);
+    section.require(!c.setting.given_motions.contains(*bead), "particles",
+                    "contains particle {}, whose motion is given; beads must be free", id);
+    section.require(!in_fluid || !c.setting.fluid->is_ellipse(index_of(*bead)), "particles",
+                    "contains particle {}, which is an ellipse; beads must be discs", id);
+  }
+}
+
+void check_place(const case_file::TomlSection& section, const ParticlesCase& c) {
+  const auto& p = c.particles;
+  const auto& membranes = membranes_of(c.setting);
+  const auto& membrane = membranes.back();
+  const std::string_view shape = section.has("particles") ? "particles" : "reduced_area";
+  const auto own = corners_of(membrane, p);
+  const auto count = membrane.beads.size();
+  section.require(!crosses_itself(own), shape, "makes a membrane that crosses itself");
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = i + 2; j < count; ++j) {
+      const auto a = index_of(membrane.beads[i]), b = index_of(membrane.beads[j]);
+      const double distance = std::hypot(own[2 * i] - own[2 * j], own[2 * i + 1] - own[2 * j + 1]);
+      // Distances that were computed from rounded places.
+      constexpr double kRounding = 1 + 1e-9;
+      section.require((i == 0 && j + 1 == count) || distance * kRounding >= p.radii[a] + p.radii[b],
+                      shape,
+                      "makes beads {} and {} overlap across the membrane; its area must be larger, "
+                      "or it must have more beads (or smaller ones)",
+                      i, j);
+    }
+  const double reduced =
+      4 * std::numbers::pi * membrane.area / (membrane.perimeter * membrane.perimeter);
+  // What a membrane that is made may have, but for rounding.
+  section.require(!c.setting.fluid || (reduced > 0.2999 && reduced < 0.99901), shape,
+                  "makes a membrane of the reduced area {:.6g}; in a fluid it must be from 0.3 to "
+                  "0.999",
+                  reduced);
+  for (std::size_t d = 0; d < 2; ++d) {
+    double from = own[d], to = own[d];
+    for (std::size_t i = d; i < own.size(); i += 2) {
+      from = std::min(from, own[i]);
+      to = std::max(to, own[i]);
+    }
+    const double period = periods_of(c.setting.domain)[d];
+    section.require(!(period > 0) || to - from < period, shape,
+                    "makes a membrane as wide as the domain is periodic; it must be smaller than "
+                    "the period, {}",
+                    period);
+  }
+  const auto periods = periods_of(c.setting.domain);
+  for (std::size_t m = 0; m + 1 < membranes.size(); ++m) {
+    const auto other = corners_of(membranes[m], p);
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j) {
+        auto image = other;
+        for (std::size_t k = 0; k < image.size(); k += 2) {
+          image[k] += i * periods[0];
+          image[k + 1] += j * periods[1];
+        }
+        const std::string_view place = section.has("particles") ? "particles" : "centre";
+        section.require(!do_cross(own, image) && (!c.setting.fluid || !do_contain(own, image)),
+                        place, "makes the membrane cross {}membrane {}; membranes must be apart",
+                        c.setting.fluid ? "or contain " : "", m);
+      }
+  }
+}
+
+void check_others(const case_file::TomlSection& first, const ParticlesCase& c) {
+  if (!c.setting.fluid) return;
+  std::vector<char> is_bead(c.particles.count(), 0);
+  for (const auto& membrane : c.setting.fluid->membranes)
+    for (const auto bead : membrane.beads) is_bead[index_of(bead)] = 1;
+  for (std::size_t k = 0; k < is_bead.size(); ++k)
+    if (is_bead[k] == 0)
+      throw_bad_input({c.path.string(), first.line()},
+                      fmt::format("section [[membrane]] stands beside particle {}, which is no "
+                                  "bead; a case with membranes in a fluid must have no other "
+                                  "particles",
+                                  c.particles.id(k)));
+}
+
+}  // namespace viscontact::particles

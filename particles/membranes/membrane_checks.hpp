@@ -1,0 +1,31 @@
+// What of [[membrane]] is refused, each with its line. For membrane_keys.cpp only. Lengths are in
+// the unit of the case.
+#pragma once
+
+#include "viscontact/particles/case/particles_sections.hpp"
+
+namespace viscontact::particles {
+
+/// Throws if the case has what cannot be computed together with membranes. `first` is the section
+/// of the first membrane.
+void check_case_of_membranes(const case_file::TomlSection& root,
+                             const case_file::TomlSection& first, const ParticlesCase& c);
+
+/// Throws for given beads of a new membrane that are too few, named twice or beads of another
+/// membrane, or that have a mass or a given motion in a fluid.
+void check_given_beads(const case_file::TomlSection& section, const ParticlesCase& c,
+                       const Membrane& membrane);
+
+/// Throws if the last membrane crosses itself, if beads of it that are no neighbours overlap, or if
+/// it crosses another membrane or an image of it in the next period. In a fluid it must not contain
+/// one either.
+void check_place(const case_file::TomlSection& section, const ParticlesCase& c);
+
+/// Throws if the fluid inside the last membrane is much less or much more viscous than outside, or
+/// if the membrane is too stiff for its number of beads. The case has a fluid.
+void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& c);
+
+/// Throws if a case with a fluid has other particles than the beads of its membranes.
+void check_others(const case_file::TomlSection& first, const ParticlesCase& c);
+
+}  // namespace viscontact::particles

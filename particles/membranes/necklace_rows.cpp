@@ -1,0 +1,141 @@
+// Makes the equations of a membrane without a fluid (necklace_rows.hpp). A change must keep that
+// rows and membrane_value_after() agree to first order in the motion.
+#include "viscontact/particles/membranes/necklace_rows.hpp"
+
+#include <cmath>
+
+#include "viscontact/particles/membranes/necklace.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+using Kind = LinkEquations::Kind;
+
+/// The vector from one bead to the next one, or to the one after it: the nearest image [L].
+Vector apart(const Membrane& membrane, const Particles& p, std::int32_t from, std::int32_t to) {
+  return nearest_image(
+      p.cell, p.position(index_of(membrane.bead(to))) - p.position(index_of(membrane.bead(from))));
+}
+
+/// The vector from the bead before `k` to the bead after it [L].
+Vector across(const Membrane& membrane, const Particles& p, std::int32_t k) {
+  return apart(membrane, p, k - 1, k) + apart(membrane, p, k, k + 1);
+}
+
+Vector left_of(const Vector& v) { return {-v[1], v[0], 0}; }
+
+/// The angle from one vector to another, in (-pi, pi] [rad].
+double angle_between(const Vector& from, const Vector& to) {
+  return std::atan2(from[0] * to[1] - from[1] * to[0], dot(from, to));
+}
+
+LinkPart part(const Membrane& membrane, std::int32_t k, const Vector& direction) {
+  LinkPart of_bead;
+  of_bead.particle = membrane.bead(k);
+  of_bead.direction = direction;
+  return of_bead;
+}
+
+LinkEquations equations(Kind kind, std::int32_t bead, LinkRow row) {
+  LinkEquations one{kind};
+  one.bead = bead;
+  one.rows.push_back(std::move(row));
+  return one;
+}
+
+/// By how much the distance of beads k and k + 1 is too large.
+LinkRow distance_row(const Membrane& membrane, const Particles& p, std::int32_t k) {
+  const Vector d = apart(membrane, p, k, k + 1);
+  const Vector along = (1 / norm(d)) * d;
+  LinkRow row;
+  row.parts = {part(membrane, k, -1 * along), part(membrane, k + 1, along)};
+  row.value = norm(d) - membrane.lengths[static_cast<std::size_t>(k)];
+  return row;
+}
+
+/// The bending spring at bead k, (8.10), whose extension is the angle of the turn times the length
+/// l of the bead, so that its stiffness is kappa/l^3. Newmark's method as for springs; the bending
+/// viscosity acts on the change of the extension in the step.
+LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
+                 const LinkTimes& times) {
+  constexpr double kBeta = 0.25;
+  const auto n = membrane.lengths.size(), i = static_cast<std::size_t>(k);
+  const double length = (membrane.lengths[(i + n - 1) % n] + membrane.lengths[i]) / 2;
+  const Vector before = apart(membrane, p, k - 1, k), after = apart(membrane, p, k, k + 1);
+  const Vector of_before = (length / dot(before, before)) * left_of(before),
+               of_after = (length / dot(after, after)) * left_of(after);
+  LinkRow row;
+  row.parts = {part(membrane, k - 1, of_before), part(membrane, k, -1 * (of_before + of_after)),
+               part(membrane, k + 1, of_after)};
+  row.extension = length * angle_between(before, after);
+  row.stiffness = membrane.bending_rigidity / (length * length * length);
+  double rate = 0;
+  for (const auto& of_bead : row.parts)
+    rate += dot(of_bead.direction, p.velocity(index_of(of_bead.particle)));
+  const double beta = times.is_first ? 2 * kBeta : kBeta;
+  const double elastic = times.kick * row.stiffness,
+               viscous =
+                   times.kick * membrane.bending_viscosity / (length * length * length * times.h);
+  row.compliance = 1 / (beta * elastic + viscous);
+  row.value = elastic * (row.extension - beta * times.h * rate) * row.compliance;
+  return row;
+}
+
+/// By how much bead k turns less than the line between its neighbours.
+LinkRow turn_row(const Membrane& membrane, const Particles& p, std::int32_t k) {
+  const Vector chord = across(membrane, p, k);
+  const Vector of_ends = (1 / dot(chord, chord)) * left_of(chord);
+  LinkRow row;
+  row.parts = {part(membrane, k - 1, of_ends), part(membrane, k, {0, 0, 1}),
+               part(membrane, k + 1, -1 * of_ends)};
+  row.parts[1].is_turn = true;
+  return row;
+}
+
+/// By how much the area is too large, over the mean distance of neighbours.
+LinkRow area_row(const Membrane& membrane, const Particles& p) {
+  const double length = membrane.perimeter / membrane.count();
+  const auto necklace = necklace_of(membrane, p);
+  const Eigen::VectorXd gradient = area_gradient(necklace) / length;
+  LinkRow row;
+  for (std::int32_t k = 0; k < membrane.count(); ++k)
+    row.parts.push_back(part(membrane, k, {gradient(k), gradient(membrane.count() + k), 0}));
+  row.value = (area_of(necklace) - membrane.area) / length;
+  return row;
+}
+
+}  // namespace
+
+std::vector<LinkEquations> membrane_equations(const Membrane& membrane, const Particles& particles,
+                                              const LinkTimes& times) {
+  std::vector<LinkEquations> all;
+  for (std::int32_t k = 0; k < membrane.count(); ++k)
+    all.push_back(equations(Kind::kDistance, k, distance_row(membrane, particles, k)));
+  for (std::int32_t k = 0; k < membrane.count(); ++k)
+    all.push_back(equations(Kind::kTurn, k, turn_row(membrane, particles, k)));
+  for (std::int32_t k = 0; k < membrane.count() && membrane.resists_bending(); ++k)
+    all.push_back(equations(Kind::kBend, k, bend_row(membrane, particles, k, times)));
+  if (membrane.keeps_area) all.push_back(equations(Kind::kArea, 0, area_row(membrane, particles)));
+  return all;
+}
+
+double membrane_value_after(const LinkEquations& equations, const Membrane& membrane,
+                            const Particles& particles, std::span<const UnitMotion> motions) {
+  const auto k = equations.bead;
+  const auto by = [&](std::size_t i) { return motions[i].displacement; };
+  if (equations.kind == Kind::kDistance)
+    return norm(apart(membrane, particles, k, k + 1) + by(1) - by(0)) -
+           membrane.lengths[static_cast<std::size_t>(k)];
+  if (equations.kind == Kind::kTurn) {
+    const Vector chord = across(membrane, particles, k);
+    return motions[1].turn[2] - angle_between(chord, chord + by(2) - by(0));
+  }
+  auto necklace = necklace_of(membrane, particles);
+  for (std::int32_t i = 0; i < membrane.count(); ++i) {
+    necklace(i) += by(static_cast<std::size_t>(i))[0];
+    necklace(membrane.count() + i) += by(static_cast<std::size_t>(i))[1];
+  }
+  return (area_of(necklace) - membrane.area) * membrane.count() / membrane.perimeter;
+}
+
+}  // namespace viscontact::particles
