@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "viscontact/freefem_axi/geometry.hpp"
@@ -223,19 +224,23 @@ void fluid_keys(Keys& keys, double& viscosity, double& density) {
 void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool needs_mass) {
   keys.required("radius", number(radius, kPositive),
                 {.meaning = "radius r of the sphere", .example = "1.0"});
-  const bool has_density =
-      keys.optional("density", number(density, kPositive),
-                    {"density rho_p of the sphere, in place of `mass`", "from `mass`", {}, "4.8"});
-  if (has_density) mass = density * ball_volume(radius);
-  keys.require(!has_density || std::isnormal(mass), "density",
-               "makes the mass {} with the radius {}; a double does not hold this mass", mass,
-               radius);
-  if (has_density && keys.has("mass"))
-    keys.section().fail("mass", fmt::format("must be left out, because the mass follows from "
-                                            "density in line {}; only one of the two may be given",
-                                            keys.section().line("density")));
+  std::optional<double> given;
+  keys.optional("density", number(given, kPositive),
+                {"density rho_p of the sphere, in place of `mass`", "from `mass`"});
+  if (given) {
+    density = *given;
+    mass = density * ball_volume(radius);
+    keys.require(std::isnormal(mass), "density",
+                 "makes the mass {} with the radius {}; a double does not hold this mass", mass,
+                 radius);
+    if (keys.has("mass"))
+      keys.section().fail("mass",
+                          fmt::format("must be left out, because the mass follows from density in "
+                                      "line {}; only one of the two may be given",
+                                      keys.section().line("density")));
+  }
   keys.required_if(
-      needs_mass && !has_density, "mass", number(mass, kPositive),
+      needs_mass && !given, "mass", number(mass, kPositive),
       {"mass m of the sphere", "required with a section `[motion]`, or `density`", {}, "20.0"});
 }
 

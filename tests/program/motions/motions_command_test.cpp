@@ -313,7 +313,7 @@ TEST_F(MotionsCommand, RollingRefusesWhatIsWrongWithItsLine) {
   const auto scaled =
       run_viscontact({"rolling", incline("radius = 1.0", "radius = 2.0"), "-o", path("scaled")});
   expect_done(scaled);
-  EXPECT_THAT(scaled.output, HasSubstr("it is scaled to radius 2"));
+  EXPECT_THAT(scaled.errors, HasSubstr("it is scaled to radius 2"));
   refused("time_step = 0.01", "time_step = 0.01\nmodels = [\"rigid\"]",
           "contains 'rigid'; the models");
   refused("plane.json", "equal_spheres.json", "it must be a plane");
@@ -348,8 +348,8 @@ TEST_F(MotionsCommand, SweepOfARollingSphereHasTheEndsThatRollingHas) {
   EXPECT_THAT(
       sweep({"--vary", "rolling.incline=0.1,0.9", "--models", "smooth,viscous_contact"}).errors,
       HasSubstr("is up to date"));
-  expect_refusal(sweep({"--vary", "sphere.radius=1,2"}), ErrorKind::kWrongUsage,
-                 HasSubstr("cannot be varied with one fit"));
+  expect_refusal(sweep({"--vary", "tabulation.relative_accuracy=1e-3,1e-4"}),
+                 ErrorKind::kWrongUsage, HasSubstr("cannot be varied with one fit"));
   expect_refusal(sweep({"--vary", "rolling.incline=0,1", "--draws", "2"}), ErrorKind::kWrongUsage,
                  HasSubstr("not for cases of a rolling sphere"));
   const auto tables = small_case("motion = \"all\"",

@@ -48,7 +48,7 @@ TEST_F(Stages, CompareTakesAnotherReferenceAndAnotherOutput) {
     EXPECT_EQ(model.sup_gap_distance == 0, model.model == "reference_exact") << model.model;
 }
 
-TEST_F(Stages, ReportIsOneSelfContainedPageWithSevenPlots) {
+TEST_F(Stages, ReportIsOneSelfContainedPageWithEightPlots) {
   put("case.toml", replaced(lecture_case_text(), "title = \"Sphere", "title = \"<script>&"));
   simulate();
   expect_done(run_viscontact({"compare", path("run")}));
@@ -57,7 +57,7 @@ TEST_F(Stages, ReportIsOneSelfContainedPageWithSevenPlots) {
   const std::string page = read_file(path("run/report.html"));
 
   // Each plot is a file of its own too.
-  EXPECT_EQ(files_below(path("run/plots")).size(), 7U);
+  EXPECT_EQ(files_below(path("run/plots")).size(), 8U);
   for (const auto& [file, svg] : files_below(path("run/plots")))
     EXPECT_THAT(page, HasSubstr("plots/" + std::filesystem::path(file).filename().string()));
   EXPECT_THAT(page, AllOf(Not(HasSubstr("@import")), Not(HasSubstr("<link")),

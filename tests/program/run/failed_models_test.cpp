@@ -66,7 +66,7 @@ TEST_F(FailedModels, DoNotStopTheOthersOfARun) {
   EXPECT_THAT(comparison.failed_models[2].reason, HasSubstr("is outside the fitted interval"));
   EXPECT_THAT(read_file(folder() / "report.html"),
               AllOf(HasSubstr("inertial failed and has no trajectory: gap "),
-                    HasSubstr("<td>inertial</td><td colspan=7>failed: gap ")));
+                    HasSubstr("<td>inertial</td><td colspan=8>failed: gap ")));
 }
 
 TEST_F(FailedModels, AreNotRunAgainAndNotForgotten) {

@@ -157,9 +157,9 @@ TEST_F(Stages, SimulateTakesAFitWhoseViscosityDiffersByRounding) {
   // The double next to 3, and 1e-11 away, which no conversion of units explains.
   const auto rounded = simulate_with("3.0000000000000004"), other = simulate_with("3.00000000003");
   expect_done(rounded);
-  EXPECT_THAT(rounded.output, ::testing::Not(HasSubstr("scaled")));
+  EXPECT_THAT(rounded.errors, ::testing::Not(HasSubstr("scaled")));
   expect_done(other);
-  EXPECT_THAT(other.output, HasSubstr("the fit is that of radius 1 and viscosity 3"));
+  EXPECT_THAT(other.errors, HasSubstr("the fit is that of radius 1 and viscosity 3"));
 }
 
 TEST_F(Stages, FitIsScaledToACaseInOtherUnits) {
