@@ -206,7 +206,9 @@ std::vector<LinkEquations> stop_equations(const Links& links, const Particles& p
     const auto particle = hinge.point.particle;
     const auto add = [&](double left, double sign) {
       if (!std::isfinite(left)) return;
-      LinkEquations stop{LinkEquations::Kind::kStop, k, k * Links::forces_of_hinge(2) + 2};
+      LinkEquations stop{.kind = LinkEquations::Kind::kStop,
+                         .number = k,
+                         .first_force = k * Links::forces_of_hinge(2) + 2};
       stop.rows.push_back(
           {{{.particle = particle, .direction = {0, 0, sign}, .is_turn = true}}, left});
       all.push_back(std::move(stop));
