@@ -335,9 +335,9 @@ std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Flui
     for (const auto& membrane : fluid.membranes)
       sizes.push_back(std::sqrt(membrane.area / std::numbers::pi));
     const auto units = solver_units(fluid, domain, sizes);
-    auto process =
-        start_membrane_solver(in_units(fluid, units), in_units(domain, units), units.length,
-                              freefem_command("membranes.edp"), solver_limits(stop));
+    auto process = start_membrane_solver(in_units(fluid, units), in_units(domain, units),
+                                         in_units(radii, units), units.length,
+                                         freefem_command("membranes.edp"), solver_limits(stop));
     return std::make_unique<ScaledSolver>(units, dimension, std::move(process));
   }
   const bool is_freefem = fluid.solver.empty();

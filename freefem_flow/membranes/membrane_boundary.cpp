@@ -7,45 +7,110 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 #include "viscontact/particles/domain/periods.hpp"
+#include "viscontact/particles/membranes/membrane_curve.hpp"
 
 namespace viscontact::freefem_flow {
 
 using particles::BoxDomain;
 using particles::DiscDomain;
 
-void check_places(const particles::Domain& domain, const NodesOfMembranes& nodes, double unit) {
-  const auto is_inside = [&](double x, double y) {
-    if (const auto* disc = std::get_if<DiscDomain>(&domain))
-      return std::hypot(x - disc->centre[0], y - disc->centre[1]) < disc->radius;
-    const auto& box = std::get<BoxDomain>(domain);
-    return (box.periodic[0] || (x > box.from[0] && x < box.to[0])) && y > box.from[1] &&
-           y < box.to[1];
-  };
-  for (const auto& own : nodes)
-    for (const auto& node : own.rowwise())
-      if (!is_inside(node(0), node(1)))
-        throw Error(ErrorKind::kNotConverged,
-                    fmt::format("a membrane leaves the domain at ({:.6g}, {:.6g}); use a shorter "
-                                "time_step, or more room between membranes and walls",
-                                node(0) * unit, node(1) * unit));
+namespace {
+
+/// Distance of a point inside the domain from its walls; infinite if all sides are periodic.
+double distance_to_walls(const particles::Domain& domain, const Point& x) {
+  if (const auto* disc = std::get_if<DiscDomain>(&domain))
+    return disc->radius - std::hypot(x[0] - disc->centre[0], x[1] - disc->centre[1]);
+  const auto& box = std::get<BoxDomain>(domain);
+  double distance = std::numeric_limits<double>::infinity();
+  for (std::size_t d = 0; d < 2; ++d)
+    if (!box.periodic[d]) distance = std::min({distance, x[d] - box.from[d], box.to[d] - x[d]});
+  return distance;
 }
 
-double shift_between_membranes(const particles::Domain& domain, const NodesOfMembranes& nodes) {
+/// Wanted lengths of edges on walls and discs.
+class WantedEdges {
+ public:
+  WantedEdges(const particles::Domain& domain, const InnerCurves& curves)
+      : curves_(curves), cap_(size_of(domain) / kEdgesOfAWall) {}
+
+  /// At a point on a wall, or on the disc with the number `own`.
+  double at(const Point& x, std::size_t own = std::numeric_limits<std::size_t>::max()) const {
+    double wanted = cap_;
+    const auto shorten = [&](double edge, int edges, double distance) {
+      wanted = std::min(
+          {wanted, edge + kGrowth * 24 / edges * distance, std::max(edge / 8, kOfGap * distance)});
+    };
+    for (const auto& nodes : curves_.membranes)
+      for (Eigen::Index i = 0; i < nodes.rows(); i += 2)
+        shorten((nodes.row((i + 2) % nodes.rows()) - nodes.row(i)).norm(), curves_.edges,
+                std::hypot(nodes(i, 0) - x[0], nodes(i, 1) - x[1]));
+    for (std::size_t k = 0; k < curves_.discs.size(); ++k) {
+      const auto& disc = curves_.discs[k];
+      const double edge = particles::kTwoPi * disc.radius / curves_.edges_of_disc;
+      if (k == own)
+        wanted = std::min(wanted, edge);
+      else
+        shorten(edge, curves_.edges_of_disc,
+                std::hypot(disc.centre[0] - x[0], disc.centre[1] - x[1]) - disc.radius);
+    }
+    return wanted;
+  }
+
+  /// On a disc, which walls also shorten.
+  double on_disc(const particles::Domain& domain, std::size_t own, const Point& x) const {
+    const double edge = particles::kTwoPi * curves_.discs[own].radius / curves_.edges_of_disc;
+    return std::min(at(x, own), std::max(edge / 8, kOfGap * distance_to_walls(domain, x)));
+  }
+
+ private:
+  // Edges grow by this share of the distance from the nearest curve, with 24 edges on it.
+  static constexpr double kGrowth = 0.25, kEdgesOfAWall = 6, kOfGap = 0.5;
+  const InnerCurves& curves_;
+  double cap_;
+};
+
+}  // namespace
+
+void check_places(const particles::Domain& domain, const InnerCurves& curves, double unit) {
+  const auto fail = [&](const char* what, const Point& x) {
+    throw Error(ErrorKind::kNotConverged,
+                fmt::format("{} at ({:.6g}, {:.6g}); use a shorter time_step, or more room between "
+                            "membranes, particles and walls",
+                            what, x[0] * unit, x[1] * unit));
+  };
+  for (const auto& own : curves.membranes)
+    for (const auto& node : own.rowwise()) {
+      const Point x = {node(0), node(1)};
+      if (!(distance_to_walls(domain, x) > 0)) fail("a membrane leaves the domain", x);
+      for (const auto& disc : curves.discs)
+        if (!(std::hypot(x[0] - disc.centre[0], x[1] - disc.centre[1]) > disc.radius))
+          fail("a membrane meets a particle", x);
+    }
+  for (const auto& disc : curves.discs) {
+    const Point x = {disc.centre[0], disc.centre[1]};
+    if (!(distance_to_walls(domain, x) > disc.radius)) fail("a particle leaves the domain", x);
+  }
+}
+
+double shift_between_membranes(const particles::Domain& domain, const InnerCurves& curves) {
   const auto cell = particles::cell_of(domain);
   const double period = cell.lengths[0];
-  if (!(period > 0) || nodes.empty()) return 0;
-  // Where membranes begin and end within the period, and the widest gap between them.
+  if (!(period > 0) || (curves.membranes.empty() && curves.discs.empty())) return 0;
+  // Where membranes and discs begin and end within the period, and the widest gap between them.
   std::vector<std::array<double, 2>> ranges;
-  for (const auto& own : nodes) {
-    const double from = own.col(0).minCoeff(), width = own.col(0).maxCoeff() - from;
+  const auto add = [&](double from, double width) {
     const double start = from - period * particles::periods_beyond(cell, 0, from);
     ranges.push_back({start, start + width});
-  }
+  };
+  for (const auto& own : curves.membranes)
+    add(own.col(0).minCoeff(), own.col(0).maxCoeff() - own.col(0).minCoeff());
+  for (const auto& disc : curves.discs) add(disc.centre[0] - disc.radius, 2 * disc.radius);
   std::ranges::sort(ranges);
   double end = ranges.front()[1], widest = 0, middle = 0;
   for (const auto& range : ranges) end = std::max(end, range[1]);
@@ -58,29 +123,15 @@ double shift_between_membranes(const particles::Domain& domain, const NodesOfMem
     end = std::max(end, to);
   }
   if (!(widest > 1e-3 * period))
-    throw Error(
-        ErrorKind::kNotConverged,
-        "no straight line across the periodic domain passes between the membranes, at which "
-        "the mesh could end; use a longer domain");
+    throw Error(ErrorKind::kNotConverged,
+                "no straight line across the periodic domain passes between the membranes and "
+                "particles, at which the mesh could end; use a longer domain");
   return middle - cell.from[0];
 }
 
-MeshBoundary membrane_boundary(const particles::Domain& domain, const NodesOfMembranes& nodes,
-                               int edges) {
-  // Edges grow by this share of the distance from the nearest membrane, with 24 edges on it.
-  constexpr double kGrowthOfMembranes = 0.25, kEdgesOfAWall = 6, kOfGap = 0.5;
-  const double growth = kGrowthOfMembranes * 24 / edges, cap = size_of(domain) / kEdgesOfAWall;
-  const auto wanted_at = [&](const Point& x) {
-    double wanted = cap;
-    for (const auto& own : nodes)
-      for (Eigen::Index i = 0; i < own.rows(); i += 2) {
-        const double edge = (own.row((i + 2) % own.rows()) - own.row(i)).norm();
-        const double distance = std::hypot(own(i, 0) - x[0], own(i, 1) - x[1]);
-        wanted =
-            std::min({wanted, edge + growth * distance, std::max(edge / 8, kOfGap * distance)});
-      }
-    return wanted;
-  };
+MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurves& curves) {
+  const WantedEdges edges(domain, curves);
+  const auto wanted_at = [&](const Point& x) { return edges.at(x); };
   MeshBoundary boundary;
   if (const auto* disc = std::get_if<DiscDomain>(&domain)) {
     constexpr std::size_t kLeastOnWall = 24;
@@ -103,6 +154,16 @@ MeshBoundary membrane_boundary(const particles::Domain& domain, const NodesOfMem
     boundary.add(cut_line(b, {a[0], b[1]}, wanted_at), 4);
     boundary.add(left, box.periodic[0] ? kPeriodicLabel : 1);
   }
+  for (std::size_t k = 0; k < curves.discs.size(); ++k) {
+    constexpr std::size_t kLeastOnCircle = 6;
+    const auto& disc = curves.discs[k];
+    auto points = cut_outline(disc, kLeastOnCircle,
+                              [&](double t) { return edges.on_disc(domain, k, disc.at(t)); });
+    // The fluid is on the left.
+    std::ranges::reverse(points);
+    boundary.add(points, kFirstParticleLabel + static_cast<int>(k));
+  }
+  const auto& nodes = curves.membranes;
   for (std::size_t m = 0; m < nodes.size(); ++m) {
     std::vector<Point> ends;
     for (Eigen::Index i = 0; i < nodes[m].rows(); i += 2)

@@ -6,6 +6,7 @@
 
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 #include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/outline.hpp"
 
 namespace viscontact::freefem_flow {
 
@@ -18,17 +19,24 @@ inline constexpr int kMostMembranes = kFirstParticleLabel - kFirstMembraneLabel;
 /// in turn, counter-clockwise.
 using NodesOfMembranes = std::vector<Eigen::MatrixXd>;
 
-/// Throws Error(kNotConverged) if a node of a membrane is not in the domain. The message has
-/// lengths in a unit that is smaller by the factor `unit`.
-void check_places(const particles::Domain& domain, const NodesOfMembranes& nodes, double unit);
+/// The curves inside the domain.
+struct InnerCurves {
+  NodesOfMembranes membranes{};
+  std::vector<particles::Outline> discs{};  ///< rigid discs, holes of the mesh
+  int edges = 24;                           ///< on each membrane
+  int edges_of_disc = 24;                   ///< on each disc, more where a gap is narrow
+};
 
-/// The shift along x after which no membrane crosses the sides of a box that is periodic along x; 0
-/// for other domains. Throws Error(kNotConverged) if there is none.
-double shift_between_membranes(const particles::Domain& domain, const NodesOfMembranes& nodes);
+/// Throws Error(kNotConverged) if a node of a membrane is not in the domain or in a disc, or if a
+/// disc leaves the domain. The message has lengths in a unit that is smaller by the factor `unit`.
+void check_places(const particles::Domain& domain, const InnerCurves& curves, double unit);
 
-/// The boundary of the mesh: walls and periodic sides, and then the membranes, each of which has
-/// `edges` edges. Edges on walls grow with the distance from the membranes.
-MeshBoundary membrane_boundary(const particles::Domain& domain, const NodesOfMembranes& nodes,
-                               int edges);
+/// The shift along x after which no membrane and no disc crosses the sides of a box that is
+/// periodic along x; 0 for other domains. Throws Error(kNotConverged) if there is none.
+double shift_between_membranes(const particles::Domain& domain, const InnerCurves& curves);
+
+/// The boundary of the mesh: walls and periodic sides, the discs, and then the membranes. Edges on
+/// walls and discs grow with the distance from the nearest membrane or disc.
+MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurves& curves);
 
 }  // namespace viscontact::freefem_flow

@@ -60,8 +60,9 @@ MembraneNodes nodes_of(int beads, int edges) {
 /// Stokes flow around membranes, computed by FreeFEM.
 class MembraneProcess : public particles::FluidSolver {
  public:
-  MembraneProcess(const particles::Fluid& fluid, const particles::Domain& domain, double unit,
-                  SolverCommand command, const SolverLimits& limits);
+  MembraneProcess(const particles::Fluid& fluid, const particles::Domain& domain,
+                  std::span<const double> radii, double unit, SolverCommand command,
+                  const SolverLimits& limits);
 
   void place(const particles::FluidParticles& bodies) override;
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
@@ -70,6 +71,7 @@ class MembraneProcess : public particles::FluidSolver {
     particles::FlowQuantities quantities;
     quantities.dissipation = dissipation_;
     if (dissipation_alone_ > 0) quantities.apparent_viscosity = dissipation_ / dissipation_alone_;
+    quantities.fluid_forces = forces_of_fluid_;
     return quantities;
   }
   double vary_penalty() override { return 0; }
@@ -89,10 +91,17 @@ class MembraneProcess : public particles::FluidSolver {
   particles::Domain domain_;
   double unit_;
   std::vector<Membrane> membranes_;
-  int edges_;  // on each membrane
+  int edges_;          // on each membrane
+  int edges_of_disc_;  // on each disc
   std::vector<MembraneNodes> nodes_;
+  std::vector<double> radii_;       // of all particles
+  std::vector<std::size_t> discs_;  // the particles that are no beads
+  // The component of all particles' motions that is each component of the script: x of the beads of
+  // all membranes, y of them, and the motions of the discs.
+  std::vector<std::size_t> components_;
   // Of the last flow, and of the fluid without membranes (0: not known).
   double dissipation_ = 0, dissipation_alone_;
+  std::vector<double> forces_of_fluid_;  // on all particles
   std::unique_ptr<SolverDialogue> solver_;
   double shift_ = 0;  // along x, of the domain with respect to the mesh
   std::size_t unknowns_ = 0;
@@ -100,13 +109,16 @@ class MembraneProcess : public particles::FluidSolver {
 };
 
 MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles::Domain& domain,
-                                 double unit, SolverCommand command, const SolverLimits& limits)
+                                 std::span<const double> radii, double unit, SolverCommand command,
+                                 const SolverLimits& limits)
     : command_(std::move(command)),
       limits_(limits),
       domain_(domain),
       unit_(unit),
       membranes_(fluid.membranes),
       edges_(fluid.edges_per_particle),
+      edges_of_disc_(fluid.edges_per_particle),
+      radii_(radii.begin(), radii.end()),
       dissipation_alone_(dissipation_alone(fluid, domain)) {
   if (membranes_.size() > kMostMembranes)
     throw Error(ErrorKind::kBadInput,
@@ -114,11 +126,24 @@ MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles:
                             kMostMembranes));
   // With fewer nodes on the edges a force on a bead would not be smooth on the edges.
   for (const auto& membrane : membranes_) edges_ = std::max(edges_, (2 * membrane.count() + 2) / 3);
-  // Without particles, the rigid motions are unknowns that are not there.
+  for (std::size_t d = 0; d < 2; ++d)
+    for (const auto& membrane : membranes_)
+      for (const auto bead : membrane.beads)
+        components_.push_back(kComponents * particles::index_of(bead) + d);
+  std::vector<double> radii_of_discs;
+  for (std::size_t k = 0; k < radii.size(); ++k) {
+    const auto has = [&](const Membrane& membrane) {
+      return membrane.has(static_cast<std::int32_t>(k));
+    };
+    if (std::ranges::any_of(membranes_, has)) continue;
+    discs_.push_back(k);
+    radii_of_discs.push_back(radii[k]);
+    for (std::size_t d = 0; d < kComponents; ++d) components_.push_back(kComponents * k + d);
+  }
   auto rigid = fluid;
   rigid.constraint = particles::RigidConstraint::kRigid;
   std::string text =
-      opening(rigid, domain_, {}, 2) + fmt::format("membranes {}\n", membranes_.size());
+      opening(rigid, domain_, radii_of_discs, 2) + fmt::format("membranes {}\n", membranes_.size());
   for (const auto& membrane : membranes_) {
     const auto& smoothing = nodes_.emplace_back(nodes_of(membrane.count(), edges_)).smoothing;
     text += fmt::format("{} {} {}\n", membrane.count(), edges_,
@@ -143,7 +168,8 @@ void MembraneProcess::start() {
 }
 
 void MembraneProcess::place(const particles::FluidParticles& bodies) {
-  NodesOfMembranes nodes;
+  InnerCurves curves{.edges = edges_, .edges_of_disc = edges_of_disc_};
+  auto& nodes = curves.membranes;
   for (std::size_t m = 0; m < nodes_.size(); ++m) {
     Eigen::MatrixXd own(membranes_[m].count(), 2);
     for (Eigen::Index k = 0; k < own.rows(); ++k) {
@@ -155,18 +181,40 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
       throw Error(ErrorKind::kNotConverged, "a position of a membrane left the range of a double");
     nodes.emplace_back(nodes_[m].sampling * own);
   }
-  check_places(domain_, nodes, unit_);
-  shift_ = shift_between_membranes(domain_, nodes);
+  for (const auto k : discs_) {
+    const auto at = bodies.particles->position(k);
+    curves.discs.push_back({.centre = {at[0], at[1]}, .radius = radii_[k]});
+  }
+  check_places(domain_, curves, unit_);
+  shift_ = shift_between_membranes(domain_, curves);
   // Where the domain is periodic, the mesh covers the period that begins at a line between
-  // membranes.
+  // membranes and discs.
   const auto cell = particles::cell_of(domain_);
   for (auto& own : nodes) {
     own.col(0).array() -= shift_;
     const double from = own.col(0).minCoeff();
     own.col(0).array() -= cell.lengths[0] * particles::periods_beyond(cell, 0, from);
   }
-  std::string text = "place\ndriven 0\ninertia 0\n";
-  text += words_of(membrane_boundary(domain_, nodes, edges_)) + "middles\n";
+  for (auto& disc : curves.discs) {
+    disc.centre[0] -= shift_;
+    const double from = disc.centre[0] - disc.radius;
+    disc.centre[0] -= cell.lengths[0] * particles::periods_beyond(cell, 0, from);
+  }
+  std::string text = "place\n";
+  for (std::size_t j = 0; j < discs_.size(); ++j) {
+    append(text, curves.discs[j].centre, "a position");
+    append(text, bodies.angles.subspan(discs_[j], 1), "an angle");
+    text += '\n';
+  }
+  text += fmt::format("driven {}\n", bodies.driven.size());
+  for (std::size_t j = 0; j < discs_.size(); ++j)
+    if (const auto driven = bodies.driven.find(static_cast<std::int32_t>(discs_[j]));
+        driven != bodies.driven.end()) {
+      text += std::to_string(j);
+      append(text, driven->second, "a velocity");
+      text += '\n';
+    }
+  text += "inertia 0\n" + words_of(membrane_boundary(domain_, curves)) + "middles\n";
   for (const auto& own : nodes)
     for (Eigen::Index i = 1; i < own.rows(); i += 2) {
       append(text, std::array{own(i, 0), own(i, 1)}, "a node");
@@ -180,33 +228,30 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
   unknowns_ = static_cast<std::size_t>(solver_->whole_number(kMost));
 }
 
-// The script has x of the beads of all membranes, which are all particles, and then y.
-
 std::vector<double> MembraneProcess::mobility(std::size_t components) {
   solver_->ask("mobility", "mobility\n");
   solver_->expect("mobility");
-  const auto beads = components / kComponents;
+  // Torques on beads move nothing.
   std::vector<double> rows(components * components);
-  for (std::size_t c = 0; c < 2; ++c)
-    for (std::size_t k = 0; k < beads; ++k)
-      for (std::size_t d = 0; d < 2; ++d)
-        for (std::size_t i = 0; i < beads; ++i)
-          rows[(kComponents * k + c) * components + kComponents * i + d] = solver_->number();
+  for (const auto row : components_)
+    for (const auto column : components_) rows[row * components + column] = solver_->number();
   return rows;
 }
 
 std::vector<double> MembraneProcess::velocities(std::span<const double> forces, bool driving) {
   std::string text = driving ? "solve 1" : "solve 0";
-  const auto beads = forces.size() / kComponents;
-  for (std::size_t d = 0; d < 2; ++d)
-    for (std::size_t k = 0; k < beads; ++k)
-      append(text, forces.subspan(kComponents * k + d, 1), "a force");
+  for (const auto component : components_) append(text, forces.subspan(component, 1), "a force");
   solver_->ask("solve", text + '\n');
   solver_->expect("velocities");
   std::vector<double> velocities(forces.size());
-  for (std::size_t d = 0; d < 2; ++d)
-    for (std::size_t k = 0; k < beads; ++k) velocities[kComponents * k + d] = solver_->number();
-  if (driving) dissipation_ = solver_->number();
+  for (const auto component : components_) velocities[component] = solver_->number();
+  if (!driving) return velocities;
+  dissipation_ = solver_->number();
+  forces_of_fluid_.assign(forces.size(), 0);
+  for (std::size_t i = 0; i < forces.size(); ++i) forces_of_fluid_[i] = -forces[i];
+  for (const auto disc : discs_)
+    for (std::size_t d = 0; d < kComponents; ++d)
+      forces_of_fluid_[kComponents * disc + d] = solver_->number();
   return velocities;
 }
 
@@ -220,9 +265,10 @@ FlowField MembraneProcess::flow() {
 
 std::unique_ptr<particles::FluidSolver> start_membrane_solver(const particles::Fluid& fluid,
                                                               const particles::Domain& domain,
+                                                              std::span<const double> radii,
                                                               double unit, SolverCommand command,
                                                               const SolverLimits& limits) {
-  return std::make_unique<MembraneProcess>(fluid, domain, unit, std::move(command), limits);
+  return std::make_unique<MembraneProcess>(fluid, domain, radii, unit, std::move(command), limits);
 }
 
 }  // namespace viscontact::freefem_flow

@@ -26,12 +26,11 @@ void check_case_without_fluid(const case_file::TomlSection& root, const Particle
 void check_case_in_fluid(const case_file::TomlSection& root, const case_file::TomlSection& first,
                          const ParticlesCase& c) {
   const FilePosition at{c.path.string(), first.line()};
-  for (const auto* key : {"arrangement", "body", "hinge", "spring", "arm", "force", "plane"})
+  for (const auto* key : {"body", "hinge", "spring", "arm", "plane"})
     if (root.has(key))
       throw_bad_input(at,
                       fmt::format("section [[membrane]] stands beside {}; a case with membranes in "
-                                  "a fluid must have no arrangement, planes, bodies, links and "
-                                  "forces",
+                                  "a fluid must have no planes, bodies and links",
                                   key));
   const auto& fluid = *c.setting.fluid;
   const auto section = root.section("fluid");
@@ -47,8 +46,8 @@ void check_case_in_fluid(const case_file::TomlSection& root, const case_file::To
   section.require(fluid.coupling == Coupling::kConstrained, "coupling",
                   "is 'splitting'; it must be \"constrained\" in a case with membranes");
   section.require(fluid.constraint == RigidConstraint::kPenalty, "constraint",
-                  "is 'rigid'; it must be left out in a case with membranes, which has no rigid "
-                  "particles");
+                  "is 'rigid'; it must be left out in a case with membranes, beside which rigid "
+                  "motions are always unknowns");
   root.section("space").require(
       c.setting.gravity == Vector{}, "gravity",
       "has no effect on membranes, which have no mass; it must be 0 or left out");
@@ -207,16 +206,40 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
 
 void check_others(const case_file::TomlSection& first, const ParticlesCase& c) {
   if (!c.setting.fluid) return;
-  std::vector<char> is_bead(c.particles.count(), 0);
+  const auto& p = c.particles;
+  const FilePosition at{c.path.string(), first.line()};
+  std::vector<char> is_bead(p.count(), 0);
   for (const auto& membrane : c.setting.fluid->membranes)
     for (const auto bead : membrane.beads) is_bead[index_of(bead)] = 1;
-  for (std::size_t k = 0; k < is_bead.size(); ++k)
-    if (is_bead[k] == 0)
-      throw_bad_input({c.path.string(), first.line()},
-                      fmt::format("section [[membrane]] stands beside particle {}, which is no "
-                                  "bead; a case with membranes in a fluid must have no other "
-                                  "particles",
-                                  c.particles.id(k)));
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    if (is_bead[k] != 0) continue;
+    const auto refuse = [&](const char* what) {
+      throw_bad_input(at, fmt::format("section [[membrane]] stands beside particle {}, which {}; "
+                                      "beside membranes particles must be discs without mass and "
+                                      "torque",
+                                      p.id(k), what));
+    };
+    if (p.masses[k] > 0) refuse("has a mass");
+    if (c.setting.fluid->is_ellipse(k)) refuse("is an ellipse");
+    if (c.setting.torques.contains(static_cast<std::int32_t>(k))) refuse("has a torque");
+  }
+  for (const auto& membrane : c.setting.fluid->membranes) {
+    const auto corners = corners_of(membrane, p);
+    for (std::size_t k = 0; k < p.count(); ++k) {
+      if (is_bead[k] != 0) continue;
+      const auto x = p.position(k);
+      for (std::size_t i = 0; i < corners.size(); i += 2) {
+        const auto j = (i + 2) % corners.size();
+        const Vector a = {corners[i], corners[i + 1], 0}, b = {corners[j], corners[j + 1], 0};
+        const Vector side = b - a;
+        const double along = std::clamp(dot(x - a, side) / dot(side, side), 0.0, 1.0);
+        if (!(norm(nearest_image(p.cell, x - a - along * side)) > p.radii[k]))
+          throw_bad_input(at, fmt::format("section [[membrane]] stands beside particle {}, which "
+                                          "crosses a membrane; it must be inside or outside",
+                                          p.id(k)));
+      }
+    }
+  }
 }
 
 }  // namespace viscontact::particles

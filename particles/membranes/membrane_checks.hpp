@@ -25,7 +25,8 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c);
 /// if the membrane is too stiff for its number of beads. The case has a fluid.
 void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& c);
 
-/// Throws if a case with a fluid has other particles than the beads of its membranes.
+/// Throws if a case with a fluid has, beside the beads of its membranes, particles with a mass or a
+/// torque, ellipses, or particles that cross a membrane.
 void check_others(const case_file::TomlSection& first, const ParticlesCase& c);
 
 }  // namespace viscontact::particles

@@ -245,18 +245,24 @@ MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const F
   return motion;
 }
 
-Eigen::MatrixXd Membranes::response(double time, const FluidAnswer& answer,
-                                    const MembraneMotion& motion,
-                                    const Eigen::VectorXd& positions) const {
-  const auto n = beads();
-  const Eigen::MatrixXd moves = time * answer.mobility;
-  const double unit = static_cast<double>(2 * n) / moves.trace();
+LoadResponse Membranes::response(double time, const FluidAnswer& answer,
+                                 const MembraneMotion& motion, const Eigen::VectorXd& positions,
+                                 const Eigen::MatrixXd& moves) const {
+  const auto n = beads(), count = static_cast<Eigen::Index>(curves_.size());
+  const double unit = static_cast<double>(2 * n) / (time * answer.mobility.trace());
   const Eigen::MatrixXd matrix = step_matrix(time, answer, positions, motion, unit);
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(matrix.rows(), 2 * n);
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(matrix.rows(), moves.cols());
   right.topRows(2 * n) = moves;
-  const Eigen::MatrixXd solved = matrix.partialPivLu().solve(right).topRows(2 * n);
-  // Rounding errors are not symmetric.
-  return (solved + solved.transpose()) / 2;
+  const Eigen::MatrixXd solved = matrix.partialPivLu().solve(right);
+  const Eigen::MatrixXd areas = area_columns(positions);
+  const Eigen::VectorXd lengths = areas.colwise().norm();
+  LoadResponse response;
+  response.positions = solved.topRows(2 * n);
+  response.forces =
+      -(stiffness(positions, motion) * response.positions +
+        unit * speed_rows(positions).transpose() * solved.middleRows(2 * n, n) +
+        unit * (areas * lengths.cwiseInverse().asDiagonal()) * solved.bottomRows(count));
+  return response;
 }
 
 }  // namespace viscontact::particles

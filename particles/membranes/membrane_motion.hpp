@@ -30,6 +30,12 @@ struct MembraneMotion {
   Eigen::VectorXd flow_forces;  ///< the forces without this pressure, which makes no flow
 };
 
+/// The changes of a step under loads, a column for each load.
+struct LoadResponse {
+  Eigen::MatrixXd positions;  ///< of z [L]
+  Eigen::MatrixXd forces;     ///< of P f, without the loads themselves [M L/T^2]
+};
+
 /// All membranes of a case.
 class Membranes {
  public:
@@ -73,10 +79,10 @@ class Membranes {
   MembraneMotion step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                       const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const;
 
-  /// How positions z of such a step change per load: a symmetric matrix [L/(M L/T^2)]. `motion` is
-  /// what step() returned with these positions.
-  Eigen::MatrixXd response(double time, const FluidAnswer& answer, const MembraneMotion& motion,
-                           const Eigen::VectorXd& positions) const;
+  /// How such a step changes if loads move the beads by `moves` [L], a column for each load, with
+  /// forces f and tensions held. `motion` is what step() returned with these positions.
+  LoadResponse response(double time, const FluidAnswer& answer, const MembraneMotion& motion,
+                        const Eigen::VectorXd& positions, const Eigen::MatrixXd& moves) const;
 
  private:
   bool solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,

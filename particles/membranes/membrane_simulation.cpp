@@ -3,6 +3,7 @@
 #include "viscontact/particles/membranes/membrane_simulation.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -33,8 +34,25 @@ class MembraneSimulation::Implementation {
   const FluidSolver& solver() const { return *solver_; }
 
  private:
-  void place(const Eigen::VectorXd& positions);
-  FluidAnswer ask(const Eigen::VectorXd& positions);
+  // Arrays of this class have x of all beads, y of all beads, and then x, y and the turn of each
+  // disc that is no bead.
+  Eigen::Index bead_components() const { return 2 * membranes_.beads(); }
+  Eigen::VectorXd places(std::span<const double> positions,
+                         const Eigen::VectorXd* near = nullptr) const;
+  Eigen::VectorXd from_particles(std::span<const double> numbers) const;
+  void to_particles(const Eigen::VectorXd& all, std::vector<double>& numbers) const;
+  void move_to(const Eigen::VectorXd& places, Particles& particles) const;
+  Eigen::VectorXd applied_forces(double from, double to) const;
+  void set_velocities(const Eigen::VectorXd& velocities);
+  void place(const Eigen::VectorXd& places, double from, double to);
+  FluidAnswer ask(const Eigen::VectorXd& places, double from, double to);
+  FluidAnswer answer_to_beads(const FluidAnswer& answer, const Eigen::VectorXd& loads) const;
+  Eigen::VectorXd velocities_of_all(const FluidAnswer& answer, const MembraneMotion& motion,
+                                    const Eigen::VectorXd& loads) const;
+  Eigen::MatrixXd response(double time, const FluidAnswer& answer, const MembraneMotion& motion,
+                           const Eigen::VectorXd& positions) const;
+  Eigen::VectorXd moved_discs(const Eigen::VectorXd& now, const Eigen::VectorXd& from, double time,
+                              const Eigen::VectorXd& velocities, double h) const;
   StepContacts solve_contacts_of(const Eigen::VectorXd& free, double h, double next,
                                  const std::function<Eigen::MatrixXd()>& response,
                                  StepReport& report);
@@ -44,6 +62,7 @@ class MembraneSimulation::Implementation {
   State state_, before_step_;
   std::unique_ptr<FluidSolver> solver_;
   Membranes membranes_;
+  std::vector<std::int32_t> discs_;  // the particles that are no beads
   ThreadPool pool_;
   std::vector<Plane> obstacles_;
   std::vector<double> impulse_errors_;  // of the contacts of the step
@@ -64,66 +83,221 @@ MembraneSimulation::Implementation::Implementation(Setting setting, State state,
   p.cell = cell_of(setting_);
   p.angles.resize(p.count());
   p.angular_velocities.resize(p.count());
+  for (std::int32_t k = 0; k < static_cast<std::int32_t>(p.count()); ++k)
+    if (std::ranges::none_of(setting_.fluid->membranes,
+                             [&](const Membrane& membrane) { return membrane.has(k); }))
+      discs_.push_back(k);
   wrap_into_cell(state_);
   if (state_.steps > 0) {
     check_shapes(setting_.fluid->membranes, p);
     return;
   }
-  const auto positions = membranes_.places(p.positions, p.cell);
-  const auto motion = membranes_.motion_at(positions, ask(positions));
-  membranes_.to_particles(motion.velocities, 2, p.velocities);
+  const auto at = places(p.positions);
+  const auto answer = ask(at, state_.time, state_.time);
+  const auto loads = applied_forces(state_.time, state_.time);
+  auto of_beads = answer_to_beads(answer, loads);
+  of_beads.flow += of_beads.mobility * loads.head(bead_components());
+  auto motion = membranes_.motion_at(at.head(bead_components()), of_beads);
+  motion.forces += loads.head(bead_components());
+  motion.flow_forces = motion.forces;
+  set_velocities(velocities_of_all(answer, motion, loads));
+  Eigen::VectorXd forces = loads;
+  forces.head(bead_components()) = motion.forces;
   state_.earlier_forces.assign(kComponents * p.count(), 0);
-  membranes_.to_particles(motion.forces, kComponents, state_.earlier_forces);
+  to_particles(forces, state_.earlier_forces);
 }
 
-void MembraneSimulation::Implementation::place(const Eigen::VectorXd& positions) {
-  auto placed = state_.particles;
-  membranes_.to_particles(positions, 2, placed.positions);
-  solver_->place({.particles = &placed, .angles = placed.angles, .driven = {}, .inertia = {}});
-}
-
-/// The answer of the fluid with the beads at these positions.
-FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& positions) {
-  place(positions);
-  const auto n = positions.size();
-  const auto size = kComponents * static_cast<std::size_t>(n) / 2;
-  FluidAnswer answer;
-  answer.flow =
-      membranes_.from_particles(solver_->velocities(std::vector<double>(size), true), kComponents);
-  const auto rows = solver_->mobility(size);
-  Eigen::MatrixXd as_solved(n, n);
-  // The forces on one bead after the other, without torques.
-  for (std::size_t c = 0; c < 2; ++c)
-    for (Eigen::Index k = 0; k < n / 2; ++k) {
-      const auto row = (kComponents * static_cast<std::size_t>(k) + c) * size;
-      const std::span<const double> numbers(rows.data() + row, size);
-      as_solved.col(static_cast<Eigen::Index>(c) * (n / 2) + k) =
-          membranes_.from_particles(numbers, kComponents);
+/// Places of all, from the positions of all particles; near those in `near`, if it is given.
+Eigen::VectorXd MembraneSimulation::Implementation::places(std::span<const double> positions,
+                                                           const Eigen::VectorXd* near) const {
+  const auto& p = state_.particles;
+  const auto beads = bead_components();
+  Eigen::VectorXd places(beads + static_cast<Eigen::Index>(kComponents * discs_.size()));
+  const Eigen::VectorXd near_beads = near != nullptr ? near->head(beads) : Eigen::VectorXd();
+  places.head(beads) =
+      membranes_.places(positions, p.cell, near != nullptr ? &near_beads : nullptr);
+  auto i = beads;
+  for (const auto disc : discs_) {
+    for (std::size_t d = 0; d < 2; ++d, ++i) {
+      places(i) = positions[2 * index_of(disc) + d];
+      const double period = p.cell.lengths[d];
+      if (near != nullptr && period > 0)
+        places(i) -= period * std::round((places(i) - (*near)(i)) / period);
     }
+    places(i++) = p.angles[index_of(disc)];
+  }
+  return places;
+}
+
+/// From kComponents numbers of each particle.
+Eigen::VectorXd MembraneSimulation::Implementation::from_particles(
+    std::span<const double> numbers) const {
+  const auto beads = bead_components();
+  Eigen::VectorXd all(beads + static_cast<Eigen::Index>(kComponents * discs_.size()));
+  all.head(beads) = membranes_.from_particles(numbers, kComponents);
+  auto i = beads;
+  for (const auto disc : discs_)
+    for (std::size_t d = 0; d < kComponents; ++d)
+      all(i++) = numbers[kComponents * index_of(disc) + d];
+  return all;
+}
+
+void MembraneSimulation::Implementation::to_particles(const Eigen::VectorXd& all,
+                                                      std::vector<double>& numbers) const {
+  membranes_.to_particles(all.head(bead_components()), kComponents, numbers);
+  auto i = bead_components();
+  for (const auto disc : discs_)
+    for (std::size_t d = 0; d < kComponents; ++d)
+      numbers[kComponents * index_of(disc) + d] = all(i++);
+}
+
+void MembraneSimulation::Implementation::move_to(const Eigen::VectorXd& places,
+                                                 Particles& particles) const {
+  membranes_.to_particles(places.head(bead_components()), 2, particles.positions);
+  auto i = bead_components();
+  for (const auto disc : discs_) {
+    particles.positions[2 * index_of(disc)] = places(i++);
+    particles.positions[2 * index_of(disc) + 1] = places(i++);
+    particles.angles[index_of(disc)] = places(i++);
+  }
+}
+
+void MembraneSimulation::Implementation::set_velocities(const Eigen::VectorXd& velocities) {
+  auto& p = state_.particles;
+  membranes_.to_particles(velocities.head(bead_components()), 2, p.velocities);
+  auto i = bead_components();
+  for (const auto disc : discs_) {
+    p.velocities[2 * index_of(disc)] = velocities(i++);
+    p.velocities[2 * index_of(disc) + 1] = velocities(i++);
+    p.angular_velocities[index_of(disc)] = velocities(i++);
+  }
+}
+
+/// The mean forces of the case between two times, or those at one time.
+Eigen::VectorXd MembraneSimulation::Implementation::applied_forces(double from, double to) const {
+  std::vector<double> forces(kComponents * state_.particles.count());
+  for (const auto& [particle, force] : setting_.forces) {
+    const Vector value = to > from ? force.mean(from, to) : force.value(from);
+    for (std::size_t d = 0; d < 2; ++d) forces[kComponents * index_of(particle) + d] = value[d];
+  }
+  return from_particles(forces);
+}
+
+/// Places all in the fluid, with driven discs as they move on the mean between two times.
+void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, double from,
+                                               double to) {
+  auto placed = state_.particles;
+  move_to(places, placed);
+  FluidParticles bodies{.particles = &placed, .angles = placed.angles, .driven = {}, .inertia = {}};
+  for (const auto& [particle, motion] : setting_.given_motions) {
+    const auto at = [&](const PiecewiseConstant& of) {
+      return to > from ? of.mean(from, to) : of.value(from);
+    };
+    const Vector velocity = at(motion.velocity);
+    bodies.driven[particle] = {velocity[0], velocity[1], at(motion.angular_velocity)[2]};
+  }
+  solver_->place(bodies);
+}
+
+/// The answer of the fluid with all at these places.
+FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& places, double from,
+                                                    double to) {
+  place(places, from, to);
+  const auto n = places.size();
+  const auto size = kComponents * state_.particles.count();
+  FluidAnswer answer;
+  answer.flow = from_particles(solver_->velocities(std::vector<double>(size), true));
+  const auto rows = solver_->mobility(size);
+  // The numbers of the rows of all, in the order of arrays of this class.
+  std::vector<double> numbers(size);
+  for (std::size_t i = 0; i < size; ++i) numbers[i] = static_cast<double>(i);
+  const auto order = from_particles(numbers);
+  Eigen::MatrixXd as_solved(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    as_solved.col(i) =
+        from_particles({rows.data() + static_cast<std::size_t>(order(i)) * size, size});
   // Rounding errors of the solutions are not symmetric.
   answer.mobility = (as_solved + as_solved.transpose()) / 2;
   return answer;
 }
 
-/// Solves the contacts of beads of different membranes, and of beads and walls, in a step of length
-/// h that ends at `next`, in which beads have the velocities `free` without contact. `response()`
-/// gives how displacements change per load on the beads.
+/// The answer to forces on the beads, with these loads on the discs.
+FluidAnswer MembraneSimulation::Implementation::answer_to_beads(
+    const FluidAnswer& answer, const Eigen::VectorXd& loads) const {
+  const auto b = bead_components(), d = answer.flow.size() - b;
+  return {answer.flow.head(b) + answer.mobility.topRightCorner(b, d) * loads.tail(d),
+          answer.mobility.topLeftCorner(b, b)};
+}
+
+/// The velocities under the forces of a motion on the fluid and these loads on the discs.
+Eigen::VectorXd MembraneSimulation::Implementation::velocities_of_all(
+    const FluidAnswer& answer, const MembraneMotion& motion, const Eigen::VectorXd& loads) const {
+  const auto b = bead_components(), d = answer.flow.size() - b;
+  Eigen::VectorXd velocities(b + d);
+  velocities << motion.velocities, answer.flow.tail(d) +
+                                       answer.mobility.bottomLeftCorner(d, b) * motion.flow_forces +
+                                       answer.mobility.bottomRightCorner(d, d) * loads.tail(d);
+  return velocities;
+}
+
+/// How places at the end of a step change per load: a symmetric matrix [L/(M L/T^2)].
+Eigen::MatrixXd MembraneSimulation::Implementation::response(
+    double time, const FluidAnswer& answer, const MembraneMotion& motion,
+    const Eigen::VectorXd& positions) const {
+  const auto b = bead_components(), n = answer.flow.size();
+  const Eigen::MatrixXd moves = time * answer.mobility;
+  const FluidAnswer of_beads{answer.flow.head(b), answer.mobility.topLeftCorner(b, b)};
+  const auto changes = membranes_.response(time, of_beads, motion, positions, moves.topRows(b));
+  Eigen::MatrixXd response(n, n);
+  response.topRows(b) = changes.positions;
+  response.bottomRows(n - b) =
+      moves.bottomRows(n - b) + moves.bottomLeftCorner(n - b, b) * changes.forces;
+  // Rounding errors are not symmetric.
+  return (response + response.transpose()) / 2;
+}
+
+/// Places of the discs at the end of a step: those of the backward difference, of driven ones the
+/// integral of their velocity, and angles by the trapezoidal rule.
+Eigen::VectorXd MembraneSimulation::Implementation::moved_discs(const Eigen::VectorXd& now,
+                                                                const Eigen::VectorXd& from,
+                                                                double time,
+                                                                const Eigen::VectorXd& velocities,
+                                                                double h) const {
+  const auto b = bead_components();
+  Eigen::VectorXd moved = (from + time * velocities).tail(now.size() - b);
+  for (std::size_t j = 0; j < discs_.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(kComponents * j);
+    const bool is_driven = setting_.given_motions.contains(discs_[j]);
+    if (is_driven) moved.segment(i, 2) = now.segment(b + i, 2) + h * velocities.segment(b + i, 2);
+    const double before = is_driven ? velocities(b + i + 2)
+                                    : state_.particles.angular_velocities[index_of(discs_[j])];
+    moved(i + 2) = now(b + i + 2) + h * (before + velocities(b + i + 2)) / 2;
+  }
+  return moved;
+}
+
+/// Solves the contacts of all but beads of one membrane with each other, in a step of length h that
+/// ends at `next`, in which all have the velocities `free` without contact. `response()` gives how
+/// displacements change per load.
 StepContacts MembraneSimulation::Implementation::solve_contacts_of(
     const Eigen::VectorXd& free, double h, double next,
     const std::function<Eigen::MatrixXd()>& response, StepReport& report) {
   const auto size = kComponents * state_.particles.count();
   std::vector<double> velocities(size);
-  membranes_.to_particles(free, kComponents, velocities);
+  to_particles(free, velocities);
   Eigen::MatrixXd matrix;
   const Mobility mobility = [&](std::span<const double> loads) {
     if (matrix.size() == 0) matrix = response() / h;
     std::vector<double> moved(size);
-    membranes_.to_particles(matrix * membranes_.from_particles(loads, kComponents), kComponents,
-                            moved);
+    to_particles(matrix * from_particles(loads), moved);
     return moved;
   };
   const auto is_left_out = [&](const Pair& pair) {
-    return pair.first >= 0 && setting_.fluid->are_of_one_membrane(pair.first, pair.second);
+    const auto is_driven = [&](std::int32_t k) {
+      return k < 0 || setting_.given_motions.contains(k);
+    };
+    return (is_driven(pair.first) && is_driven(pair.second)) ||
+           (pair.first >= 0 && setting_.fluid->are_of_one_membrane(pair.first, pair.second));
   };
   constexpr double kErrorOfAnswers = 1e-9;
   const double radius = mean_radius(state_.particles);
@@ -170,42 +344,61 @@ StepReport MembraneSimulation::Implementation::step(double end) {
   if (!interval) return {.time = state_.time, .parts = 1};
   const auto began = std::chrono::steady_clock::now();
   const double h = interval->h;
-  const auto& cell = state_.particles.cell;
-  const auto now = membranes_.places(state_.particles.positions, cell);
+  const auto now = places(state_.particles.positions);
   Eigen::VectorXd at = now, from = now;
   double time = h;
   if (!state_.earlier_positions.empty()) {
-    const auto before = membranes_.places(state_.earlier_positions, cell, &now);
+    const auto before = places(state_.earlier_positions, &now);
     const double r = h / state_.earlier_step, weight = (1 + 2 * r) / (1 + r);
     at = (1 + r) * now - r * before;
     from = ((1 + r) * now - r * r / (1 + r) * before) / weight;
     time = h / weight;
   }
-  const auto answer = ask(at);
-  const Eigen::VectorXd no_loads = Eigen::VectorXd::Zero(now.size());
-  Eigen::VectorXd positions = at;
-  auto motion = membranes_.step(from, time, answer, no_loads, positions);
+  const auto beads = bead_components();
+  const auto answer = ask(at, state_.time, interval->end);
+  Eigen::VectorXd loads = applied_forces(state_.time, interval->end);
+  Eigen::VectorXd positions = at.head(beads), reached = now, velocities;
+  MembraneMotion motion;
+  const auto move = [&] {
+    motion = membranes_.step(from.head(beads), time, answer_to_beads(answer, loads),
+                             loads.head(beads), positions);
+    velocities = velocities_of_all(answer, motion, loads);
+    reached << positions, moved_discs(now, from, time, velocities, h);
+  };
+  move();
   StepReport report{.time = interval->end, .parts = 1};
-  auto contacts = solve_contacts_of(
-      (positions - now) / h, h, interval->end,
-      [&] { return membranes_.response(time, answer, motion, positions); }, report);
-  const auto loads = membranes_.from_particles(contacts.loads, kComponents);
-  if (loads.squaredNorm() > 0) motion = membranes_.step(from, time, answer, loads, positions);
+  auto contacts =
+      solve_contacts_of((reached - now) / h, h, interval->end,
+                        [&] { return response(time, answer, motion, positions); }, report);
+  const auto of_contacts = from_particles(contacts.loads);
+  if (of_contacts.squaredNorm() > 0) {
+    loads += of_contacts;
+    move();
+  }
   auto forces = state_.earlier_forces;
-  membranes_.to_particles(motion.flow_forces, kComponents, forces);
+  Eigen::VectorXd of_all = loads;
+  of_all.head(beads) = motion.flow_forces;
+  to_particles(of_all, forces);
   solver_->velocities(forces, true);
-  membranes_.to_particles(motion.forces, kComponents, forces);
+  of_all.head(beads) = motion.forces;
+  to_particles(of_all, forces);
   const auto quantities = solver_->quantities();
   report.fluid.dissipation = quantities.dissipation;
   report.fluid.apparent_viscosity = quantities.apparent_viscosity;
+  // What holds a driven disc balances the fluid.
+  for (const auto& [particle, motion_of_disc] : setting_.given_motions)
+    for (std::size_t d = 0; d < kComponents && !quantities.fluid_forces.empty(); ++d) {
+      const auto i = kComponents * index_of(particle) + d;
+      forces[i] = -quantities.fluid_forces[i];
+    }
 
   before_step_ = state_;
   remember(std::move(contacts), h, report);
   state_.earlier_positions = state_.particles.positions;
   state_.earlier_forces = std::move(forces);
   state_.earlier_step = h;
-  membranes_.to_particles(positions, 2, state_.particles.positions);
-  membranes_.to_particles(motion.velocities, 2, state_.particles.velocities);
+  move_to(reached, state_.particles);
+  set_velocities(velocities);
   state_.time = interval->end;
   wrap_into_cell(state_);
   StepGrid::count(state_, *interval);
@@ -215,7 +408,7 @@ StepReport MembraneSimulation::Implementation::step(double end) {
 }
 
 FlowField MembraneSimulation::Implementation::flow_at(const State& state) {
-  place(membranes_.places(state.particles.positions, state.particles.cell));
+  place(places(state.particles.positions), state.time, state.time);
   solver_->velocities(state.earlier_forces, true);
   return solver_->flow();
 }

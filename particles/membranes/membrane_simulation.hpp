@@ -1,5 +1,5 @@
-// Simulates membranes in a Stokes flow, docs/physics.md (8.1) to (8.6). Lengths, masses and times
-// are in the units of the case.
+// Simulates membranes and rigid discs in a Stokes flow, docs/physics.md (8.1) to (8.8). Lengths,
+// masses and times are in the units of the case.
 #pragma once
 
 #include <memory>
@@ -21,12 +21,13 @@ namespace viscontact::particles {
 /// pressure that f holds inside, which makes no flow (Membranes::step). With the positions
 /// x^n and x^{n-1} and the step k before, r = h/k, at = (1 + r) x^n - r x^{n-1}, and `from` and
 /// `time` are those of the backward difference of second order; the first step is of first order
-/// (docs/physics.md (8.6)). Beads of different membranes, and beads and walls, make viscous contact
-/// as particles do: the impulses are loads on the beads beside P f, and the displacements without
-/// contact are the free motion.
+/// (docs/physics.md (8.6)). Discs move in the same steps, with the forces of the case, or as they
+/// are driven. Beads of different membranes, discs and walls make viscous contact as particles do:
+/// the impulses are loads beside P f, and the displacements without contact are the free motion.
 class MembraneSimulation {
  public:
-  /// `setting.fluid` has membranes, whose beads are all particles of `state`; `state` is what
+  /// `setting.fluid` has membranes; the particles of `state` that are no beads are discs without
+  /// mass, with forces or a given motion; `state` is what
   /// read_restart returned, or a state of which only the particles are set. Before the first step
   /// the fluid is asked for the motion at the start, and its errors are thrown.
   MembraneSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);

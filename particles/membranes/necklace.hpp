@@ -1,4 +1,4 @@
-// The polygon of a membrane without a fluid, docs/physics.md (8.8) to (8.11): distances between
+// The polygon of a membrane without a fluid, docs/physics.md (8.9) to (8.12): distances between
 // beads, area, and bending. For sources of this folder and tests: it needs Eigen. Lengths are in
 // the unit of the case. An array of positions has x of all beads of one membrane and then y of all.
 #pragma once

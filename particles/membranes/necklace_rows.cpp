@@ -53,7 +53,7 @@ LinkRow distance_row(const Membrane& membrane, const Particles& p, std::int32_t 
   return row;
 }
 
-/// The bending spring at bead k, (8.10), whose extension is the angle of the turn times the length
+/// The bending spring at bead k, (8.12), whose extension is the angle of the turn times the length
 /// l of the bead, so that its stiffness is kappa/l^3. Newmark's method as for springs; the bending
 /// viscosity acts on the change of the extension in the step.
 LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,

@@ -1,4 +1,4 @@
-// The equations of a membrane without a fluid in a time step, docs/physics.md (8.8) to (8.12), as
+// The equations of a membrane without a fluid in a time step, docs/physics.md (8.9) to (8.12), as
 // those of links (links/link_rows.hpp). Lengths, masses and times are in the units of the case.
 #pragma once
 

@@ -93,8 +93,20 @@ TEST_F(MembraneSection, MembranesThatMeetOrLeaveTheDomainAreErrors) {
 }
 
 TEST_F(MembraneSection, WhatCannotBeComputedWithMembranesIsRefused) {
-  expect_refused(text(membrane() + "[[particle]]\ncentre = [3.0, 3.0]\nradius = 0.1\nmass = 0.0\n"),
-                 12, "section [[membrane]] stands beside particle");
+  const auto beside = [&](const std::string& centre, const std::string& more) {
+    return text(membrane() + "[[particle]]\ncentre = [" + centre + "]\n" + more + "\n");
+  };
+  const std::string radius = "radius = 0.1\n", stands = "section [[membrane]] stands beside ";
+  EXPECT_NO_THROW(read(beside("0.5, 0.0", radius)));
+  expect_refused(beside("3.0, 3.0", radius + "mass = 1.0"), 12,
+                 stands + "particle 0, which has a mass");
+  expect_refused(beside("3.0, 3.0", radius + "torque = 1.0"), 12,
+                 stands + "particle 0, which has a torque");
+  expect_refused(beside("3.0, 3.0", "semi_axes = [0.1, 0.2]"), 12,
+                 stands + "particle 0, which is an ellipse");
+  expect_refused(beside("0.0, 0.65", radius), 12, stands + "particle 0, which crosses a membrane");
+  expect_refused(text(membrane() + "[[plane]]\npoint = [0.0, -3.0]\nnormal = [0.0, 1.0]\n"), 12,
+                 stands + "plane");
   expect_refused(text(membrane(), "density = 1.0"), 11, "fluid.density is 1");
   expect_refused(text(membrane(), "mesh = \"fixed\""), 11, "fluid.mesh is 'fixed'");
   expect_refused(text(membrane(), "coupling = \"splitting\""), 11, "fluid.coupling is 'splitting'");
