@@ -129,17 +129,34 @@ TEST(MembraneCurve, EnergyOfAnEllipseConverges) {
   EXPECT_LT(error(48), 1e-8);
 }
 
+/// A membrane of 48 beads, the first particles.
+Membrane membrane_of(double reduced_area) {
+  Membrane membrane;
+  membrane.set_beads(0, 48);
+  membrane.perimeter = 7;
+  membrane.area = reduced_area * 49 / (4 * std::numbers::pi);
+  return membrane;
+}
+
+/// Beads with these centres and velocities, two numbers for each.
+Particles beads_at(const std::vector<double>& places, const std::vector<double>& velocities) {
+  Particles beads;
+  beads.dimension = 2;
+  beads.positions = places;
+  beads.velocities = velocities;
+  beads.radii.assign(places.size() / 2, 0.05);
+  return beads;
+}
+
 class OfReducedArea : public ::testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(All, OfReducedArea, ::testing::Values(0.5, 0.7, 0.9, 0.99));
 
 TEST_P(OfReducedArea, AnEllipseHasItsLengthsAreaCentreAndInclination) {
-  Membrane membrane;
-  membrane.perimeter = 7;
-  membrane.area = GetParam() * 49 / (4 * std::numbers::pi);
+  const auto membrane = membrane_of(GetParam());
   const auto places = ellipse_of(membrane, {1, -2, 0}, 0.4);
   ASSERT_TRUE(places);
   const std::vector<double> at_rest(places->size(), 0);
-  const auto measures = measure(membrane, {}, *places, at_rest);
+  const auto measures = measure(membrane, beads_at(*places, at_rest));
   EXPECT_NEAR(measures.perimeter, 7, 1e-11);
   EXPECT_NEAR(measures.area / membrane.area, 1, 1e-11);
   EXPECT_NEAR(measures.x, 1, 1e-9);
@@ -151,25 +168,25 @@ TEST_P(OfReducedArea, AnEllipseHasItsLengthsAreaCentreAndInclination) {
 
 // A rigid rotation turns the shape with the membrane, so that the membrane does not go around it.
 TEST(Measures, ARigidRotationIsNoTankTreading) {
-  Membrane membrane;
-  membrane.perimeter = 7;
-  membrane.area = 0.8 * 49 / (4 * std::numbers::pi);
+  const auto membrane = membrane_of(0.8);
   const auto places = *ellipse_of(membrane, {0, 0, 0}, 0.4);
   std::vector<double> velocities;
   for (std::size_t k = 0; k < places.size(); k += 2) {
     velocities.push_back(5 - 0.3 * places[k + 1]);
     velocities.push_back(2 + 0.3 * places[k]);
   }
-  EXPECT_NEAR(measure(membrane, {}, places, velocities).tank_treading_frequency, 0, 1e-9);
+  EXPECT_NEAR(measure(membrane, beads_at(places, velocities)).tank_treading_frequency, 0, 1e-9);
 }
 
-TEST(Shapes, MeetIfTheyCrossOrAreInsideEachOther) {
+TEST(Shapes, CrossOrContainEachOther) {
   const std::vector<double> square = {0, 0, 2, 0, 2, 2, 0, 2}, inside = {0.5, 0.5, 1, 0.5, 1, 1},
                             beside = {3, 0, 4, 0, 4, 1}, across = {1, 1, 3, 1, 3, 1.5};
-  EXPECT_TRUE(do_meet(square, inside));
-  EXPECT_TRUE(do_meet(inside, square));
-  EXPECT_TRUE(do_meet(square, across));
-  EXPECT_FALSE(do_meet(square, beside));
+  EXPECT_TRUE(do_contain(square, inside));
+  EXPECT_TRUE(do_contain(inside, square));
+  EXPECT_FALSE(do_contain(square, beside));
+  EXPECT_FALSE(do_cross(square, inside));
+  EXPECT_TRUE(do_cross(square, across));
+  EXPECT_FALSE(do_cross(square, beside));
 }
 
 }  // namespace
