@@ -1,5 +1,5 @@
-// Finds the constraints of a step that contradict each other (constraint_problem.hpp). Lengths are in
-// the units of the case. constraint_system.hpp uses it for an error message; nothing is thrown.
+// Finds the constraints of a step that contradict each other (constraint_problem.hpp). Lengths are
+// in the units of the case. constraint_system.hpp uses it for an error message; nothing is thrown.
 #pragma once
 
 #include <vector>

@@ -51,9 +51,9 @@ void StepProjection<D>::examine_links(const SolverSettings& settings, double mea
 }
 
 /// Names the hinges and arms that are violated in the motion that violates all constraints least;
-/// others have no part in the contradiction. Where the linear equations contradict each other only
-/// for finite turns, this motion satisfies them, and the links that hold the same particles as those
-/// `beyond` their tolerances are named.
+/// others have no part in the contradiction. Where the equations contradict each other only for
+/// finite turns, this motion satisfies the linear ones, and the links that hold the same particles
+/// as those `beyond` their tolerances are named.
 template <int D>
 void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyond,
                                             double mean_radius, ProjectionResult& result) {
