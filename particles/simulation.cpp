@@ -291,16 +291,13 @@ void Simulation::examine(const ProjectionResult& projected, double next) const {
                                 "particles too little room?",
                                 moving);
   });
-  // A link that is off by more than a thousandth of the mean radius after all iterations is taken
-  // to contradict others. Smaller residuals may be slow convergence; they are reported.
-  constexpr double kBroken = 1e-3;
   if (residuals.converged || projected.unsolved_links.empty() ||
       std::max(projected.link_residual, -residuals.smallest_gap) <= kBroken * mean_radius_)
     return;
   std::string names;
   for (const auto& name : projected.unsolved_links)
     names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
-  if (residuals.smallest_gap < 0)
+  if (residuals.smallest_gap < 0 && projected.contact_contradicts)
     names += " without an overlap of " +
              name_of_pair(residuals.deepest_overlap, state_.particles, setting_);
   throw Error(ErrorKind::kNotConverged,

@@ -124,8 +124,8 @@ struct ConstraintBlock {
   bool is_in_cone() const { return rows > 1 && friction_bound == FrictionBound::kCone; }
   /// Whether the contact has a film, which may carry its impulse.
   bool has_film() const { return capacity > lowest; }
-  /// Bound of the tangential impulse with this normal impulse [M L/T], of a contact that is not in a
-  /// cone.
+  /// Bound of the tangential impulse with this normal impulse [M L/T], of a contact that is not in
+  /// a cone.
   double bound(double normal_impulse) const {
     return friction * (friction_bound == FrictionBound::kGiven
                            ? given_load
@@ -146,10 +146,10 @@ struct ConstraintProblem {
   std::vector<ConstraintRow> rows;      ///< those of each block follow each other
   std::vector<ConstraintBlock> blocks;  ///< in the order of their rows
   std::vector<double> impulses;         ///< of the rows [M L/T]: a guess, then the solution
-  /// Whether no contact has FrictionBound::kCoulomb, so that the motions minimise a convex function.
+  /// Whether no contact has FrictionBound::kCoulomb, so that motions minimise a convex function.
   bool is_convex = false;
-  /// Whether a rough solution of a convex problem is enough, which shows about how units move and which
-  /// contacts carry load.
+  /// Whether a rough solution of a convex problem is enough, which shows about how units move and
+  /// which contacts carry load.
   bool is_rough = false;
   /// Whether bilateral rows hold long chains of units together, as those of a membrane, through
   /// which sweeps would carry impulses too slowly.
@@ -194,8 +194,8 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
 
 /// Residual of a block [L] for values `v` of its rows, their impulses `p` and mobilities `w`: of a
 /// contact the larger of |min(gap, w (p_n - lowest))| and, with friction, of w |p_t - P(p_t -
-/// v_t/w)|, where P projects on the bound of the friction; of a contact in the cone of (5.9) those of
-/// w |p - P(p - v/w)|, where P projects on the cone; of a bilateral constraint the largest |v +
+/// v_t/w)|, where P projects on the bound of the friction; of a contact in the cone of (5.9) those
+/// of w |p - P(p - v/w)|, where P projects on the cone; of a bilateral constraint the largest |v +
 /// compliance p|.
 struct BlockResidual {
   double normal = 0,   ///< of the gap or bilateral rows [L], >= 0

@@ -18,9 +18,9 @@ namespace viscontact::particles {
 namespace {
 
 /// The method of nonsmooth contact dynamics (Jean 1999, "The non-smooth contact dynamics method"):
-/// each block in turn gets the impulses that solve it while all others keep theirs. Every other sweep goes backwards. Sweeps
-/// converge in practice always, but slowly in large packings; a few of them give the solver a good
-/// start.
+/// each block in turn gets the impulses that solve it while all others keep theirs. Every other
+/// sweep goes backwards. Sweeps converge in practice always, but slowly in large packings; a few of
+/// them give the solver a good start.
 template <int D>
 class ContactSweeps {
  public:
@@ -231,8 +231,8 @@ class Iteration {
     proximal_->set_epsilon(epsilon_);
   }
 
-  /// Solves a convex problem. Where loads of its contacts are given, solutions follow each other, each
-  /// with the loads that the one before has found, until these are the loads of the contacts
+  /// Solves a convex problem. Where loads of its contacts are given, solutions follow each other,
+  /// each with the loads that the one before has found, until these are the loads of the contacts
   /// themselves, at most kMostSolutions times. A rough solution finds loads for the next one.
   void solve_with_own_loads(int max_iterations) {
     constexpr int kMostSolutions = 2;
@@ -269,8 +269,8 @@ class Iteration {
     return has_changed;
   }
 
-  /// Solves a convex problem by interior points. Proximal steps make the solution accurate, in a few
-  /// iterations, because it shows which contacts stick and slide.
+  /// Solves a convex problem by interior points. Proximal steps make the solution accurate, in a
+  /// few iterations, because it shows which contacts stick and slide.
   void solve_convex(int max_iterations) {
     // Where rows are redundant, sweeps depend on their order, and so would loads. Interior points
     // do not.

@@ -12,6 +12,7 @@
 #include "viscontact/particles/bodies/body_step.hpp"
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 #include "viscontact/particles/constraints/contact_rows.hpp"
+#include "viscontact/particles/constraints/contradiction.hpp"
 #include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/domain/plane.hpp"
 #include "viscontact/particles/dual_problem/contact_system.hpp"
@@ -82,6 +83,8 @@ class ConstraintSystem {
   /// Residual of link number `l` of links() in the last solution [L]; of an angle times the mean
   /// radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
+  /// least_violations() of the last problem [L]: of the contacts, then of the links.
+  std::vector<double> least_violations() const { return particles::least_violations(problem_); }
 
  private:
   ContactSide side_of(std::int32_t particle) const;

@@ -1,6 +1,6 @@
 // Coulomb's friction of solids that touch through a film, docs/physics.md (5.7), (5.9) and (5.17).
-// Lengths, masses and times are in any consistent units. constraints/ and impacts/ solve it. Nothing
-// is checked or thrown. A change must keep that the film carries no friction.
+// Lengths, masses and times are in any consistent units. constraints/ and impacts/ solve it.
+// Nothing is checked or thrown. A change must keep that the film carries no friction.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace viscontact::particles {
 enum class FrictionMethod {
   kFixedPoint,  ///< Coulomb's law; sliding contacts stay closed
   /// Convex problems. With the relaxation (5.9) a dry contact that slides at the velocity v_t opens
-  /// by h mu_s |v_t| in a step of length h. A contact with a film stays closed, and its friction has
-  /// the bound of the load that its solids had in the solution before, (5.17).
+  /// by h mu_s |v_t| in a step of length h. A contact with a film stays closed, and its friction
+  /// has the bound of the load that its solids had in the solution before, (5.17).
   kConvex,
 };
 

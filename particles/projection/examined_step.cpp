@@ -51,8 +51,33 @@ void StepProjection<D>::examine_links(const SolverSettings& settings, double mea
     result.link_residual = std::max(result.link_residual, residual);
     if (take(residual, scale, settings, mean_radius, result)) beyond.push_back(l);
   }
-  if (beyond.empty()) return;
-  // Named are also the links that hold the same particles, because one of them may be the cause.
+  if (!beyond.empty()) name_contradictions(beyond, mean_radius, result);
+}
+
+/// Names the hinges and arms that are violated in the motion that violates all constraints least;
+/// others have no part in the contradiction. Where the equations contradict each other only for
+/// finite turns, this motion satisfies the linear ones, and the links that hold the same particles
+/// as those `beyond` their tolerances are named.
+template <int D>
+void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyond,
+                                            double mean_radius, ProjectionResult& result) {
+  if (std::max(result.link_residual, -result.residuals.smallest_gap) <= kBroken * mean_radius)
+    return;
+  const auto& links = constraints_->links();
+  const auto violations = constraints_->least_violations();
+  const double largest = *std::ranges::max_element(violations);
+  if (largest > kBroken * mean_radius) {
+    // The least squares end within rounding and the weight of the masses, about 1e-6.
+    constexpr double kPart = 1e-3;
+    const std::size_t contacts = chosen_.size();
+    for (std::size_t b = 0; b < contacts; ++b)
+      result.contact_contradicts |= violations[b] > kPart * largest;
+    for (std::size_t l = 0; l < links.size(); ++l)
+      if (!links[l].is_spring() && violations[contacts + l] > kPart * largest)
+        result.unsolved_links.push_back(name_of(links[l], *links_, state_.particles));
+    return;
+  }
+  result.contact_contradicts = true;
   std::vector<char> is_held(state_.particles.count(), 0);
   const auto for_particles = [&](const LinkEquations& link, const auto& visit) {
     for (const auto& part : link.parts()) {
@@ -86,6 +111,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   result.unresolved = 0;
   result.link_residual = 0;
   result.unsolved_links.clear();
+  result.contact_contradicts = false;
   result.residuals.impulse_errors.resize(system_.contacts.size());
   for (std::size_t c = 0; is_final && c < chosen_.size(); ++c) {
     const auto& here = system_.contacts[c];
@@ -124,6 +150,10 @@ template std::vector<std::size_t> StepProjection<2>::examine(const SolverSetting
                                                              ProjectionResult&);
 template std::vector<std::size_t> StepProjection<3>::examine(const SolverSettings&, double, bool,
                                                              ProjectionResult&);
+template void StepProjection<2>::name_contradictions(const std::vector<std::size_t>&, double,
+                                                     ProjectionResult&);
+template void StepProjection<3>::name_contradictions(const std::vector<std::size_t>&, double,
+                                                     ProjectionResult&);
 template ResidualScale StepProjection<2>::scale_of_link(const LinkEquations&,
                                                         ResidualScales<2>&) const;
 template ResidualScale StepProjection<3>::scale_of_link(const LinkEquations&,

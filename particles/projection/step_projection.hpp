@@ -24,17 +24,21 @@
 
 namespace viscontact::particles {
 
+/// A link that is off by more than this part of the mean radius after all iterations is taken to
+/// contradict others. Smaller residuals may be slow convergence; they are reported.
+inline constexpr double kBroken = 1e-3;
+
 /// Result of the projection of a step.
 struct ProjectionResult {
   int iterations = 0;       ///< number of iterations of all solutions, >= 0
   StepResiduals residuals;  ///< those of the last solution; impulse_errors as `pairs`
   /// Number of contacts that exert an impulse or are glued, and turn by more than kLargestTurn.
   std::size_t unresolved = 0;
-  /// Largest residual of a link [L]. If some are not allowed: the names of the hinges and arms that
-  /// hold the same particles as these links.
-  double link_residual = 0;
-  /// Those names; empty if the residuals of all links are allowed.
+  double link_residual = 0;  ///< largest residual of a link [L]
+  /// If a link or gap is off by more than kBroken mean radii: the names of the hinges and arms that
+  /// contradict each other; empty if the residuals of all links are allowed.
   std::vector<std::string> unsolved_links;
+  bool contact_contradicts = false;  ///< whether a contact has a part in that
   std::vector<Pair*> pairs;          ///< pairs in the projection, which solve() leaves as they are
   std::vector<double> impulses;      ///< of `pairs` [M L/T]
   std::vector<PairMemory> memories;  ///< of `pairs`, with the friction; empty without constraints
@@ -108,6 +112,8 @@ class StepProjection {
                                    bool is_final, ProjectionResult& result);
   ResidualScale scale_of_link(const LinkEquations& link, ResidualScales<D>& scales) const;
   void examine_links(const SolverSettings& settings, double mean_radius, ProjectionResult& result);
+  void name_contradictions(const std::vector<std::size_t>& beyond, double mean_radius,
+                           ProjectionResult& result);
 
   State& state_;
   double h_;

@@ -120,8 +120,8 @@ TEST_P(ConvexFriction, ACollisionIsTheSameInAllUnits) {
       const State scaled = end_of(in);
       const Vector apart =
           (1 / in.length) * scaled.particles.position(1) - plain.particles.position(1);
-      // Rounding of 100 steps; the iterations are the same but for it. With films a solution may end
-      // an iteration earlier, and slips are solved to 2.5e-7 mean radii, which is 5e-6 of the
+      // Rounding of 100 steps; the iterations are the same but for it. With films a solution may
+      // end an iteration earlier, and slips are solved to 2.5e-7 mean radii, which is 5e-6 of the
       // impulse of friction.
       const double tolerance = gamma_min == 0 ? 1e-11 : 1e-5;
       EXPECT_LT(norm(apart), tolerance);

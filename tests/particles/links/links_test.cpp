@@ -268,6 +268,41 @@ TEST(Arms, ThreeArmsThatBreakTheTriangleInequalityAreNamed) {
   }
 }
 
+TEST(Links, OnlyThoseThatContradictEachOtherAreNamed) {
+  // The arm between two pinned particles gets longer. Arms that hold the same particles or the next
+  // ones, and a particle that lies on a plane, could follow.
+  for (const bool is_reversed : {false, true}) {
+    auto setting = setting_of(0.01);
+    setting.solver.tolerance = 1e-6;
+    setting.gravity = {0, -1, 0};
+    State state = no_particles(2);
+    for (int k = 0; k < 5; ++k) add_particle(state, {1.0 * k, 0.1, 0}, 0.1, 1);
+    add_rotation(state.particles);
+    setting.planes = {plane_at_rest({}, {0, 1, 0})};
+    setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, 1}, {1, 3}}}},
+                          {1, 2, PiecewiseLinearLength{{{0, 1}}}},
+                          {2, 3, PiecewiseLinearLength{{{0, 1}}}}};
+    if (is_reversed) std::ranges::reverse(setting.links.arms);
+    for (const std::int32_t k : {0, 1})
+      setting.links.hinges.push_back({{k, {}}, {1.0 * k, 0.1, 0}, 0, 0, -1});
+    Simulation simulation(setting, state, 1);
+    try {
+      run(simulation, 1);
+      FAIL();
+    } catch (const Error& error) {
+      const std::string said = error.what();
+      EXPECT_EQ(error.kind(), ErrorKind::kNotConverged);
+      const std::string guilty =
+          is_reversed ? "arm 2 (particles 0 and 1)" : "arm 0 (particles 0 and 1)";
+      for (const auto& name :
+           {guilty, std::string("hinge 0 (particle 0)"), std::string("hinge 1 (particle 1)")})
+        EXPECT_NE(said.find(name), std::string::npos) << said;
+      for (const auto* name : {"arm 1", "(particles 1 and 2)", "(particles 2 and 3)", "overlap"})
+        EXPECT_EQ(said.find(name), std::string::npos) << said;
+    }
+  }
+}
+
 TEST(Links, AChainOfHingedBodiesHangsAtRest) {
   // Redundant links do no harm: two bodies, each held by two hinges at its ends.
   auto setting = setting_of(0.01, Scheme::kEuler);
