@@ -354,6 +354,7 @@ CaseKind kind_of_case(const fs::path& path) {
 template <>
 Case case_of_root(const TomlSection& root, std::string text, const fs::path& path) {
   auto c = titled_case<Case>(root, std::move(text), path, true);
+  read_units(root, c.units);
   read_keys(root.section("fluid"), fluid_keys, c.viscosity, c.fluid_density);
   double mass = 1;  // only the motion depends on it
   const bool needs_mass = root.has("motion");
@@ -415,6 +416,7 @@ std::vector<KeyTable> tables_of_sphere_case() {
     tables.back().rows.insert(tables.back().rows.end(), more.rows.begin(), more.rows.end());
   for (const auto& name : reduced_model::model_sections())
     tables.push_back(describe_keys(fmt::format("[{}]", name), model_keys, motion, name));
+  tables.push_back(table_of_units());
   tables.push_back(describe_keys("[sweep]", sweep_keys));
   tables.push_back(describe_keys("[published]", published_keys));
   return tables;

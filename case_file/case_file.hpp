@@ -13,6 +13,7 @@
 
 #include "viscontact/case_file/case_template.hpp"
 #include "viscontact/case_file/keys.hpp"
+#include "viscontact/case_file/units.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 #include "viscontact/lubrication/fit.hpp"
@@ -51,6 +52,7 @@ struct PublishedGap {
 /// What a case file says, checked.
 struct Case {
   std::string title;                ///< for the report; may be empty
+  Units units{};                    ///< words for pages and axes; may be empty
   double viscosity = 0;             ///< mu [M/(L T)], > 0
   double radius = 0;                ///< r [L], > 0
   double density = 0;               ///< rho_p of the sphere [M/L^3]; 0: the case gives its mass
@@ -83,9 +85,9 @@ Case case_of_root(const TomlSection& root, std::string text, const std::filesyst
 template <>
 std::vector<std::string_view> sections_with_defaults<Case>();
 
-/// The fit, scaled to radius and viscosity of the case (lubrication/scaling.hpp). `file`, from which
-/// it was read, is named in messages. Throws Error(kBadInput) if the radius is another one and the
-/// case has a tabulation with another geometry or container, in units of the radius.
+/// The fit, scaled to radius and viscosity of the case (lubrication/scaling.hpp). `file`, from
+/// which it was read, is named in messages. Throws Error(kBadInput) if the radius is another one
+/// and the case has a tabulation with another geometry or container, in units of the radius.
 lubrication::Fit fit_for(const Case& c, lubrication::Fit fit, const std::filesystem::path& file);
 
 /// What docs/case-file.md says about the keys of each section.

@@ -111,6 +111,8 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
                             reference_model, names));
   }
   Comparison comparison{std::string(reference_model), {}};
+  const auto& head = trajectories.front().provenance;
+  if (const auto units = head.find("units"); units != head.end()) comparison.units = units->second;
   std::set<std::string> seen;
   for (const auto& trajectory : trajectories) {
     stop.throw_if_stop_requested();
@@ -170,6 +172,7 @@ void fields_of(JsonFields& json, ModelComparison& model) {
 
 void fields_of(JsonFields& json, Comparison& comparison) {
   json("reference_model", comparison.reference_model);
+  json("units", comparison.units, Absence::kLeftOutIfEmpty);
   json.by_name(
       "models", comparison.models, &ModelComparison::model,
       [](ModelComparison & model) -> auto& { return model; });

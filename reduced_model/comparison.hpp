@@ -50,6 +50,7 @@ struct Comparison {
   std::string reference_model;                          ///< name of the model of reference
   std::vector<ModelComparison> models;                  ///< in the order of the trajectories
   std::vector<ModelWithoutTrajectory> failed_models{};  ///< filled in by the caller
+  std::string units{};  ///< in words, as the first trajectory says them; may be empty
 };
 
 /// Compares each trajectory with that of `reference_model` over the times that both cover. Between

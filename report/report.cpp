@@ -293,7 +293,9 @@ std::string parameters_table(const results::RunResults& run) {
   const auto& motion = case_file::required_motion(c);
   std::string rows;
   const auto add = [&](std::string_view name, const std::string& value,
-                       std::string_view dimension) { rows += table_row(name, value, dimension); };
+                       std::string_view dimension) {
+    rows += table_row(name, value, c.units.in_place_of_dimensions(std::string(dimension)));
+  };
   const auto number = [](double value) { return fmt::format("{}", value); };
   add("viscosity", number(c.viscosity), "M L<sup>-1</sup> T<sup>-1</sup>");
   add("radius of the sphere", number(c.radius), "L");
@@ -319,9 +321,18 @@ std::string parameters_table(const results::RunResults& run) {
     add("accuracy asked of the table",
         link_to(run.folder, "table.csv", fmt::format("{:g}", c.tabulation->relative_accuracy)),
         "1");
-  return fmt::format("<p>From {}. Any coherent system of units: M mass, L length, T time.</p>\n",
-                     link_to(run.folder, "case.toml")) +
-         table_of(rows, headings({"parameter", "value", "dimension"}));
+  const bool has_units = c.units.are_said();
+  return fmt::format("<p>From {}. {}.</p>\n", link_to(run.folder, "case.toml"),
+                     has_units ? "Units are those of the case; nothing is converted"
+                               : "Any coherent system of units: M mass, L length, T time") +
+         table_of(rows, headings({"parameter", "value", has_units ? "unit" : "dimension"}));
+}
+
+/// The unit of the quantity with these powers of mass, length and time, for a heading: " [m/s]";
+/// empty if the case does not say its units.
+std::string in_brackets(const results::RunResults& run, int mass, int length, int time) {
+  const auto& units = run.c.units;
+  return units.are_said() ? fmt::format(" [{}]", escaped(units.unit_of(mass, length, time))) : "";
 }
 
 /// Smallest gap, times of contact, when solids touch, and distance to the reference of each model.
@@ -345,11 +356,12 @@ std::string models_table(const results::RunResults& run) {
     rows += fmt::format("<tr><td>{}</td><td colspan=8>failed: {}</td></tr>\n",
                         escaped(failed.model), escaped(failed.reason));
   const auto head = fmt::format(
-      "<tr><th rowspan=2>model</th><th rowspan=2>smallest gap</th><th rowspan=2>at time</th>"
-      "<th rowspan=2>film from gamma</th><th rowspan=2>in contact</th>"
-      "<th rowspan=2>solids touch, at the velocity</th>"
-      "<th colspan=3 class=group>distance to {}</th></tr>\n{}",
-      escaped(run.comparison.reference_model),
+      "<tr><th rowspan=2>model</th><th rowspan=2>smallest gap{1}</th><th rowspan=2>at time{2}</th>"
+      "<th rowspan=2>film from gamma{1}</th><th rowspan=2>in contact{2}</th>"
+      "<th rowspan=2>solids touch{2}, at the velocity{3}</th>"
+      "<th colspan=3 class=group>distance to {0}</th></tr>\n{4}",
+      escaped(run.comparison.reference_model), in_brackets(run, 0, 1, 0), in_brackets(run, 0, 0, 1),
+      in_brackets(run, 0, 1, -1),
       headings({"max |q &minus; q<sub>ref</sub>|", "&int; |q &minus; q<sub>ref</sub>| dt",
                 "&int; |u &minus; u<sub>ref</sub>| dt"}));
   return table_of(rows, head) + source(link_to(run.folder, "comparison.json") +
@@ -368,8 +380,11 @@ std::string rebounds_table(const results::RunResults& run) {
                         fmt::format("{:.5g}", of.coefficient));
     }
   if (rows.empty()) return "";
-  return table_of(rows, headings({"model", "number", "time", "velocity of approach",
-                                  "impulse of the solids", "velocity of rebound", "coefficient"})) +
+  const auto velocity = in_brackets(run, 0, 1, -1);
+  return table_of(rows, headings({"model", "number", "time" + in_brackets(run, 0, 0, 1),
+                                  "velocity of approach" + velocity,
+                                  "impulse of the solids" + in_brackets(run, 1, 1, -1),
+                                  "velocity of rebound" + velocity, "coefficient"})) +
          source(link_to(run.folder, "comparison.json") +
                 ". The coefficient is that of the velocities where the sphere meets and leaves the "
                 "film");
@@ -386,11 +401,12 @@ std::string budget_table(const results::RunResults& run) {
     rows += "</tr>\n";
   }
   if (rows.empty()) return "";
-  return table_of(rows,
-                  "<tr><th rowspan=2>model</th><th colspan=4 class=group>impulse on the sphere</th>"
-                  "<th colspan=4 class=group>work done on it</th></tr>\n" +
-                      headings({"external", "film", "drag", "solid", "external", "film", "drag",
-                                "solid"})) +
+  return table_of(rows, fmt::format(
+                            "<tr><th rowspan=2>model</th><th colspan=4 class=group>impulse on the "
+                            "sphere{}</th><th colspan=4 class=group>work done on it{}</th></tr>\n",
+                            in_brackets(run, 1, 1, -1), in_brackets(run, 1, 2, -2)) +
+                            headings({"external", "film", "drag", "solid", "external", "film",
+                                      "drag", "solid"})) +
          source(link_to(run.folder, "comparison.json"));
 }
 
@@ -474,6 +490,23 @@ std::string origin_section(const results::RunResults& run) {
   return text + fmt::format("<p>Programs and libraries: {}.</p>\n", programs);
 }
 
+/// Adds its unit to the label of an axis, if the case says its units.
+void add_unit(std::string& label, const case_file::Units& units) {
+  struct Dimension {
+    std::string_view label;
+    int mass, length, time;  // powers
+  };
+  constexpr auto kDimensions = std::to_array<Dimension>({{"time t", 0, 0, 1},
+                                                         {"gap q", 0, 1, 0},
+                                                         {"gamma", 1, 1, -1},
+                                                         {"f", 1, 1, -2},
+                                                         {"lubrication force", 1, 1, -2},
+                                                         {"force of the solids", 1, 1, -2}});
+  const auto* found = std::ranges::find(kDimensions, label, &Dimension::label);
+  if (found == kDimensions.end() || !units.are_said()) return;
+  label += fmt::format(" [{}]", units.unit_of(found->mass, found->length, found->time));
+}
+
 std::vector<Plot> plots_of(const results::RunResults& run) {
   const auto& motion = case_file::required_motion(run.c);
   // Below the fit's interval, the lubrication limit is always used here, because only pictures
@@ -491,6 +524,9 @@ std::vector<Plot> plots_of(const results::RunResults& run) {
   if (run.table) plots.push_back(plot_fit(*run.table, run.fit));
   if (run.uncertainty && run.uncertainty->misfit > 0)
     plots.push_back(plot_uncertainty(*run.uncertainty));
+  for (auto& plot : plots)
+    for (auto& panel : plot.panels)
+      for (auto* axis : {&panel.x, &panel.y}) add_unit(axis->label, run.c.units);
   // A plot without curves has nothing to show.
   std::erase_if(plots, [](const Plot& plot) {
     return std::ranges::all_of(plot.panels,
@@ -527,6 +563,7 @@ std::string summary(const results::RunResults& run) {
         ", whose smallest gap is <strong>{}</strong> at time {:.5g}",
         link_to(run.folder, "comparison.json", fmt::format("{:.5g}", reference->minimal_gap)),
         reference->minimal_gap_time);
+  if (run.c.units.are_said()) text += fmt::format("; units: {}", escaped(run.c.units.words()));
   return text + ".</p>\n";
 }
 

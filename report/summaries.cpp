@@ -159,6 +159,7 @@ std::string comparison_table(const reduced_model::Comparison& comparison) {
   }
   for (const auto& failed : comparison.failed_models)
     text += fmt::format("{:<30} failed: {}\n", failed.model, failed.reason);
+  if (!comparison.units.empty()) text += fmt::format("units: {}\n", comparison.units);
   return text;
 }
 

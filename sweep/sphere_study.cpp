@@ -61,7 +61,7 @@ void add_model(const reduced_model::ModelComparison& model,
 
 /// Throws Error(kWrongUsage) if a key of a case changes no row because a sweep does not read it.
 void refuse_unread(const std::string& key) {
-  constexpr std::array kNotOfAMotion = {"tabulation", "fit", "published", "sweep"};
+  constexpr std::array kNotOfAMotion = {"tabulation", "fit", "published", "sweep", "units"};
   if (std::ranges::find(kNotOfAMotion, key.substr(0, key.find('.'))) != kNotOfAMotion.end()) {
     std::vector<std::string_view> sections = {"fluid", "sphere", "motion"};
     std::ranges::copy(reduced_model::model_sections(), std::back_inserter(sections));
@@ -207,6 +207,8 @@ Study sphere_study(SpherePlan plan, const std::string& version) {
   study.comments = head_of("sweep", cases.text(), plan.points, identity_of(plan), version);
   study.comments["fit"] = sha256(lubrication::write_fit(plan.fit));
   study.comments["reference"] = plan.reference;
+  if (const auto c = case_file::read_case(plan.case_path); c.units.are_said())
+    study.comments["units"] = c.units.words();
   study.comments["revision of the models"] = std::to_string(reduced_model::kModelsRevision);
   study.run = [cases, plan = std::move(plan)](std::uint64_t index, const StopToken& stop) {
     RowResults results;

@@ -1,6 +1,6 @@
 // The text of each target: the resistance R and its primitive Gamma, sums of terms by physics.md
-// (3.2), (3.3) and (4.2), as code or numbers. Numbers are in the units of the fit. An impossible fit is an
-// Error(kBadInput). Names, keys and the order of sums must stay.
+// (3.2), (3.3) and (4.2), as code or numbers. Numbers are in the units of the fit. An impossible
+// fit is an Error(kBadInput). Names, keys and the order of sums must stay.
 #include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>
@@ -73,8 +73,8 @@ Outside outside_of(const lubrication::Fit& fit, const lubrication::OutsideInterv
   return outside;
 }
 
-/// What a quantity, R or Gamma, is in a language: expressions in q and l = ln q inside the interval,
-/// and in q outside of it; empty if there is none.
+/// What a quantity, R or Gamma, is in a language: expressions in q and l = ln q inside the
+/// interval, and in q outside of it; empty if there is none.
 struct Expressions {
   std::string inside, below, above;
 };

@@ -24,11 +24,11 @@ struct ExportTarget {
                        const lubrication::OutsideInterval& outside);
 };
 
-/// All targets: c-header, fortran, python, matlab, json, csv. Each contains, with the gap q, the velocity u
-/// and the radius r, the resistance R(q) [M/T], the force -R(q) u [M L/T^2] and Gamma(q) = int_r^q
-/// R [M L/T], and the interval, error and source of the fit. The sums have the order of
-/// LubricationForce, so that the values agree to the last digits. Outside the interval, as far as the
-/// user has chosen no limit of the drag, the code returns NaN (C, Fortran, MATLAB) or raises
+/// All targets: c-header, fortran, python, matlab, json, csv. Each contains, with the gap q, the
+/// velocity u and the radius r, the resistance R(q) [M/T], the force -R(q) u [M L/T^2] and Gamma(q)
+/// = int_r^q R [M L/T], and the interval, error and source of the fit. The sums have the order of
+/// LubricationForce, so that the values agree to the last digits. Outside the interval, as far as
+/// the user has chosen no limit of the drag, the code returns NaN (C, Fortran, MATLAB) or raises
 /// ValueError (Python).
 std::span<const ExportTarget> export_targets();
 

@@ -11,10 +11,11 @@
 namespace viscontact::motions {
 
 /// The text for one of export_targets(). The functions viscontact_squeeze, viscontact_slide,
-/// viscontact_roll, viscontact_slide_roll and viscontact_spin (without the prefix in Python and MATLAB) have
-/// the gap as argument; there is none for an entry that the fit lacks. Outside the interval of gaps
-/// the code returns NaN (C, Fortran, MATLAB) or raises ValueError (Python). `source` is the name of the
-/// fit's file, which the text states. Throws Error(kBadInput) for an unknown target.
+/// viscontact_roll, viscontact_slide_roll and viscontact_spin (without the prefix in Python and
+/// MATLAB) have the gap as argument; there is none for an entry that the fit lacks. Outside the
+/// interval of gaps the code returns NaN (C, Fortran, MATLAB) or raises ValueError (Python).
+/// `source` is the name of the fit's file, which the text states. Throws Error(kBadInput) for an
+/// unknown target.
 std::string export_pair(const PairFit& fit, std::string_view target, std::string_view source);
 
 }  // namespace viscontact::motions

@@ -153,6 +153,7 @@ Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
     try {
       auto trajectory = reduced_model::simulate(choice, motion, force);
       trajectory.provenance = simulated.made_from;
+      if (c.units.are_said()) trajectory.provenance["units"] = c.units.words();
       finish(trajectory, choice, motion, force);
       simulated.trajectories.push_back(std::move(trajectory));
     } catch (const Error& error) {

@@ -72,12 +72,11 @@ motions::PairFit fit_of(const RollingCase& c, const RollingFolder& folder) {
   return fit_for(c, motions::read_pair_fit(file), file);
 }
 
-/// Tells the user if the fit of the case was made for another sphere or fluid.
+/// Tells the user if the fit of the case was made for a sphere of another radius.
 void tell_of_scaling(const RollingCase& c) {
   if (!c.fit) return;
   const auto fit = motions::read_pair_fit(*c.fit);
-  if (!equal_up_to_rounding(fit.radius, c.radius) ||
-      !equal_up_to_rounding(fit.viscosity, c.viscosity))
+  if (!equal_up_to_rounding(fit.radius, c.radius))
     terminal::say(fmt::format(
         "rolling: the fit is that of radius {} and viscosity {}; it is scaled to radius {} and "
         "viscosity {}",

@@ -17,8 +17,9 @@ namespace viscontact::swimmer {
 /// `version` is that of Viscontact.
 ///
 /// Reads the case. Throws Error(kBadInput) if the first or the last point gives no valid case, or
-/// if the fit is that of other ratios of radii, or, scaled, of another container. Throws Error(kWrongUsage) if nothing is
-/// varied, if a key is varied twice or changes the table, or if the case has no stroke.
+/// if the fit is that of other ratios of radii, or, scaled, of another container. Throws
+/// Error(kWrongUsage) if nothing is varied, if a key is varied twice or changes the table, or if
+/// the case has no stroke.
 sweep::Study swimmer_study(const std::filesystem::path& case_path, sweep::Points points,
                            const ResistanceFit& fit, const std::string& version);
 

@@ -48,7 +48,8 @@ TEST(SweepPlanCheck, CaseNeedsAMotion) {
 
 TEST(SweepPlanCheck, FitIsScaledToTheRadius) {
   // The fit is R = k/q, and k is proportional to mu r^2: twice the radius is four times the
-  // viscosity. The film of viscous contact depends on k alone; the roundings are those of 1000 sums.
+  // viscosity. The film of viscous contact depends on k alone; the roundings are those of 1000
+  // sums.
   const auto film = [](const std::string& variation) {
     const auto plan = varied(shipped("vanishing_viscosity.toml"), {variation});
     return number(row_of(with_models(plan, {"viscous_contact"}, "viscous_contact"), 1),

@@ -53,8 +53,8 @@ struct ContactModel {
 /// `is_staggered` the force acts for half a step first and at the end, and a row has the velocity
 /// and gamma that the force of another half step gives at the time of the row. The lowest gamma,
 /// and thus the recovered film, includes the values at which the force changes its sign within a
-/// step. The time at which the solids touch is found in the same way. Their velocity is what the film
-/// leaves of an impact, or, if a load closes the film, the load over `solid_resistance`.
+/// step. The time at which the solids touch is found in the same way. Their velocity is what the
+/// film leaves of an impact, or, if a load closes the film, the load over `solid_resistance`.
 Trajectory run_contact_model(const Motion& motion, ContactModel model);
 
 /// A function that makes a contact model for a motion and a force.

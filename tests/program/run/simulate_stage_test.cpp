@@ -163,8 +163,8 @@ TEST_F(Stages, SimulateTakesAFitWhoseViscosityDiffersByRounding) {
 }
 
 TEST_F(Stages, FitIsScaledToACaseInOtherUnits) {
-  // The lecture's case with 0.5 mm for the radius and 0.1 Pa s for the viscosity: the unit of length
-  // is 5e-4 m, that of time 1 s, and that of mass 5e-4 0.1/3 kg.
+  // The lecture's case with 0.5 mm for the radius and 0.1 Pa s for the viscosity: the unit of
+  // length is 5e-4 m, that of time 1 s, and that of mass 5e-4 0.1/3 kg.
   fit("asymptotic");
   simulate();
   auto text = lecture_case_text();

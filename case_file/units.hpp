@@ -1,0 +1,27 @@
+// The units in which a case is written, as words for pages, axes and tables. Nothing is converted.
+// The reader of cases fills them in; reports and files show them. A change must keep the words of
+// files, which users' scripts read.
+#pragma once
+
+#include <string>
+
+namespace viscontact::case_file {
+
+/// The words for the units of length, time and mass, such as "m", "s" and "kg"; all empty if the
+/// case does not say them.
+struct Units {
+  std::string length, time, mass;
+
+  /// True if the case says its units.
+  bool are_said() const { return !length.empty(); }
+  /// "length m, time s, mass kg"; empty without units.
+  std::string words() const;
+  /// The unit of the quantity with these powers, such as "kg m/s²" for (1, 1, -2); empty without
+  /// units. Powers are from -9 to 9.
+  std::string unit_of(int mass_power, int length_power, int time_power) const;
+  /// A text with dimensions as "M", "L<sup>-1</sup>" and "T<sup>-2</sup>" between blanks, in which
+  /// the letters are replaced by the units; unchanged without units.
+  std::string in_place_of_dimensions(const std::string& html) const;
+};
+
+}  // namespace viscontact::case_file
