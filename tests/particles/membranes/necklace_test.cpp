@@ -341,6 +341,24 @@ TEST(Necklace, RollsLikeATrack) {
   EXPECT_LT(spin, -0.2 * speed);
 }
 
+TEST(Necklace, ContinuesBitForBit) {
+  Scene scene;
+  scene.gravity = {0, -1, 0};
+  scene.viscosity = 0.1;
+  scene.centre = {0, 1.1, 0};
+  scene.make(0.01);
+  scene.setting.planes.push_back(plane_at_rest({}, {0, 1, 0}));
+  Simulation whole(scene.setting, scene.state, 1), part(scene.setting, scene.state, 1);
+  run(part, 0.4);
+  Simulation rest(scene.setting, part.state(), 1);
+  run(whole, 0.8);
+  run(rest, 0.8);
+  EXPECT_EQ(whole.state().particles.positions, rest.state().particles.positions);
+  EXPECT_EQ(whole.state().particles.angular_velocities, rest.state().particles.angular_velocities);
+  EXPECT_EQ(whole.state().link_forces, rest.state().link_forces);
+  EXPECT_EQ(whole.state().walls, rest.state().walls);
+}
+
 TEST(Necklace, DoesNotContinueWithAnotherShape) {
   Scene scene;
   scene.make(0.01);
