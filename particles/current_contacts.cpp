@@ -8,11 +8,24 @@
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
+#include "viscontact/particles/outline.hpp"
 
 namespace viscontact::particles {
 namespace {
 
-double gap_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
+double gap_of(const Setting& setting, const Particles& p, const Pair& pair,
+              std::span<const PlanePosition> places) {
+  if (setting.fluid && !setting.fluid->semi_axes.empty()) {
+    const auto outline = [&](std::int32_t k, const Vector& shift = {}) {
+      return outline_of(*setting.fluid, p, p.angles, index_of(k), shift);
+    };
+    if (pair.first >= 0)
+      return gap(outline(pair.first), outline(pair.second, shift_of(p.cell, pair.image)));
+    const auto of_second = outline(pair.second);
+    if (!of_second.is_plate) return gap(places[pair.plane()], of_second);
+    const auto end = of_second.spine()[index_of(pair.image)];
+    return gap(places[pair.plane()], Vector{end[0], end[1], 0}, of_second.end_radius());
+  }
   if (p.dimension == 1) return contact_of<1>(p, pair, places).gap;
   return p.dimension == 2 ? contact_of<2>(p, pair, places).gap : contact_of<3>(p, pair, places).gap;
 }
@@ -65,10 +78,18 @@ double largest_overlap(const Setting& setting, const State& state) {
   }
   for (const auto& pair : close)
     if (!p.bodies.are_one(pair.first, pair.second))
-      smallest = std::min(smallest, gap_of(p, {pair.first, pair.second, 0, 0, 0, pair.image}, {}));
-  for (const auto& place : positions_of(obstacles_of(setting), state.time))
+      smallest = std::min(smallest,
+                          gap_of(setting, p, {pair.first, pair.second, 0, 0, 0, pair.image}, {}));
+  const auto places = positions_of(obstacles_of(setting), state.time);
+  for (std::size_t w = 0; w < places.size(); ++w)
     for (std::size_t k = 0; k < p.count(); ++k)
-      smallest = std::min(smallest, gap(place, p.position(k), p.radii[k]));
+      // The gap of the circle around an outline is at most that of the outline.
+      if (gap(places[w], p.position(k), p.radii[k]) < smallest)
+        for (const std::int32_t end : {0, 1}) {
+          const Pair pair{
+              -1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k), 0, 0, 0, end};
+          smallest = std::min(smallest, gap_of(setting, p, pair, places));
+        }
   return (0 - smallest) / mean_radius(p);  // the subtraction returns 0 instead of -0
 }
 
@@ -86,9 +107,10 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
   const double touching = setting.solver.tolerance * mean_radius(p);
   for (const auto* pairs : {&state.pairs, &state.walls})
     for (const auto& pair : *pairs)
-      if (const double gap = gap_of(p, pair, places); pair.gamma < 0 || gap <= touching) {
+      if (const double gap = gap_of(setting, p, pair, places); pair.gamma < 0 || gap <= touching) {
         const auto& memory = state.memories.of(pair.memory);
-        contacts.push_back({pair.first, pair.second, gap, pair.gamma, pair.gamma_error, pair.image,
+        const auto image = pair.first < 0 ? 0 : pair.image;  // of an obstacle it is an end
+        contacts.push_back({pair.first, pair.second, gap, pair.gamma, pair.gamma_error, image,
                             friction_of(setting, memory), memory.shown()});
       }
   return contacts;

@@ -18,7 +18,7 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
     {"restart.bin", "particles.pvd", "particles.html", "particles.svg", "final_particles.csv",
      "final_contacts.csv", "steps.csv", "run.json", "motion.csv", "contacts.csv", "flow.pvd",
      "bodies.csv", "hinges.csv", "springs.csv", "arms.csv", "membranes.csv", "links.pvd",
-     "rebounds.csv"});
+     "rebounds.csv", "probes.csv"});
 
 /// What the name of a file of a frame has before and after the number of the frame.
 struct FrameKind {

@@ -52,6 +52,8 @@ RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenanc
     });
   if (!c.setting.fluid) return;
   add_list(kFlowFile);
+  if (!c.setting.fluid->probes.empty())
+    add_file("probes.csv", TextKind::kHashComment, std::string(kProbesHeader));
   add_table("motion.csv", motion_header(c.particles.dimension),
             [](const State& state, auto) { return motion_rows(state.time, state.particles); });
   add_table("contacts.csv", contacts_header(), [&c](const State& state, auto) {
@@ -95,8 +97,11 @@ void RunLog::add_step(const StepReport& report, const State& state,
   constexpr std::uint64_t kMostRebounds = 1000000;
   record_.totals.add(report);
   const auto steps = record_.totals.steps;
-  if (steps <= kMostRows || steps % kThen == 0 || !report.converged)
+  if (steps <= kMostRows || steps % kThen == 0 || !report.converged) {
     files_.at("steps.csv").append(step_row(state.steps, report, case_.setting.fluid));
+    if (!report.fluid.probes.empty())
+      files_.at("probes.csv").append(probe_rows(report.fluid, case_.setting.fluid->probes));
+  }
   const auto more = rebounds.first(std::min(rebounds.size(), kMostRebounds - record_.rebounds));
   if (more.empty()) return;
   files_.at("rebounds.csv").append(rebound_rows(state.particles, more));
