@@ -112,6 +112,9 @@ particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units) {
     membrane.perimeter /= units.length;
     membrane.area /= units.length * units.length;
   }
+  for (auto& probe : fluid.probes)
+    for (auto* place : {&probe.from, &probe.to})
+      for (auto& x : *place) x /= units.length;
   for (auto& gradient : fluid.pressure_gradient) gradient /= units.viscosity / units.length;
   if (auto* sides = std::get_if<particles::SideVelocities>(&fluid.boundary))
     for (auto& side : *sides) {
@@ -211,6 +214,10 @@ particles::FlowQuantities ScaledSolver::quantities() {
   auto quantities = solver_->quantities();
   quantities.dissipation *= power_unit_;
   quantities.kinetic_energy *= power_unit_;
+  for (auto& [flow, pressure] : quantities.probes) {
+    flow *= units_.length * units_.length;
+    pressure *= units_.viscosity;
+  }
   for (std::size_t i = 0; i < quantities.fluid_forces.size(); ++i)
     quantities.fluid_forces[i] *= force_units_[i % components_];
   return quantities;

@@ -8,14 +8,16 @@
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
+#include "viscontact/particles/outline.hpp"
 
 namespace viscontact::particles {
 namespace {
 
-/// Gap [L] and unit normal of a pair.
+/// Where the bodies of a pair are to each other.
 struct Place {
-  double gap = 0;
-  Vector normal{};
+  double gap = 0;   ///< [L]
+  Vector normal{},  ///< unit normal from the first to the second body
+      branch{};     ///< CurrentContact::branch [L]
 };
 
 template <int D>
@@ -23,10 +25,46 @@ Place place_of(const Particles& p, const Pair& pair, std::span<const PlanePositi
   const auto contact = contact_of<D>(p, pair, places);
   Place place{contact.gap};
   std::ranges::copy(contact.normal, place.normal.begin());
+  double length = contact.gap + p.radii[index_of(pair.second)];
+  if (pair.first >= 0) length += p.radii[index_of(pair.first)];
+  place.branch = length * place.normal;
   return place;
 }
 
-Place place_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
+/// The place of a pair in a fluid with ellipses or plates, which make contact as the circles about
+/// the nearest points of their spines. At an obstacle Pair::image is the end of the spine.
+Place place_of_outlines(const Fluid& fluid, const Particles& p, const Pair& pair,
+                        std::span<const PlanePosition> places) {
+  const auto outline = [&](std::int32_t k, const Vector& shift = {}) {
+    return outline_of(fluid, p, p.angles, index_of(k), shift);
+  };
+  const auto vector = [](const std::array<double, 2>& x) { return Vector{x[0], x[1], 0}; };
+  if (pair.first < 0) {
+    const auto second = outline(pair.second);
+    const auto& obstacle = places[pair.plane()];
+    if (!second.is_plate) {
+      Place place{gap(obstacle, second), normal_at(obstacle, vector(second.centre))};
+      place.branch = (place.gap + second.radius) * place.normal;
+      return place;
+    }
+    const Vector end = vector(second.spine()[index_of(pair.image)]);
+    Place place{gap(obstacle, end, second.end_radius()), normal_at(obstacle, end)};
+    place.branch = vector(second.centre) - end + (place.gap + second.end_radius()) * place.normal;
+    return place;
+  }
+  const auto first = outline(pair.first),
+             second = outline(pair.second, shift_of(p.cell, pair.image));
+  const auto near = nearest_on_spines(first, second);
+  const Vector apart = vector(near.second) - vector(near.first);
+  const double distance = norm(apart);
+  return {gap(first, second), distance > 0 ? (1 / distance) * apart : Vector{1, 0, 0},
+          vector(second.centre) - vector(first.centre)};
+}
+
+Place place_of(const Setting& setting, const Particles& p, const Pair& pair,
+               std::span<const PlanePosition> places) {
+  if (setting.fluid && !setting.fluid->semi_axes.empty())
+    return place_of_outlines(*setting.fluid, p, pair, places);
   if (p.dimension == 1) return place_of<1>(p, pair, places);
   return p.dimension == 2 ? place_of<2>(p, pair, places) : place_of<3>(p, pair, places);
 }
@@ -79,11 +117,18 @@ double largest_overlap(const Setting& setting, const State& state) {
   }
   for (const auto& pair : close)
     if (!p.are_joined(pair.first, pair.second))
-      smallest =
-          std::min(smallest, place_of(p, {pair.first, pair.second, 0, 0, 0, pair.image}, {}).gap);
-  for (const auto& place : positions_of(obstacles_of(setting), state.time))
+      smallest = std::min(
+          smallest, place_of(setting, p, {pair.first, pair.second, 0, 0, 0, pair.image}, {}).gap);
+  const auto places = positions_of(obstacles_of(setting), state.time);
+  for (std::size_t w = 0; w < places.size(); ++w)
     for (std::size_t k = 0; k < p.count(); ++k)
-      smallest = std::min(smallest, gap(place, p.position(k), p.radii[k]));
+      // The gap of the circle around an outline is at most that of the outline.
+      if (gap(places[w], p.position(k), p.radii[k]) < smallest)
+        for (const std::int32_t end : {0, 1}) {
+          const Pair pair{
+              -1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k), 0, 0, 0, end};
+          smallest = std::min(smallest, place_of(setting, p, pair, places).gap);
+        }
   return (0 - smallest) / mean_radius(p);  // the subtraction returns 0 instead of -0
 }
 
@@ -103,7 +148,7 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
                           (setting.fluid ? setting.fluid->threshold_gap : 0);
   for (const auto* pairs : {&state.pairs, &state.walls})
     for (const auto& pair : *pairs) {
-      const auto [gap, normal] = place_of(p, pair, places);
+      const auto [gap, normal, branch] = place_of(setting, p, pair, places);
       if (!(pair.gamma < 0 || gap <= touching || pair.impulse != 0)) continue;
       const auto& memory = state.memories.of(pair.memory);
       // Impulses are 0 before the first step, whose length is not known.
@@ -113,11 +158,12 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
                           .gap = gap,
                           .gamma = pair.gamma,
                           .gamma_error = pair.gamma_error,
-                          .image = pair.image,
+                          .image = pair.first < 0 ? 0 : pair.image,  // of an obstacle it is an end
                           .friction = friction_of(setting, memory),
                           .normal_force = per_time * pair.impulse,
                           .tangential_force = per_time * memory.friction(),
                           .normal = normal,
+                          .branch = branch,
                           .shown = memory.shown()});
     }
   return contacts;

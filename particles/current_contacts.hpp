@@ -32,7 +32,11 @@ struct CurrentContact {
   /// and film together, > 0 where it pushes both apart.
   double normal_force = 0;
   Vector tangential_force{};  ///< mean friction on `second` in the last step, in the same unit
-  Vector normal{};            ///< unit normal from `first` to `second`; not in frames
+  // Not in frames:
+  Vector normal{};  ///< unit normal from `first` to `second`
+  /// Vector to the centre of `second` from that of `first`, or from the nearest point of an obstacle
+  /// [L].
+  Vector branch{};
   /// What laws remember of the pair and files show. It takes no room if there is nothing to show.
   [[no_unique_address]] ShownMemory shown{};
 };

@@ -11,17 +11,28 @@
 
 namespace viscontact::particles {
 
+namespace {
+
+/// The factor of what pulsates.
+double pulsation(double period, double amplitude, double time) {
+  return period > 0 ? 1 + amplitude * std::sin(2 * std::numbers::pi * time / period) : 1;
+}
+
+}  // namespace
+
 std::array<double, 2> WallVelocity::at(double time, double from, double to) const {
   auto velocity = value;
   if (!pieces.pieces.empty()) {
     const auto now = to > from ? pieces.mean(from, to) : pieces.value(time);
     velocity = {now[0], now[1]};
   }
-  if (period > 0) {
-    const double factor = 1 + amplitude * std::sin(2 * std::numbers::pi * time / period);
-    for (auto& component : velocity) component *= factor;
-  }
+  for (auto& component : velocity) component *= pulsation(period, amplitude, time);
   return velocity;
+}
+
+std::array<double, 2> Fluid::pressure_gradient_at(double time) const {
+  const double factor = pulsation(gradient_period, gradient_amplitude, time);
+  return {factor * pressure_gradient[0], factor * pressure_gradient[1]};
 }
 
 bool Fluid::are_of_one_membrane(std::int32_t first, std::int32_t second) const {
@@ -31,10 +42,12 @@ bool Fluid::are_of_one_membrane(std::int32_t first, std::int32_t second) const {
 }
 
 double Fluid::size_of(int dimension, std::size_t k, double radius) const {
+  if (is_plate(k)) return size_of_plate(semi_axes[k]);
   return is_ellipse(k) ? size_of_ellipse(semi_axes[k]) : size_of_particle(dimension, radius);
 }
 
 double Fluid::homogeneous_inertia_of(std::size_t k, double mass, double radius) const {
+  if (is_plate(k)) return homogeneous_inertia_of_plate(mass, semi_axes[k]);
   return is_ellipse(k) ? homogeneous_inertia_of_ellipse(mass, semi_axes[k])
                        : homogeneous_inertia(2, mass, radius);
 }

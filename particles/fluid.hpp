@@ -84,6 +84,14 @@ struct LinearFlow {
 /// sides are not used.
 using SideVelocities = std::array<WallVelocity, 4>;
 
+/// A line across a channel, through which the flow and on which the mean pressure are measured:
+/// `[[probe]]` of a case.
+struct Probe {
+  std::string name;              ///< in files
+  std::array<double, 2> from{};  ///< a point on a wall [L]
+  std::array<double, 2> to{};    ///< a point on another wall [L]
+};
+
 /// The fluid around the particles, and how its flow is computed: `[fluid]` of a case.
 struct Fluid {
   double viscosity = 0;  ///< mu [M/(L T)], > 0
@@ -93,6 +101,9 @@ struct Fluid {
   FlowStart start = FlowStart::kRest;              ///< the flow at time 0
   /// Uniform pressure gradient that drives the fluid, and acts on particles, too [M/(L^2 T^2)].
   std::array<double, 2> pressure_gradient{};
+  /// If the period [T] is > 0, the gradient is multiplied by 1 + amplitude sin(2 pi time/period).
+  double gradient_period = 0;
+  double gradient_amplitude = 0;  ///< without dimension
   /// How particles are kept rigid; kRigid needs the fitted mesh.
   RigidConstraint constraint = RigidConstraint::kPenalty;
   /// The penalty > 0 of docs/physics.md (6.1), without dimension; used by kPenalty only. Velocities
@@ -110,18 +121,32 @@ struct Fluid {
   std::vector<std::string> solver;
   /// Semi-axes of each particle in the plane, of which the first one points along the angle of the
   /// particle [L], > 0. Equal ones are those of a disc. Empty: all particles are discs or spheres.
+  /// Those of a plate are half of its length and the radius of its round ends.
   std::vector<std::array<double, 2>> semi_axes{};
+  /// Which particles are plates with round ends, one number for each: 1 or 0. Empty: none is.
+  std::vector<char> plates{};
 
   /// Membranes in the fluid, in the order of their beads, which are all particles of the case.
   std::vector<Membrane> membranes{};
 
+  /// Where flow and pressure are measured.
+  std::vector<Probe> probes{};
+
+  /// The pressure gradient at `time` [T].
+  std::array<double, 2> pressure_gradient_at(double time) const;
   /// True if both particles are beads of one membrane, which make no contact.
   bool are_of_one_membrane(std::int32_t first, std::int32_t second) const;
   /// True if the fluid has inertia.
   bool has_inertia() const { return density > 0; }
-  /// True if particle k is an ellipse and no disc.
+  /// True if particle k is a plate.
+  bool is_plate(std::size_t k) const { return !plates.empty() && plates[k] != 0; }
+  /// True if particle k is an ellipse, and neither a disc nor a plate.
   bool is_ellipse(std::size_t k) const {
-    return !semi_axes.empty() && semi_axes[k][0] != semi_axes[k][1];
+    return !semi_axes.empty() && semi_axes[k][0] != semi_axes[k][1] && !is_plate(k);
+  }
+  /// The radius of the round ends of a plate, or else `radius` [L].
+  double end_radius(std::size_t k, double radius) const {
+    return is_plate(k) ? semi_axes[k][1] : radius;
   }
   /// Area of particle k [L^2], or volume of a sphere on the axis [L^3], of this radius [L].
   double size_of(int dimension, std::size_t k, double radius) const;

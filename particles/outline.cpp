@@ -1,4 +1,4 @@
-// Distances to circles and ellipses. Lengths are in the unit of the case. Nothing is checked or
+// Distances to circles, ellipses and plates. Lengths are in the unit of the case. Nothing is checked or
 // thrown. A change must keep distances to rounding errors.
 #include "viscontact/particles/outline.hpp"
 
@@ -71,10 +71,72 @@ double least_on(const Outline& outline, const Function& function) {
   return std::min(least, value((low + high) / 2));
 }
 
+/// The point of a line between two points that is nearest to x.
+Point nearest_on_line(const std::array<Point, 2>& line, const Point& x) {
+  const double dx = line[1][0] - line[0][0], dy = line[1][1] - line[0][1];
+  const double square = dx * dx + dy * dy;
+  const double along = (x[0] - line[0][0]) * dx + (x[1] - line[0][1]) * dy;
+  const double t = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0;
+  return {line[0][0] + t * dx, line[0][1] + t * dy};
+}
+
+double distance(const Point& x, const Point& y) {
+  const double dx = y[0] - x[0], dy = y[1] - x[1];
+  return std::sqrt(dx * dx + dy * dy);
+}
+
+/// On which side of a line a point is: > 0 on its left.
+double side_of(const std::array<Point, 2>& line, const Point& x) {
+  return (line[1][0] - line[0][0]) * (x[1] - line[0][1]) -
+         (line[1][1] - line[0][1]) * (x[0] - line[0][0]);
+}
+
 }  // namespace
+
+std::array<Point, 2> Outline::spine() const {
+  const double half = is_plate ? semi_axes[0] - semi_axes[1] : 0;
+  const double x = half * std::cos(angle), y = half * std::sin(angle);
+  return {Point{centre[0] + x, centre[1] + y}, Point{centre[0] - x, centre[1] - y}};
+}
+
+double Outline::length() const {
+  return 2 * std::numbers::pi * end_radius() + (is_plate ? 4 * (semi_axes[0] - semi_axes[1]) : 0);
+}
+
+SpinePoints nearest_on_spines(const Outline& first, const Outline& second) {
+  const auto one = first.spine(), other = second.spine();
+  SpinePoints nearest;
+  double least = std::numeric_limits<double>::infinity();
+  const auto take = [&](const Point& on_first, const Point& on_second) {
+    if (const double apart = distance(on_first, on_second); apart < least) {
+      least = apart;
+      nearest.first = on_first;
+      nearest.second = on_second;
+    }
+  };
+  for (const auto& end : one) take(end, nearest_on_line(other, end));
+  for (const auto& end : other) take(nearest_on_line(one, end), end);
+  nearest.cross = side_of(one, other[0]) * side_of(one, other[1]) < 0 &&
+                  side_of(other, one[0]) * side_of(other, one[1]) < 0;
+  return nearest;
+}
 
 Point Outline::at(double t) const {
   if (is_circle()) return {centre[0] + radius * std::cos(t), centre[1] + radius * std::sin(t)};
+  if (is_plate) {
+    constexpr double kPi = std::numbers::pi;
+    const double half = semi_axes[0] - semi_axes[1], b = semi_axes[1], arc = kPi * b;
+    // Distance along the outline from the beginning of the arc at the end along `angle`.
+    double s = (t / (2 * kPi) - std::floor(t / (2 * kPi))) * length() + arc / 2;
+    if (s >= length()) s -= length();
+    // The other half of the outline is the same, turned by pi.
+    const double turn = s >= length() / 2 ? kPi : 0;
+    if (turn > 0) s -= length() / 2;
+    const double phi = std::min(s, arc) / b - kPi / 2;
+    const double x = half + b * std::cos(phi) - std::max(0.0, s - arc), y = b * std::sin(phi);
+    const double c = std::cos(angle + turn), sine = std::sin(angle + turn);
+    return {centre[0] + c * x - sine * y, centre[1] + sine * x + c * y};
+  }
   const double x = semi_axes[0] * std::cos(t), y = semi_axes[1] * std::sin(t);
   const double c = std::cos(angle), s = std::sin(angle);
   return {centre[0] + c * x - s * y, centre[1] + s * x + c * y};
@@ -82,11 +144,13 @@ Point Outline::at(double t) const {
 
 double Outline::speed_at(double t) const {
   if (is_circle()) return radius;
+  if (is_plate) return length() / (2 * std::numbers::pi);
   return std::hypot(semi_axes[0] * std::sin(t), semi_axes[1] * std::cos(t));
 }
 
 double Outline::curvature_radius_at(double t) const {
   if (is_circle()) return radius;
+  if (is_plate) return semi_axes[1];  // the smallest one
   const double speed = speed_at(t);
   return speed * (speed / semi_axes[0]) * (speed / semi_axes[1]);
 }
@@ -95,6 +159,8 @@ double distance_to(const Outline& outline, const Point& x) {
   const double dx = x[0] - outline.centre[0], dy = x[1] - outline.centre[1];
   // Not hypot, which takes ten times as long and matters for lengths beyond 1e150 only.
   if (outline.is_circle()) return std::sqrt(dx * dx + dy * dy) - outline.radius;
+  if (outline.is_plate)
+    return distance(nearest_on_line(outline.spine(), x), x) - outline.end_radius();
   const double c = std::cos(outline.angle), s = std::sin(outline.angle);
   const double along = std::abs(c * dx + s * dy), across = std::abs(c * dy - s * dx);
   const auto [a, b] = outline.semi_axes;
@@ -105,12 +171,25 @@ double distance_to(const Outline& outline, const Point& x) {
 double gap(const Outline& first, const Outline& second) {
   if (first.is_circle()) return distance_to(second, first.centre) - first.radius;
   if (second.is_circle()) return distance_to(first, second.centre) - second.radius;
+  if (first.is_plate && second.is_plate) {
+    const auto nearest = nearest_on_spines(first, second);
+    const double apart = nearest.cross ? 0 : distance(nearest.first, nearest.second);
+    return apart - first.end_radius() - second.end_radius();
+  }
+  if (first.is_plate) return gap(second, first);
   return least_on(first, [&](const Point& x) { return distance_to(second, x); });
 }
 
 double gap(const PlanePosition& obstacle, const Outline& outline) {
   if (outline.is_circle())
     return gap(obstacle, Vector{outline.centre[0], outline.centre[1], 0}, outline.radius);
+  if (outline.is_plate) {
+    const auto of_end = [&](const Point& x) {
+      return gap(obstacle, Vector{x[0], x[1], 0}, outline.end_radius());
+    };
+    const auto ends = outline.spine();
+    return std::min(of_end(ends[0]), of_end(ends[1]));
+  }
   return least_on(outline, [&](const Point& x) { return gap(obstacle, Vector{x[0], x[1], 0}, 0); });
 }
 
@@ -119,9 +198,10 @@ Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<con
   const Vector x = particles.position(k) + shift;
   Outline outline{particles.dimension == 1 ? Point{0, x[0]} : Point{x[0], x[1]},
                   particles.radii[k]};
-  if (fluid.is_ellipse(k)) {
+  if (fluid.is_ellipse(k) || fluid.is_plate(k)) {
     outline.semi_axes = fluid.semi_axes[k];
     outline.angle = angles[k];
+    outline.is_plate = fluid.is_plate(k);
   }
   return outline;
 }

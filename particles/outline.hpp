@@ -1,4 +1,4 @@
-// The outline of a particle in the plane: a circle or an ellipse. Lengths are in the unit of the
+// The outline of a particle in the plane: a circle, an ellipse, or a plate with round ends. Lengths are in the unit of the
 // case, angles in radians, counter-clockwise. Checks of a case, the fluid and its meshes use it.
 // Nothing is checked or thrown. A change must keep a circle exact.
 #pragma once
@@ -13,25 +13,43 @@
 
 namespace viscontact::particles {
 
-/// A circle, or an ellipse whose first semi-axis points along `angle`.
+/// A circle, an ellipse whose first semi-axis points along `angle`, or a plate with round ends: all
+/// points at the distance semi_axes[1] from its spine, a line of the length 2 (semi_axes[0] -
+/// semi_axes[1]) through the centre along `angle`. The spine of a circle is its centre.
 struct Outline {
   std::array<double, 2> centre{};  ///< [L]
   /// Of the circle, or the larger semi-axis of the ellipse: that of the circle around it [L], > 0.
   double radius = 0;
   std::array<double, 2> semi_axes{};  ///< of an ellipse [L], > 0; equal to each other: a circle
-  double angle = 0;                   ///< of the first semi-axis of an ellipse with the x axis
+  double angle = 0;       ///< of the first semi-axis of an ellipse or plate with the x axis
+  bool is_plate = false;  ///< whether it is a plate; then semi_axes[0] > semi_axes[1]
 
   /// True if it is a circle of the radius `radius`.
   bool is_circle() const { return semi_axes[0] == semi_axes[1]; }
   /// The point centre + a cos(t) e_1 + b sin(t) e_2, with the directions e_1, e_2 of the semi-axes
-  /// a, b [L]. On a circle t is the angle from the x axis.
+  /// a, b [L]. On a circle t is the angle from the x axis. On a plate t goes evenly along the
+  /// outline, from the point at the end along `angle`.
   std::array<double, 2> at(double t) const;
   /// Length of the derivative of at() [L].
   double speed_at(double t) const;
   /// Radius of the circle that touches the outline best at at(t) [L]: (a^2 sin^2 t + b^2 cos^2
   /// t)^(3/2)/(a b).
   double curvature_radius_at(double t) const;
+  /// The radius of a circle, or that of the round ends of a plate [L].
+  double end_radius() const { return is_plate ? semi_axes[1] : radius; }
+  /// The ends of the spine of a plate, the first one along `angle`; of a circle both are its centre.
+  std::array<std::array<double, 2>, 2> spine() const;
+  /// Length of the outline [L] of a circle or plate.
+  double length() const;
 };
+
+/// The points of the spines of two outlines, circles or plates, that are nearest to each other.
+struct SpinePoints {
+  std::array<double, 2> first{}, second{};  ///< [L]
+  bool cross = false;                       ///< whether the spines cross each other
+};
+/// Of several such pairs it is the first one in the order of the ends.
+SpinePoints nearest_on_spines(const Outline& first, const Outline& second);
 
 /// Distance of a point from the outline [L]; < 0 inside.
 double distance_to(const Outline& outline, const std::array<double, 2>& x);

@@ -88,6 +88,23 @@ inline double homogeneous_inertia_of_ellipse(double mass, const std::array<doubl
   return mass / 4 * (semi_axes[0] * semi_axes[0] + semi_axes[1] * semi_axes[1]);
 }
 
+/// Area of a plate with round ends of the radius semi_axes[1], and of the length 2 semi_axes[0]
+/// [L^2].
+inline double size_of_plate(const std::array<double, 2>& semi_axes) {
+  const auto [a, b] = semi_axes;
+  return size_of_particle(2, b) + 4 * (a - b) * b;
+}
+
+/// Moment of inertia of a homogeneous plate about its centre [M L^2]: that of the rectangle of the
+/// half sides l = a - b and b, and of the two half discs, whose centroids are 4 b/(3 pi) beyond it.
+inline double homogeneous_inertia_of_plate(double mass, const std::array<double, 2>& semi_axes) {
+  const auto [a, b] = semi_axes;
+  const double l = a - b, discs = size_of_particle(2, b), rectangle = 4 * l * b;
+  const double of_rectangle = (l * l + b * b) / 3;
+  const double of_discs = b * b / 2 + l * l + 2 * l * (4 * b * b * b / 3) / discs;
+  return mass / (discs + rectangle) * (rectangle * of_rectangle + discs * of_discs);
+}
+
 /// Makes all particles turn: extends each array of the rotation to all particles. The new entries
 /// are those of particles that do not turn yet, in the orientation of the start, with the moment of
 /// inertia of a homogeneous disc or sphere. The dimension is 2 or 3.

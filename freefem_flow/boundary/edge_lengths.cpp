@@ -63,8 +63,8 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
   double smallest = kFar;
   for (std::size_t k = 0; k < p.count(); ++k) {
     outlines_.push_back(particles::outline_of(fluid, p, bodies.angles, k));
-    smallest =
-        std::min(smallest, fluid.is_ellipse(k) ? std::ranges::min(fluid.semi_axes[k]) : p.radii[k]);
+    smallest = std::min(smallest, fluid.is_ellipse(k) ? std::ranges::min(fluid.semi_axes[k])
+                                                      : fluid.end_radius(k, p.radii[k]));
   }
   constexpr double kEdgesOfAWall = 6;  // at least, so that the flow in an empty domain is resolved
   cap_ = coarsening * size_of(domain) / kEdgesOfAWall;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "viscontact/particles/domain/domain.hpp"
@@ -135,6 +136,23 @@ std::vector<Point> cut_line(const Point& from, const Point& to, const EdgeLength
 template <class EdgeLength>
 std::vector<Point> cut_outline(const particles::Outline& outline, std::size_t least,
                                const EdgeLength& edge_length) {
+  if (outline.is_plate) {
+    // Each arc and each side is cut by itself, so that its ends are points of the mesh.
+    const double length = outline.length(), per = 2 * std::numbers::pi / length;
+    const double arc = std::numbers::pi * outline.end_radius(), side = length / 2 - arc;
+    std::vector<Point> points;
+    for (const auto& [from, of_part] : {std::pair{-arc / 2, arc},
+                                        {arc / 2, side},
+                                        {arc / 2 + side, arc},
+                                        {3 * arc / 2 + side, side}}) {
+      const auto at = [&](double s) { return per * (from + s); };
+      for (const double s :
+           cut_curve(of_part, least / 4, [&](double t) { return edge_length(at(t)); }))
+        if (s < of_part) points.push_back(outline.at(at(s)));
+    }
+    points.push_back(points.front());
+    return points;
+  }
   // The outline is cut along s = radius t, which is the length of the curve on a circle.
   const double r = outline.radius;
   const auto along_s = [&](double s) {

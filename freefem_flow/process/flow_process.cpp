@@ -109,6 +109,15 @@ void FlowProcess::start() {
   const std::string wants = solver_->word();
   if (wants != "boundary" && wants != "places") solver_->refuse("'boundary' or 'places'");
   wants_boundary_ = wants == "boundary";
+  if (fluid_.probes.empty()) return;
+  std::string probes = fmt::format("probes {}\n", fluid_.probes.size());
+  for (const auto& probe : fluid_.probes) {
+    append(probes, probe.from, "a place");
+    append(probes, probe.to, "a place");
+    probes += '\n';
+  }
+  solver_->ask("probes", probes);
+  solver_->expect("probing");
 }
 
 FlowProcess::~FlowProcess() = default;
@@ -128,6 +137,7 @@ void FlowProcess::place(const FluidParticles& bodies) {
     assert(step.masses.size() == components_);
     placement_ += fmt::format("step {}", step.order);
     append(placement_, std::array{step.length, step.before}, "a time step");
+    append(placement_, fluid_.pressure_gradient_at(step.time), "a pressure gradient");
     placement_ += '\n' + walls_at(fluid_, domain_, step) + "masses";
     append(placement_, step.masses, "a mass");
     placement_ += '\n';
@@ -176,6 +186,10 @@ particles::FlowQuantities FlowProcess::quantities() {
   if (fluid_.has_inertia()) {
     quantities.kinetic_energy = solver_->number();
     quantities.courant_number = solver_->number();
+  }
+  for (std::size_t k = 0; k < fluid_.probes.size(); ++k) {
+    const double flow = solver_->number();
+    quantities.probes.push_back({flow, solver_->number()});
   }
   return quantities;
 }

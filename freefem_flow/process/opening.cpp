@@ -127,16 +127,22 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   // The gradient of a domain with walls is in their velocities.
   const bool mean_gradient = flow != nullptr && labels.empty();
   text += "gradient" + words_of(mean_gradient ? flow->gradient : std::array<double, 4>{}) + '\n';
-  text += fmt::format("{} {}\n", fluid.semi_axes.empty() ? "particles" : "ellipses", radii.size());
+  const char* const shapes = fluid.semi_axes.empty() ? "particles"
+                             : fluid.plates.empty()  ? "ellipses"
+                                                     : "outlines";
+  text += fmt::format("{} {}\n", shapes, radii.size());
   if (fluid.semi_axes.empty())
     for (const double radius : radii) text += format_number(radius) + '\n';
-  for (const auto& axes : fluid.semi_axes) text += words_of(axes) + '\n';
+  for (std::size_t k = 0; k < fluid.semi_axes.size(); ++k) {
+    text += words_of(fluid.semi_axes[k]);
+    if (!fluid.plates.empty()) text += fluid.is_plate(k) ? " plate" : " ellipse";
+    text += '\n';
+  }
   if (fluid.has_inertia())
     text +=
-        fmt::format("density {}\nadvection {}\ngradient{}\n", format_number(fluid.density),
+        fmt::format("density {}\nadvection {}\n", format_number(fluid.density),
                     fluid.advection == particles::Advection::kCharacteristics ? "characteristics"
-                                                                              : "semi_implicit",
-                    words_of(fluid.pressure_gradient));
+                                                                              : "semi_implicit");
   return text;
 }
 

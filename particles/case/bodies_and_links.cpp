@@ -12,6 +12,7 @@
 #include "viscontact/particles/case/particles_sections.hpp"
 #include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/links/arm_length.hpp"
+#include "viscontact/particles/outline.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -145,7 +146,11 @@ Hinge read_hinge(const case_file::TomlSection& section, const ParticlesCase& c,
   case_file::read_keys(section, hinge_keys, table, c, ids);
   const bool is_body = table.body >= 0;
   const auto holder = std::ranges::find_if(table.held, [&](std::int32_t k) {
-    return norm(table.at - p.position(index_of(k))) <= p.radii[index_of(k)];
+    const auto& at = table.at;
+    if (c.setting.fluid && c.setting.fluid->is_plate(index_of(k)))
+      return distance_to(outline_of(*c.setting.fluid, p, p.angles, index_of(k)), {at[0], at[1]}) <=
+             0;
+    return norm(at - p.position(index_of(k))) <= p.radii[index_of(k)];
   });
   section.require(holder != table.held.end(), "at",
                   "is {}, which is outside {}; it must be inside {}", section.shown("at"),

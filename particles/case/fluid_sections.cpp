@@ -268,11 +268,25 @@ void read_velocity(const case_file::TomlSection& fluid, std::string_view key, co
   result.boundary = flow;
 }
 
+void gradient_keys(case_file::Keys& keys, Fluid& fluid) {
+  Vector value{};
+  keys.required("value", vector(value, 2), {"the mean of the pressure gradient"});
+  fluid.pressure_gradient = {value[0], value[1]};
+  keys.required("period", case_file::number(fluid.gradient_period, kModeratelyPositive),
+                {"the gradient is `value` times 1 + `amplitude` sin(2 pi t/`period`)"});
+  keys.required("amplitude", case_file::number(fluid.gradient_amplitude, kModerate),
+                {"see `period`"});
+}
+
 void read_pressure_gradient(const case_file::TomlSection& section, std::string_view key,
-                            std::array<double, 2>& gradient) {
+                            Fluid& fluid) {
+  if (section.is_table(key)) {
+    case_file::read_keys(section.section(key), gradient_keys, fluid);
+    return;
+  }
   Vector vector;
   read_vector(section, key, vector, 2);
-  gradient = {vector[0], vector[1]};
+  fluid.pressure_gradient = {vector[0], vector[1]};
 }
 
 /// The keys of a fluid with inertia.
@@ -290,12 +304,13 @@ void inertia_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
       case_file::one_of(fluid.start, {{"rest", FlowStart::kRest}, {"stokes", FlowStart::kStokes}}),
       {"the flow at time 0: at rest, or the Stokes flow around particles that move "
        "without inertia, and therefore must have no `velocity`"});
-  const bool has_gradient = keys.optional(
-      "pressure_gradient",
-      case_file::custom("`[NUMBER, NUMBER]`", read_pressure_gradient, fluid.pressure_gradient),
-      {"uniform pressure gradient that is added, in a box. It drives the fluid in a "
-       "periodic box, and acts on the particles, too",
-       "0"});
+  const bool has_gradient =
+      keys.optional("pressure_gradient",
+                    case_file::custom("`[NUMBER, NUMBER]`, or `{ value, period, amplitude }`",
+                                      read_pressure_gradient, fluid),
+                    {"uniform pressure gradient that is added, in a box. It drives the fluid in a "
+                     "periodic box, and acts on the particles, too. With a period it pulsates",
+                     "0"});
   for (const auto* key : {"advection", "start", "pressure_gradient"})
     keys.require(fluid.density > 0 || !keys.has(key), key,
                  "has no effect on Stokes flow; fluid.density must be > 0");
@@ -386,6 +401,74 @@ Fluid read_fluid(const case_file::TomlSection& section, const Domain& domain) {
   return fluid;
 }
 
+namespace {
+
+void probe_keys(case_file::Keys& keys, Probe& probe, const Domain& domain) {
+  keys.required("name", case_file::text(probe.name),
+                {"in `probes.csv`: letters, digits, `_` and `-`; no two are equal"});
+  keys.require(std::ranges::all_of(probe.name,
+                                   [](char c) {
+                                     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                                            (c >= '0' && c <= '9') || c == '_' || c == '-';
+                                   }) &&
+                   (!keys.reads() || !probe.name.empty()),
+               "name", "is '{}'; it must consist of letters, digits, _ and -", probe.name);
+  Vector from{}, to{};
+  keys.required("from", vector(from, 2), {"a point on a wall of the box"});
+  keys.required("to", vector(to, 2),
+                {"a point on another wall. A flow to the right of the way from `from` to `to` is "
+                 "positive"});
+  probe.from = {from[0], from[1]};
+  probe.to = {to[0], to[1]};
+  if (!keys.reads()) return;
+  const auto* box = std::get_if<BoxDomain>(&domain);
+  // Which of the sides, that are no periods, a point is on; -1: none.
+  const auto side_of = [&](const std::array<double, 2>& x) {
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double length = box->to[d] - box->from[d], other = box->to[1 - d] - box->from[1 - d];
+      constexpr double kRounding = 1e-9;
+      const bool is_beside = x[1 - d] < box->from[1 - d] - kRounding * other ||
+                             x[1 - d] > box->to[1 - d] + kRounding * other;
+      if (box->periodic[d] || is_beside) continue;
+      if (std::abs(x[d] - box->from[d]) <= kRounding * length) return static_cast<int>(2 * d);
+      if (std::abs(x[d] - box->to[d]) <= kRounding * length) return static_cast<int>(2 * d + 1);
+    }
+    return -1;
+  };
+  const auto first = side_of(probe.from), second = side_of(probe.to);
+  keys.require(first >= 0, "from", "is ({}, {}), which is on no wall of the box; it must be on one",
+               from[0], from[1]);
+  keys.require(second >= 0, "to", "is ({}, {}), which is on no wall of the box; it must be on one",
+               to[0], to[1]);
+  keys.require(first != second, "to",
+               "is on the same wall as from; the line must go across the channel, from one wall to "
+               "another");
+}
+
+}  // namespace
+
+void read_probes(const case_file::TomlSection& root, const Domain& domain,
+                 std::optional<Fluid>& fluid) {
+  if (!root.has("probe")) return;
+  for (const auto& section : root.sections("probe")) {
+    section.require(fluid.has_value(), "name",
+                    "belongs to a case with a fluid; the case has no section [fluid]");
+    section.require(std::holds_alternative<BoxDomain>(domain), "name",
+                    "belongs to a channel; the domain must be a box");
+    section.require(fluid->solver.empty(), "name",
+                    "needs FreeFEM; fluid.solver must be left out in a case with probes");
+    section.require(!root.has("membrane"), "name",
+                    "must be left out, because the case has membranes, beside which nothing is "
+                    "probed");
+    Probe probe;
+    case_file::read_keys(section, probe_keys, probe, domain);
+    for (const auto& other : fluid->probes)
+      section.require(other.name != probe.name, "name", "is '{}', the name of another probe",
+                      probe.name);
+    fluid->probes.push_back(std::move(probe));
+  }
+}
+
 std::vector<case_file::KeyTable> domain_and_fluid_tables() {
   return {case_file::describe_keys("[domain]", domain_keys),
           case_file::describe_keys("domain.disc", disc_keys),
@@ -393,7 +476,9 @@ std::vector<case_file::KeyTable> domain_and_fluid_tables() {
           case_file::describe_keys("domain.cylinder", cylinder_keys),
           case_file::describe_keys("[fluid] of particles", fluid_keys, {}),
           case_file::describe_keys("fluid.velocity", velocity_keys),
-          case_file::describe_keys("fluid.velocity, a table of a side", side_keys)};
+          case_file::describe_keys("fluid.velocity, a table of a side", side_keys),
+          case_file::describe_keys("fluid.pressure_gradient", gradient_keys),
+          case_file::describe_keys("[[probe]]", probe_keys, Domain{})};
 }
 
 std::vector<std::string> with_absolute_files(std::vector<std::string> command,

@@ -38,6 +38,11 @@ void check_keys(const case_file::TomlSection& section, int dimension, bool in_fl
       "belongs to an ellipse in a fluid in the plane; this particle must have a radius");
   section.require(!section.has("semi_axes") || !section.has("radius"), "radius",
                   "must be left out, because semi_axes makes this particle an ellipse");
+  section.require(
+      !section.has("length") || (in_fluid && dimension == 2), "length",
+      "belongs to a plate with round ends in a fluid in the plane; this particle has none");
+  section.require(!section.has("length") || !section.has("semi_axes"), "length",
+                  "must be left out, because semi_axes makes this particle an ellipse");
   for (const auto* key : {"fixed", "velocity_given"})
     section.require(in_fluid || !section.has(key), key,
                     "belongs to a particle in a fluid; the case has no section [fluid]");
@@ -62,14 +67,17 @@ struct ParticleTable {
   Vector centre{}, velocity{}, angular_velocity{};
   double radius = 0, mass = 0, angle = 0;
   std::optional<double> moment_of_inertia;
-  std::array<double, 2> semi_axes{};  // of an ellipse; zeros: a disc or sphere
-  /// Area of the disc or ellipse, volume of the sphere [L^2, L^3].
+  std::array<double, 2> semi_axes{};  // of an ellipse or plate; zeros: a disc or sphere
+  std::optional<double> length;       // of a plate
+  /// Area of the disc, ellipse or plate, volume of the sphere [L^2, L^3].
   double size(int dimension) const {
+    if (length) return size_of_plate(semi_axes);
     return semi_axes[0] > 0 ? size_of_ellipse(semi_axes) : size_of_particle(dimension, radius);
   }
-  /// Of a disc or ellipse about its centre, homogeneous if the moment is not given [M L^2].
+  /// About its centre, homogeneous if the moment is not given [M L^2].
   double inertia_in_plane() const {
     if (moment_of_inertia) return *moment_of_inertia;
+    if (length) return homogeneous_inertia_of_plate(mass, semi_axes);
     return semi_axes[0] > 0 ? homogeneous_inertia_of_ellipse(mass, semi_axes)
                             : homogeneous_inertia(2, mass, radius);
   }
@@ -155,8 +163,24 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
        "first semi-axis points along `angle`",
        "from `radius`"});
   if (is_ellipse) p.radius = std::ranges::max(p.semi_axes);
-  keys.required_if(!is_ellipse, "radius", case_file::number(p.radius, kModeratelyPositive),
-                   {"radius of the disc or sphere", "required without `semi_axes`"});
+  keys.required_if(
+      !is_ellipse, "radius", case_file::number(p.radius, kModeratelyPositive),
+      {"radius of the disc or sphere, or of the ends of a plate", "required without `semi_axes`"});
+  keys.optional(
+      "length", case_file::number(p.length, kModeratelyPositive),
+      {"[in a fluid](#particles-in-a-fluid) in the plane: the particle is a plate of this "
+       "length along `angle`, with round ends of the `radius`",
+       "none"});
+  if (p.length) {
+    // Meshes were tested up to the first ratio. A shorter plate is nearly a disc.
+    constexpr double kMostSlender = 100, kLeast = 1.01;
+    const double ratio = *p.length / (2 * p.radius);
+    keys.require(ratio >= kLeast && ratio <= kMostSlender, "length",
+                 "is {}; it must be from {} to {} times the thickness of the plate, {}", *p.length,
+                 kLeast, kMostSlender, 2 * p.radius);
+    p.semi_axes = {*p.length / 2, p.radius};
+    p.radius = *p.length / 2;
+  }
   read_mass(keys, p, dimension, in_fluid);
   keys.optional("angle", case_file::number(p.angle, kModerate), {"at time 0, in 2D only"});
   keys.optional("moment_of_inertia",
@@ -218,6 +242,11 @@ void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
     auto& axes = c.setting.fluid->semi_axes;
     add_discs(axes, p, p.count() - 1);
     axes.push_back(table.semi_axes);
+  }
+  if (table.length) {
+    auto& plates = c.setting.fluid->plates;
+    plates.resize(p.count());
+    plates.back() = 1;
   }
   if (in_fluid && p.dimension == 2) {
     p.angles.push_back(table.angle);
@@ -366,6 +395,8 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
   read_membranes(root, c, lines);
   if (c.setting.fluid && !c.setting.fluid->semi_axes.empty())
     add_discs(c.setting.fluid->semi_axes, c.particles, c.particles.count());
+  if (c.setting.fluid && !c.setting.fluid->plates.empty())
+    c.setting.fluid->plates.resize(c.particles.count());
   if (!c.setting.fluid && (c.setting.laws.friction || c.particles.turn()))
     add_rotation(c.particles);
   if (c.particles.count() == 0 && !c.particles_file.empty())

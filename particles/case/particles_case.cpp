@@ -86,7 +86,7 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
                c.end_time / step, kMostSteps);
   film_keys(keys, film, c.setting.fluid);
   keys.optional("restitution", case_file::number(restitution.coefficient, kShare),
-                {"without hinges and arms, in a fluid also without bodies and springs: the "
+                {"without arms, and without hinges or, in a fluid, without bodies and springs: the "
                  "coefficient e_d of [restitution](physics.md#5-many-particles-particles), (5.15) "
                  "and in a fluid (6.11), of the solids. The case must give `gamma_min`, or "
                  "`viscosity` and `roughness`"});
@@ -246,6 +246,7 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
   auto c = case_file::titled_case<ParticlesCase>(root, std::move(text), path, true);
   case_file::read_keys(root.section("space"), space_keys, c);
   read_domain_and_fluid(root, c);
+  read_probes(root, c.setting.domain, c.setting.fluid);
   case_file::read_keys(root.section("viscous_contact"), contact_keys, c);
   if (root.has("friction")) read_friction(root.section("friction"), c.setting);
   if (root.has("solver"))
@@ -268,10 +269,11 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
   root.section("viscous_contact")
       .require(
           !c.setting.laws.restitution.is_on() || !c.setting.fluid ||
-              (c.particles.bodies.empty() && c.setting.links.empty()),
+              (c.particles.bodies.empty() && c.setting.links.springs.empty() &&
+               c.setting.links.arms.empty()),
           "restitution",
-          "must be left out, because the case has a fluid and also bodies or links; in a fluid "
-          "only single particles may rebound");
+          "must be left out, because the case has a fluid and also bodies, springs or arms; in a "
+          "fluid only single particles, also on hinges, may rebound");
   root.section("viscous_contact")
       .require(!c.setting.laws.restitution.is_on() || !c.setting.fluid ||
                    !c.setting.fluid->has_inertia() ||
@@ -280,7 +282,7 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
                "must be left out, because the fluid has a density and fluid.coupling is "
                "\"splitting\": the momentum of the fluid around a particle would not rebound");
   root.section("viscous_contact")
-      .require(!c.setting.laws.restitution.is_on() ||
+      .require(!c.setting.laws.restitution.is_on() || c.setting.fluid.has_value() ||
                    (c.setting.links.hinges.empty() && c.setting.links.arms.empty()),
                "restitution",
                "must be left out, because the case has hinges or arms, through which a blow would "

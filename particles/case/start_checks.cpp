@@ -227,7 +227,10 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
       const auto k = index_of(body.members[m]);
       for (std::size_t n = 0; n < m; ++n) {
         const auto other = index_of(body.members[n]);
-        const double gap = norm(p.position(k) - p.position(other)) - p.radii[k] - p.radii[other];
+        const auto outline = [&](std::size_t of) {
+          return outline_of(*c.setting.fluid, p, p.angles, of);
+        };
+        const double gap = particles::gap(outline(k), outline(other));
         const double needed = kLeastGapOfMesh * std::min(p.radii[k], p.radii[other]);
         if (gap < needed)
           throw_bad_input(names.at(k),
@@ -282,6 +285,11 @@ void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
                     const ParticleNames& names) {
   const auto& fluid = *c.setting.fluid;
   for (std::size_t k = 0; k < fluid.semi_axes.size(); ++k) {
+    root.section("fluid").require(
+        fluid.solver.empty() || !fluid.is_plate(k), "solver",
+        "is a program of the user's own, which knows discs only; it must be left out, because {} "
+        "is a plate",
+        names(k));
     if (!fluid.is_ellipse(k)) continue;
     if (!c.particles.bodies.empty() || !c.setting.links.empty())
       throw_bad_input(names.at(k), fmt::format("{} is an ellipse; the particles of a case with "

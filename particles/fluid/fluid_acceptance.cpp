@@ -56,7 +56,8 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
       if (contact.w > 0) ++report.contacts;
       if (contact.w > 0 && !is_computed_twice()) {
         pair.impulse = motion.blow ? motion.blow->absorbed[c] : share * contact.impulse;
-        setting_.laws.remember(pair, state_.memories, radii_of(pair, p, obstacles_),
+        setting_.laws.remember(pair, state_.memories,
+                               radii_in_fluid(*setting_.fluid, pair, p, obstacles_),
                                share * motion.impulse_errors[c], h);
       }
       pair.impulse = is_unloaded ? 0 : share * contact.impulse;

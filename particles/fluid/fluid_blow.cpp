@@ -14,6 +14,7 @@ namespace {
 /// an obstacle that moves, or of an image in a sheared cell.
 double drift_of(const Contact<2>& contact, const BlowStep& step, double h) {
   const auto& p = step.state.particles;
+  if (contact.is_stop()) return 0;
   if (contact.first >= 0) {
     if (contact.image == 0) return 0;
     const auto velocity = velocity_of_image(p.cell, contact.image);
@@ -65,14 +66,19 @@ class Blow {
   void move(FluidBlow& blow);
   void book(FluidBlow& blow) const;
 
+  // A stop is a contact without film; no list has a pair of it.
   const Pair& pair(std::size_t c) const {
+    static const Pair kOfStop{};
     const auto n = ordinary_.pairs.size();
+    if (ordinary_.contacts[c].is_stop()) return kOfStop;
     return c < n ? ordinary_.pairs[c] : ordinary_.walls[c - n];
   }
   double lowest_gamma(std::size_t c) const {
+    if (ordinary_.contacts[c].is_stop()) return 0;
     const auto& of = pair(c);
-    return laws_.lowest_gamma(of, step_.state.memories.of(of.memory),
-                              radii_of(of, step_.state.particles, step_.obstacles));
+    return laws_.lowest_gamma(
+        of, step_.state.memories.of(of.memory),
+        radii_in_fluid(*step_.setting.fluid, of, step_.state.particles, step_.obstacles));
   }
   /// Rate of the gap of contact `c` for velocities of all particles [L/T].
   double rate(std::size_t c, std::span<const double> velocities) const {
@@ -202,7 +208,8 @@ bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
     part.solid = RestitutionLaw::solid_impulse(part.compressed - part.load, by_load - lowest);
     part.left = std::clamp(gamma - part.compressed, lowest, 0.0);
     // Contacts that the blow closes in the rest of the step are not closed yet.
-    const bool gives_back = laws_.restitution.coefficient * part.solid > std::max(part.load, 0.0);
+    const bool gives_back = !compressed[c].is_stop() &&
+                            laws_.restitution.coefficient * part.solid > std::max(part.load, 0.0);
     if (gives_back && (part.is_hit || part.is_closed))
       any = true;
     else

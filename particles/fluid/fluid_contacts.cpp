@@ -9,6 +9,7 @@
 
 #include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
+#include "viscontact/particles/outline.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -35,8 +36,8 @@ void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
 
 /// Lists all pairs with a gap below `reach` [L] and those that are glued, with their memory. The
 /// side of a cylinder, whose normal has no component along the axis, is left out.
-void list_pairs(StepContacts& step, const State& state, std::span<const PlanePosition> obstacles,
-                double reach, ThreadPool& pool) {
+void list_pairs(StepContacts& step, const State& state, const Fluid& fluid,
+                std::span<const PlanePosition> obstacles, double reach, ThreadPool& pool) {
   // Only the nearest images have a number, so that the search must stay below half a period.
   constexpr double kShareOfPeriod = 0.499;
   const auto& p = state.particles;
@@ -56,19 +57,72 @@ void list_pairs(StepContacts& step, const State& state, std::span<const PlanePos
   }
   for (std::size_t w = 0; w < obstacles.size(); ++w) {
     if (p.dimension == 1 && obstacles[w].normal[0] == 0) continue;
-    for (std::size_t k = 0; k < p.count(); ++k)
-      if (gap(obstacles[w], p.position(k), p.radii[k]) < reach)
-        step.walls.push_back({-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k)});
+    for (std::size_t k = 0; k < p.count(); ++k) {
+      if (!(gap(obstacles[w], p.position(k), p.radii[k]) < reach)) continue;
+      Pair pair{-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k)};
+      step.walls.push_back(pair);
+      pair.image = 1;  // the other end of a plate
+      if (fluid.is_plate(k)) step.walls.push_back(pair);
+    }
   }
   keep_memory(step.pairs, state.pairs);
   keep_memory(step.walls, state.walls);
 }
 
+/// True if a particle of the pair is a plate.
+bool has_plate(const Fluid& fluid, std::int32_t first, std::int32_t second) {
+  return fluid.is_plate(index_of(second)) || (first >= 0 && fluid.is_plate(index_of(first)));
+}
+
+double cross(const std::array<double, 2>& arm, const std::array<double, 2>& force) {
+  return arm[0] * force[1] - arm[1] * force[0];
+}
+
+/// Contact of a pair of which one is a plate, the other a plate, a disc or an obstacle: that of the
+/// discs about the nearest points of their spines. At an obstacle each end of the plate has a contact
+/// of its own, with the number Pair::image.
+Contact<2> contact_of_plates(const Fluid& fluid, const Particles& p, const Pair& pair,
+                             std::span<const PlanePosition> obstacles) {
+  const auto j = index_of(pair.second);
+  Contact<2> contact{std::max(pair.first, -1), pair.second, {}, 0, pair.gamma, pair.impulse};
+  const auto second =
+      outline_of(fluid, p, p.angles, j, pair.first < 0 ? Vector{} : shift_of(p.cell, pair.image));
+  if (pair.first < 0) {
+    const auto& place = obstacles[pair.plane()];
+    const auto ends = second.spine();
+    const auto& end = ends[index_of(pair.image)];
+    const Vector normal = normal_at(place, {end[0], end[1], 0});
+    contact.normal = {normal[0], normal[1]};
+    contact.gap = gap(place, Vector{end[0], end[1], 0}, second.end_radius());
+    contact.obstacle = -1 - pair.first;
+    contact.levers[1] =
+        cross({end[0] - second.centre[0], end[1] - second.centre[1]}, contact.normal);
+    return contact;
+  }
+  contact.image = pair.image;
+  const auto first = outline_of(fluid, p, p.angles, index_of(pair.first));
+  const auto near = nearest_on_spines(first, second);
+  contact.normal = {near.second[0] - near.first[0], near.second[1] - near.first[1]};
+  const double distance = std::hypot(contact.normal[0], contact.normal[1]);
+  if (distance > 0)
+    for (auto& x : contact.normal) x /= distance;
+  else
+    contact.normal = {1, 0};
+  contact.gap = (near.cross ? 0 : distance) - first.end_radius() - second.end_radius();
+  const auto lever = [&](const std::array<double, 2>& at, const Outline& of) {
+    return cross({at[0] - of.centre[0], at[1] - of.centre[1]}, contact.normal);
+  };
+  contact.levers = {-lever(near.first, first), lever(near.second, second)};
+  return contact;
+}
+
 /// contact_of() a pair. On an axis the normal has one component. A round wall is taken as its
 /// tangent where the particle is after it moved with the velocities without contact.
-Contact<2> contact_in_fluid(const Particles& p, const Pair& pair,
+Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& pair,
                             std::span<const PlanePosition> obstacles,
                             const ContactConditions& conditions) {
+  if (has_plate(fluid, pair.first, pair.second))
+    return contact_of_plates(fluid, p, pair, obstacles);
   if (p.dimension == 1) {
     const auto on_axis = contact_of<1>(p, pair, obstacles);
     Contact<2> contact{on_axis.first, on_axis.second, {on_axis.normal[0], 0}};
@@ -87,19 +141,19 @@ Contact<2> contact_in_fluid(const Particles& p, const Pair& pair,
 }
 
 /// Makes the contacts of the listed pairs.
-void make_contacts(StepContacts& step, const Particles& p, double threshold,
+void make_contacts(StepContacts& step, const Particles& p, const Fluid& fluid,
                    std::span<const PlanePosition> obstacles, const ContactConditions& conditions) {
   for (const auto* list : {&step.pairs, &step.walls})
     for (const auto& pair : *list) {
-      auto contact = contact_in_fluid(p, pair, obstacles, conditions);
-      contact.gap -= threshold;
+      auto contact = contact_in_fluid(fluid, p, pair, obstacles, conditions);
+      contact.gap -= fluid.threshold_gap;
       contact.lowest /= conditions.share_of_impulse;
       contact.impulse /= conditions.share_of_impulse;
       // A threshold gap that is crossed by less than the tolerance counts as reached.
       if (std::abs(contact.gap) <= conditions.solver.tolerance * conditions.mean_radius / 2)
         contact.gap = 0;
       // A mean flow moves an image of a particle relative to the particle.
-      if (pair.image != 0) {
+      if (pair.first >= 0 && pair.image != 0) {
         const auto velocity = velocity_of_image(p.cell, pair.image);
         contact.gap +=
             conditions.h * (contact.normal[0] * velocity[0] + contact.normal[1] * velocity[1]);
@@ -108,7 +162,53 @@ void make_contacts(StepContacts& step, const Particles& p, double threshold,
     }
 }
 
+/// Where particles are after they moved and turned with velocities for a time h [T].
+Particles moved(const Particles& p, std::span<const double> velocities, double h,
+                const MotionLayout& layout) {
+  auto result = p;
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    const auto at = layout.at(static_cast<std::int32_t>(k), 0);
+    for (std::size_t d = 0; d < 2; ++d) result.positions[2 * k + d] += h * velocities[at + d];
+    result.angles[k] += h * velocities[at + 2];
+  }
+  return result;
+}
+
+/// Adds to the gaps of contacts of plates the difference between the gap after the step and the
+/// linearised one. Returns false, and changes nothing, if no difference matters.
+bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
+                   std::span<const PlanePosition> obstacles, const ContactConditions& conditions) {
+  const double h = conditions.h;
+  const auto after = moved(p, step.velocities, h, conditions.layout);
+  std::vector<double> changes(step.contacts.size());
+  double largest = 0;
+  for (std::size_t c = 0; c < step.pairs.size() + step.walls.size(); ++c) {
+    const auto& contact = step.contacts[c];
+    const auto n = step.pairs.size();
+    const auto& pair = c < n ? step.pairs[c] : step.walls[c - n];
+    if (!has_plate(fluid, pair.first, pair.second)) continue;
+    // A gap within the tolerance counts as closed at the beginning, and so it does at the end.
+    double gap = contact_of_plates(fluid, after, pair, obstacles).gap - fluid.threshold_gap;
+    const double before = contact_of_plates(fluid, p, pair, obstacles).gap - fluid.threshold_gap;
+    if (std::abs(before) <= conditions.solver.tolerance * conditions.mean_radius / 2) gap -= before;
+    changes[c] = gap - gap_after(contact, step.velocities.data(), h, conditions.layout);
+    if (gap < 0 || contact.impulse != 0 || contact.lowest < 0)
+      largest = std::max(largest, std::abs(changes[c]));
+  }
+  if (largest <= conditions.solver.tolerance * conditions.mean_radius / 4) return false;
+  for (std::size_t c = 0; c < changes.size(); ++c) step.contacts[c].gap += changes[c];
+  return true;
+}
+
 }  // namespace
+
+PairRadii radii_in_fluid(const Fluid& fluid, const Pair& pair, const Particles& particles,
+                         std::span<const Plane> obstacles) {
+  auto radii = radii_of(pair, particles, obstacles);
+  radii.second = fluid.end_radius(index_of(pair.second), radii.second);
+  if (pair.first >= 0) radii.first = fluid.end_radius(index_of(pair.first), radii.first);
+  return radii;
+}
 
 std::vector<Contact<2>> contacts_of_stops(const Links& links, const Particles& particles) {
   std::vector<Contact<2>> contacts;
@@ -161,15 +261,20 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
   step.iterations += problem.iterations();
 }
 
-double reach_of(const State& state, double threshold, std::span<const double> velocities,
+double reach_of(const State& state, const Fluid& fluid, std::span<const double> velocities,
                 const ContactConditions& conditions) {
   const auto& cell = state.particles.cell;
   const double of_images =
       norm(velocity_of_image(cell, Periods{1, 0})) + norm(velocity_of_image(cell, Periods{0, 1}));
-  return threshold + conditions.h * (2 * fastest(velocities, conditions.layout) + of_images);
+  double of_turns = 0;  // of the ends of plates [L/T]
+  for (std::size_t k = 0; k < fluid.plates.size(); ++k)
+    if (fluid.is_plate(k))
+      of_turns = std::max(of_turns, state.particles.radii[k] * std::abs(velocities[3 * k + 2]));
+  return fluid.threshold_gap +
+         conditions.h * (2 * (fastest(velocities, conditions.layout) + of_turns) + of_images);
 }
 
-StepContacts solve_contacts(const State& state, double threshold, const Links& links,
+StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links& links,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,
                             const Mobility& mobility, const ContactConditions& conditions,
@@ -179,21 +284,28 @@ StepContacts solve_contacts(const State& state, double threshold, const Links& l
   const auto stops = contacts_of_stops(links, p);
   // Contacts push particles at speeds that are seldom above twice the largest one without contact.
   double reach =
-      std::max(conditions.least_reach, reach_of(state, threshold, free, conditions) +
+      std::max(conditions.least_reach, reach_of(state, fluid, free, conditions) +
                                            2 * conditions.h * fastest(free, conditions.layout) +
                                            1e-3 * conditions.mean_radius);
   int iterations = 0;
   for (;;) {
     StepContacts step;
     step.iterations = iterations;
-    list_pairs(step, state, obstacles, reach, pool);
+    list_pairs(step, state, fluid, obstacles, reach, pool);
     std::erase_if(step.pairs, is_left_out);
     std::erase_if(step.walls, is_left_out);
-    make_contacts(step, p, threshold, obstacles, conditions);
+    make_contacts(step, p, fluid, obstacles, conditions);
     step.contacts.insert(step.contacts.end(), stops.begin(), stops.end());
     solve_listed(step, mobility, conditions);
+    // Each correction gains about a factor of the angle by which plates turn in the step.
+    constexpr int kMostCorrections = 20;
+    for (int n = 0; n < kMostCorrections && !fluid.plates.empty(); ++n) {
+      if (!correct_turns(step, p, fluid, obstacles, conditions)) break;
+      solve_listed(step, mobility, conditions);
+      if (n + 1 == kMostCorrections) step.is_solved = false;
+    }
     step.reach = reach;
-    const double needed = reach_of(state, threshold, step.velocities, conditions);
+    const double needed = reach_of(state, fluid, step.velocities, conditions);
     if (needed <= reach) return step;
     iterations = step.iterations;
     reach = 2 * needed;

@@ -13,6 +13,8 @@
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/contact/contact.hpp"
+#include "viscontact/particles/contact/contact_laws.hpp"
+#include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/links/links.hpp"
 #include "viscontact/particles/solver_settings.hpp"
@@ -176,8 +178,12 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
                   const ContactConditions& conditions);
 
 /// Up to which gap pairs may meet in the step if particles have these velocities [L].
-double reach_of(const State& state, double threshold, std::span<const double> velocities,
+double reach_of(const State& state, const Fluid& fluid, std::span<const double> velocities,
                 const ContactConditions& conditions);
+
+/// The radii of both surfaces of a pair at its contact: radii_of() with the round ends of plates.
+PairRadii radii_in_fluid(const Fluid& fluid, const Pair& pair, const Particles& particles,
+                         std::span<const Plane> obstacles);
 
 /// The stops of hinges as contacts: with the radius of the particle that a hinge holds as its lever,
 /// the gap of a stop is a length, as those of other contacts.
@@ -190,10 +196,10 @@ void add_torques_of_stops(const Links& links, const Particles& particles,
                           std::span<double> link_forces);
 
 /// Finds the impulses of all contacts, such that no gap closes that was not among the contacts
-/// either. `state` is that before the step, `threshold` is D_c >= 0 [L], `obstacles` are positions
-/// at the end of the step. Pairs for which `is_left_out` is true are no contacts, because no
+/// either. `state` is that before the step, `obstacles` are positions at the end of the step. Plates
+/// that turn by finite angles keep their gaps, but for a quarter of the tolerance. Pairs for which `is_left_out` is true are no contacts, because no
 /// contact force changes their distance. Throws what `mobility` throws.
-StepContacts solve_contacts(const State& state, double threshold, const Links& links,
+StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links& links,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,
                             const Mobility& mobility, const ContactConditions& conditions,

@@ -215,7 +215,6 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
              return std::minmax(arm.first, arm.second) == std::minmax(pair.first, pair.second);
            });
   };
-  const double threshold = fluid.threshold_gap;
   auto conditions = contact_conditions(free, h);
   const bool has_inertia = fluid.has_inertia();
   const auto before = has_inertia ? state_.earlier_velocities : equation.velocities();
@@ -229,14 +228,14 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
     return velocities;
   };
   for (;;) {
-    contacts = solve_contacts(state_, threshold, setting_.links, positions_of(obstacles_, next),
+    contacts = solve_contacts(state_, fluid, setting_.links, positions_of(obstacles_, next),
                               is_left_out, mobility, conditions, pool_);
     if (!setting_.laws.restitution.is_on() || is_computed_twice()) return std::nullopt;
     const BlowStep step{setting_, state_, obstacles_, next, kick_length(h), before, loaded};
     auto blow = solve_blow(contacts, step, mobility, conditions);
     if (!blow) return blow;
     // Solids may leave each other faster than the particles were without contact.
-    const double needed = reach_of(state_, threshold, blow->velocities, conditions);
+    const double needed = reach_of(state_, fluid, blow->velocities, conditions);
     if (needed <= contacts.reach) return blow;
     conditions.least_reach = 2 * needed;
   }
@@ -401,6 +400,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   }
   if (is_estimated && !setting_.fluid->has_inertia())
     estimate(equation, forces, held ? &*held : nullptr, motion);
+  motion.fluid.flow_time = state_.time;
+  if (!is_computed_twice()) motion.fluid.probes = motion.quantities.probes;
   motion.fluid.dissipation = motion.quantities.dissipation;
   motion.fluid.apparent_viscosity = motion.quantities.apparent_viscosity;
   if (setting_.fluid->has_inertia()) report_inertia(motion);

@@ -71,6 +71,8 @@ struct FlowQuantities {
   double kinetic_energy = 0;  ///< of the fluid [M L^2/T^2]
   /// Largest way of the fluid in a step relative to the mesh, over the length of an edge.
   double courant_number = 0;
+  /// Flow [L^2/T] and mean pressure [M/(L T^2)] of each of Fluid::probes.
+  std::vector<std::array<double, 2>> probes{};
 };
 
 /// How results on a second mesh improve those on the mesh of a placement. With the change d of a

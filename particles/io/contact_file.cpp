@@ -94,19 +94,12 @@ double measure_of(const Domain& domain) {
   return cylinder == nullptr ? 0 : pi * cylinder->radius * cylinder->radius * cylinder->height;
 }
 
-/// The vector from the first particle of a contact, or from the obstacle, to the second one [L].
-Vector branch_of(const Particles& p, const CurrentContact& contact) {
-  double length = contact.gap + p.radii[index_of(contact.second)];
-  if (contact.first >= 0) length += p.radii[index_of(contact.first)];
-  return length * contact.normal;
-}
-
 /// The row of stress.csv, docs/physics.md (5.19).
 std::string stress_row(const Setting& setting, const State& state, std::span<const double>) {
   const auto n = static_cast<std::size_t>(state.particles.dimension);
   std::array<double, 9> sums{};
   for (const auto& contact : contacts_of(setting, state)) {
-    const Vector force = force_of(contact), branch = branch_of(state.particles, contact);
+    const Vector force = force_of(contact), branch = contact.branch;
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) sums[i * n + j] -= force[i] * branch[j];
   }

@@ -77,7 +77,14 @@ std::string hinge_rows(const Setting& setting, const State& state,
     std::vector<double> values;
     for (std::size_t i = 0; i < forces; ++i) values.push_back(force_of(state, k * forces + i));
     std::string errors = error_field(setting, force_errors, k * forces, 2);
-    if (forces == 3) errors += error_field(setting, force_errors, k * forces + 2);
+    if (state.particles.dimension == 2) {
+      errors += error_field(setting, force_errors, k * forces + 2);
+      const auto particle = index_of(setting.links.hinges[k].point.particle);
+      const auto& p = state.particles;
+      const auto body = p.bodies.of_particle.empty() ? -1 : p.bodies.of_particle[particle];
+      const double angle = body < 0 ? p.angles[particle] : p.bodies.bodies[index_of(body)].angle[2];
+      errors += "," + format_number(angle) + "," + format_number(p.angular_velocities[particle]);
+    }
     text += row(state.time, k, values, errors);
   }
   return text;
@@ -129,7 +136,8 @@ std::vector<TimeTable> time_tables(const Setting& setting, const Particles& part
                : "x,y,angle,vx,vy,angular_velocity",
       particles.bodies.count(), body_rows);
   add("hinges.csv",
-      in_space ? "force_x,force_y,force_z" : "force_x,force_y,torque" + error + torque_error,
+      in_space ? "force_x,force_y,force_z"
+               : "force_x,force_y,torque" + error + torque_error + ",angle,angular_velocity",
       links.hinges.size(), hinge_rows);
   add("springs.csv", "length,force" + error, links.springs.size(), spring_rows);
   add("arms.csv", "length,force,power" + error, links.arms.size(), arm_rows);

@@ -25,7 +25,8 @@ struct TimeTable {
 ///
 /// - bodies.csv: time,id,x,y,angle,vx,vy,angular_velocity; in space
 ///   time,id,x,y,z,vx,vy,vz,orientation_w,...,angular_velocity_x,...
-/// - hinges.csv: time,id,force_x,force_y,torque; in space force_x,force_y,force_z
+/// - hinges.csv: time,id,force_x,force_y,torque,angle,angular_velocity; in space
+///   force_x,force_y,force_z
 /// - springs.csv: time,id,length,force
 /// - arms.csv: time,id,length,force,power
 /// - membranes.csv: see membrane_rows()

@@ -46,6 +46,8 @@ struct Playback {
   /// Semi-axes of each particle in the plane, the first one along its angle [L]; empty: all are
   /// discs.
   std::vector<std::array<double, 2>> semi_axes{};
+  /// Which particles are plates with round ends, as in Fluid; empty: none is.
+  std::vector<char> plates{};
   std::vector<Frame> frames;        ///< in order of time, from the start on
   std::vector<std::int32_t> ids{};  ///< as in Particles
   PeriodicCell cell{};              ///< as in Particles

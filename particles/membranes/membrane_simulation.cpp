@@ -303,9 +303,8 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
   const double radius = mean_radius(state_.particles);
   const ContactConditions conditions{velocities,      h,      MotionLayout{kComponents},
                                      setting_.solver, radius, kErrorOfAnswers};
-  auto contacts =
-      solve_contacts(state_, setting_.fluid->threshold_gap, {}, positions_of(obstacles_, next),
-                     is_left_out, mobility, conditions, pool_);
+  auto contacts = solve_contacts(state_, *setting_.fluid, {}, positions_of(obstacles_, next),
+                                 is_left_out, mobility, conditions, pool_);
   const auto residuals = measure_residuals(contacts.contacts, contacts.velocities, conditions);
   refuse_deep_overlap(residuals, state_.particles, setting_, radius, report.time, [] {
     return "is the time step too long for the flow, or do walls leave the membranes too little "

@@ -98,17 +98,24 @@ std::string circle(const PanelSettings& panel, const Vector& at, double radius) 
              : "";
 }
 
-/// Particle k of a frame about `at`, a disc or an ellipse; nothing if the panel does not show it.
+/// Particle k of a frame about `at`, a disc, an ellipse or a plate; nothing if the panel does not
+/// show it.
 std::string disc(const PanelSettings& panel, const Frame& frame, std::size_t k, const Vector& at) {
   const auto& playback = panel.scene.playback;
   if (playback.semi_axes.empty()) return circle(panel, at, playback.radii[k]);
   const double x = panel.view.x(at), y = panel.view.y(at), scale = panel.view.scale;
   if (!is_seen(panel, x, y, scale * playback.radii[k])) return "";
+  const auto [a, b] = playback.semi_axes[k];
+  if (!playback.plates.empty() && playback.plates[k] != 0)
+    return fmt::format(
+        "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" rx=\"{:.2f}\" "
+        "transform=\"translate({:.2f} {:.2f}) rotate({:.2f})\"/>\n",
+        -scale * a, -scale * b, 2 * scale * a, 2 * scale * b, scale * b, x, y,
+        -frame.angles[k] * 180 / std::numbers::pi);
   return fmt::format(
       "<ellipse rx=\"{:.2f}\" ry=\"{:.2f}\" transform=\"translate({:.2f} {:.2f}) "
       "rotate({:.2f})\"/>\n",
-      scale * playback.semi_axes[k][0], scale * playback.semi_axes[k][1], x, y,
-      -frame.angles[k] * 180 / std::numbers::pi);
+      scale * a, scale * b, x, y, -frame.angles[k] * 180 / std::numbers::pi);
 }
 
 /// A dot at the rim of each disc, which shows how far it has turned; nothing on very small discs.
@@ -117,6 +124,8 @@ std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
   if (frame.angles.size() != panel.scene.playback.radii.size()) return "";
   std::string text;
   for_each_image(panel, frame, [&](std::size_t k, const Vector& centre) {
+    if (const auto& plates = panel.scene.playback.plates; !plates.empty() && plates[k] != 0)
+      return;  // its direction is seen
     const auto& axes = panel.scene.playback.semi_axes;
     const double r = axes.empty() ? panel.scene.playback.radii[k] : axes[k][0];
     const double angle = frame.angles[k];

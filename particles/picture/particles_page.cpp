@@ -210,13 +210,14 @@ PageData page_data(const Playback& playback, double lowest_gamma, std::size_t ot
   PageData data;
   choose_position_bytes(data, playback);
   auto contacts = choose_content(data, playback, lowest_gamma, other_bytes);
-  Bytes radii, semi_axes, ids, bodies, times, positions, turns, planes;
+  Bytes radii, semi_axes, plates, ids, bodies, times, positions, turns, planes;
   const auto turn_numbers = numbers_of_turn(playback);
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle) {
     append(radii, playback.radii[k]);
     if (!playback.semi_axes.empty())
       for (const double axis : playback.semi_axes[k]) append(semi_axes, static_cast<float>(axis));
+    if (!playback.plates.empty()) append(plates, playback.plates[k]);
     if (!playback.ids.empty()) append(ids, playback.ids[k]);
     if (!playback.bodies.empty()) append(bodies, playback.bodies[k]);
   }
@@ -246,6 +247,7 @@ PageData page_data(const Playback& playback, double lowest_gamma, std::size_t ot
   }
   data.blocks = {{"radii", radii}};
   if (!semi_axes.empty()) data.blocks.emplace_back("semiAxes", semi_axes);
+  if (!plates.empty()) data.blocks.emplace_back("plates", plates);
   if (!ids.empty()) data.blocks.emplace_back("ids", ids);
   if (!bodies.empty()) data.blocks.emplace_back("bodies", bodies);
   if (turn_numbers > 0)

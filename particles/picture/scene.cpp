@@ -134,7 +134,11 @@ std::vector<char> points_in_bodies(const report::Grid& grid, const Playback& pla
       const auto [a, b] = is_ellipse ? playback.semi_axes[k] : std::array{r, r};
       const double c = is_ellipse ? std::cos(frame.angles[k]) : 1;
       const double s = is_ellipse ? std::sin(frame.angles[k]) : 0;
+      const bool is_plate = !playback.plates.empty() && playback.plates[k] != 0;
       const auto is_inside = [&](double dx, double dy) {
+        if (is_plate)
+          return std::hypot(std::max(0.0, std::abs(c * dx + s * dy) - (a - b)), c * dy - s * dx) <=
+                 b;
         return std::hypot((c * dx + s * dy) / a, (c * dy - s * dx) / b) <= 1;
       };
       for (auto row = bottom; row < top; ++row)

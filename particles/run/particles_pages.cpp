@@ -29,6 +29,7 @@ Playback without_frames(const ParticlesCase& c) {
   playback.dimension = c.particles.dimension;
   playback.radii.assign(c.particles.radii.begin(), c.particles.radii.end());
   if (c.setting.fluid) playback.semi_axes = c.setting.fluid->semi_axes;
+  if (c.setting.fluid) playback.plates = c.setting.fluid->plates;
   playback.ids = c.particles.ids;
   playback.cell = cell_of(c.setting);
   playback.bodies = c.particles.bodies.of_particle;

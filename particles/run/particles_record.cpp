@@ -64,6 +64,14 @@ std::string steps_header(const std::optional<Fluid>& fluid) {
   return header + "\n";
 }
 
+std::string probe_rows(const FluidStepReport& report, std::span<const Probe> probes) {
+  std::string rows;
+  for (std::size_t k = 0; k < probes.size(); ++k)
+    rows += fmt::format("{},{},{},{}\n", format_number(report.flow_time), probes[k].name,
+                        format_number(report.probes[k][0]), format_number(report.probes[k][1]));
+  return rows;
+}
+
 std::string step_row(std::int64_t step, const StepReport& report,
                      const std::optional<Fluid>& fluid) {
   auto row =

@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "viscontact/common/files/growing_file.hpp"
 #include "viscontact/particles/case/particles_case.hpp"
@@ -53,6 +55,10 @@ struct RunRecord {
 
 /// The line with the names of the columns of steps.csv of a run with or without a fluid.
 std::string steps_header(const std::optional<Fluid>& fluid);
+/// The line with the names of the columns of probes.csv.
+inline constexpr std::string_view kProbesHeader = "time,name,flow,pressure\n";
+/// The rows of probes.csv of a step: one for each probe.
+std::string probe_rows(const FluidStepReport& report, std::span<const Probe> probes);
 /// The row of steps.csv of the step with the number `step`.
 std::string step_row(std::int64_t step, const StepReport& report,
                      const std::optional<Fluid>& fluid);

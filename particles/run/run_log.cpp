@@ -46,6 +46,8 @@ RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenanc
     add_file("rebounds.csv", TextKind::kHashComment, kReboundsHeader);
   if (!c.setting.links.empty()) add_list(kLinksFile);
   if (c.setting.fluid) add_list(kFlowFile);
+  if (c.setting.fluid && !c.setting.fluid->probes.empty())
+    add_file("probes.csv", TextKind::kHashComment, std::string(kProbesHeader));
   for (const auto& tables :
        {time_tables(c.setting, c.particles), asked_tables(c.setting, c.particles, c.tables)})
     for (const auto& table : tables) {
@@ -85,8 +87,11 @@ void RunLog::add_step(const StepReport& report, const State& state,
   constexpr std::uint64_t kMostRebounds = 1000000;
   record_.totals.add(report);
   const auto steps = record_.totals.steps;
-  if (steps <= kMostRows || steps % kThen == 0 || !report.converged)
+  if (steps <= kMostRows || steps % kThen == 0 || !report.converged) {
     files_.at("steps.csv").append(step_row(state.steps, report, case_.setting.fluid));
+    if (!report.fluid.probes.empty())
+      files_.at("probes.csv").append(probe_rows(report.fluid, case_.setting.fluid->probes));
+  }
   const auto more = rebounds.first(std::min(rebounds.size(), kMostRebounds - record_.rebounds));
   if (more.empty()) return;
   files_.at("rebounds.csv").append(rebound_rows(state.particles, more));

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace viscontact::particles {
 
@@ -28,6 +29,9 @@ struct FluidStepReport {
   /// Sum of the forces of the fluid on the particles whose motion is given [M L/T^2]; on an axis
   /// the first is that along z.
   std::array<double, 2> given_force{};
+  double flow_time = 0;  ///< time of the flow that the step has computed [T]
+  /// FlowQuantities::probes at that time; empty in a step that the next one computes again.
+  std::vector<std::array<double, 2>> probes{};
   double seconds = 0;  ///< wall time of the step: mesh, fluid solver and contacts [s]
   /// Errors of the velocities of the particles; < 0 if they were not estimated in this step.
   RelativeErrors velocity_errors;

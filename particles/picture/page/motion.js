@@ -28,6 +28,8 @@ const writtenOrientations = optional('orientations', Float32Array);
 const bodies = optional('bodies', Int32Array);
 // Two semi-axes of each particle, the first one along its angle, if there are ellipses.
 const semiAxes = optional('semiAxes', Float32Array);
+// 1 for each plate with round ends: its semi-axes are half of its length and the radius of its ends.
+const plates = optional('plates', Int8Array);
 // Of each pair: x + 3 y, where the second particle is shifted by x and y periods.
 const images = optional('images', Int8Array);
 const pairs = new Int32Array(bytes('pairs')), offsets = new Uint32Array(bytes('offsets'));

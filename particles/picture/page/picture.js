@@ -142,17 +142,25 @@ function drawDiscs() {
         if (pageAtY < -size || pageAtY > canvas.height + size) continue;
         if (semiAxes) drawEllipse(k, pageAtX, pageAtY);
         else particle(pageAtX, pageAtY, size, isInBody(k));
-        if (angles.length) drawMark(k, pageAtX, pageAtY);
+        if (angles.length && !(plates && plates[k])) drawMark(k, pageAtX, pageAtY);
       }
   }
 }
 
-/** A disc or ellipse in a fluid with ellipses. */
+/** A disc, ellipse or plate in a fluid where not all are discs. */
 function drawEllipse(k, x, y) {
   const scale = pageRadius[k] / radii[k];
   const [a, b] = [Math.max(scale * semiAxes[2 * k], 0.35), Math.max(scale * semiAxes[2 * k + 1], 0.35)];
   pen.beginPath();
-  pen.ellipse(x, y, a, b, -angles[k], 0, 2 * Math.PI);
+  if (plates && plates[k]) {
+    // The two round ends; the path joins them by the straight sides.
+    const [c, s] = [(a - b) * Math.cos(angles[k]), -(a - b) * Math.sin(angles[k])];
+    pen.arc(x + c, y + s, b, -angles[k] - Math.PI / 2, -angles[k] + Math.PI / 2);
+    pen.arc(x - c, y - s, b, -angles[k] + Math.PI / 2, -angles[k] + 1.5 * Math.PI);
+    pen.closePath();
+  } else {
+    pen.ellipse(x, y, a, b, -angles[k], 0, 2 * Math.PI);
+  }
   [pen.fillStyle, pen.strokeStyle] = disc;
   pen.lineWidth = Math.max(1, Math.min(a, b) / 20);
   pen.fill();

@@ -401,8 +401,8 @@ TEST(RefusedFluidTest, RestitutionWithoutMassOrWithBodiesLinksOrSplitting) {
            more;
   };
   const std::string kWords =
-      "viscous_contact.restitution must be left out, because the case has a fluid and also bodies "
-      "or links; in a fluid only single particles may rebound";
+      "viscous_contact.restitution must be left out, because the case has a fluid and also bodies, "
+      "springs or arms; in a fluid only single particles, also on hinges, may rebound";
   expect_refused_at(with("[[spring]]\nbetween = [0, 1]\nstiffness = 1.0\n"), "restitution", kWords);
   expect_refused_at(with("[[arm]]\nbetween = [0, 1]\nlength = 3.0\n"), "restitution", kWords);
   expect_refused_at(with("[[body]]\nparticles = [0, 1]\n"), "restitution", kWords);
@@ -411,11 +411,46 @@ TEST(RefusedFluidTest, RestitutionWithoutMassOrWithBodiesLinksOrSplitting) {
                     "viscous_contact.restitution");
   const auto heavy = changed(with(""), "radius = 1.0", "radius = 1.0\nmass = 1.0");
   EXPECT_EQ(read_particles_text(heavy).setting.laws.restitution.coefficient, 0.9);
+  EXPECT_EQ(read_particles_text(heavy + "mass = 1.0\n[[hinge]]\nparticle = 1\nat = [-4.0, 0.0]\n")
+                .setting.laws.restitution.coefficient,
+            0.9);
   const auto split = changed(heavy, "viscosity = 2.0", "viscosity = 2.0\ncoupling = \"splitting\"");
   EXPECT_EQ(read_particles_text(split).setting.laws.restitution.coefficient, 0.9);
   expect_refused_at(changed(split, "viscosity = 2.0", "viscosity = 2.0\ndensity = 1.0"),
                     "restitution",
                     "because the fluid has a density and fluid.coupling is \"splitting\"");
+}
+
+TEST(RefusedFluidTest, PlatesThatAreNone) {
+  const auto with = [](const std::string& more) {
+    return changed(kDiscsInBox, "radius = 0.25\n[[particle]]",
+                   "radius = 0.25\n" + more + "\n[[particle]]");
+  };
+  expect_refused_at(with("length = 0.5"), "length",
+                    "particle[0].length is 0.5; it must be from 1.01 to 100 times the thickness of "
+                    "the plate, 0.5");
+  expect_refused_at(changed(kDiscsInBox, "radius = 0.25\n[[particle]]",
+                            "semi_axes = [0.3, 0.2]\nlength = 1.0\n[[particle]]"),
+                    "length", "must be left out, because semi_axes makes this particle an ellipse");
+}
+
+TEST(RefusedFluidTest, ProbesThatDoNotGoFromWallToWall) {
+  const auto with = [](const std::string& name, const std::string& from, const std::string& to) {
+    return std::string(kDiscsInBox) + "[[probe]]\nname = \"" + name + "\"\nfrom = " + from +
+           "\nto = " + to + "\n";
+  };
+  EXPECT_NO_THROW((void)read_particles_text(with("a", "[0.5, 0.0]", "[0.5, 6.0]")));
+  expect_refused_at(with("a,b", "[0.5, 0.0]", "[0.5, 6.0]"), "name = \"a,b\"", "is 'a,b'");
+  expect_refused_at(with("a", "[0.5, 0.1]", "[0.5, 6.0]"), "from = [0.5, 0.1]",
+                    "probe[0].from is (0.5, 0.1), which is on no wall of the box");
+  expect_refused_at(with("a", "[0.5, 0.0]", "[0.7, 0.0]"), "to = [0.7, 0.0]",
+                    "probe[0].to is on the same wall as from");
+  expect_refused_at(with("a", "[0.5, 0.0]", "[0.5, 6.0]") +
+                        "[[probe]]\nname = \"a\"\nfrom = [0.6, 0.0]\nto = [0.6, 6.0]\n",
+                    "name = \"a\"\nfrom = [0.6", "is 'a', the name of another probe");
+  const auto in_disc =
+      std::string(kDiscsInDisc) + "[[probe]]\nname = \"a\"\nfrom = [0.5, 0.0]\nto = [0.5, 6.0]\n";
+  expect_refused_at(in_disc, "name = \"a\"", "belongs to a channel; the domain must be a box");
 }
 
 TEST(RefusedFluidTest, PlaneAcrossAPeriod) {

@@ -106,6 +106,37 @@ velocity = { left = { parabolic = 1.5, period = 2.0, amplitude = 0.5 }, right = 
   EXPECT_THAT(c.particles.masses, ElementsAre(4 * area, 2 * area));
 }
 
+TEST(FluidCase, ReadsAGradientThatPulsates) {
+  const auto c = read_particles_text(
+      changed(changed(kDiscsInBox, "viscosity = 2.0",
+                      "viscosity = 2.0\ndensity = 1.0\npressure_gradient = { value = [2.0, -1.0], "
+                      "period = 4.0, amplitude = 0.5 }"),
+              "radius = 0.25\n[[particle]]", "radius = 0.25\ndensity = 4.0\n[[particle]]") +
+      "density = 2.0\n");
+  EXPECT_THAT(c.setting.fluid->pressure_gradient_at(0), ElementsAre(2, -1));
+  EXPECT_THAT(c.setting.fluid->pressure_gradient_at(1), ElementsAre(3, -1.5));
+}
+
+TEST(FluidCase, ReadsPlatesAndProbes) {
+  const auto c = read_particles_text(
+      changed(kDiscsInBox, "radius = 0.25\n[[particle]]",
+              "radius = 0.25\nlength = 1.5\nangle = 1.5\ndensity = 2.0\n[[particle]]") +
+      "[[probe]]\nname = \"in-1\"\nfrom = [0.5, 0.0]\nto = [1.0, 6.0]\n");
+  const auto& fluid = *c.setting.fluid;
+  EXPECT_TRUE(fluid.is_plate(0));
+  EXPECT_FALSE(fluid.is_plate(1));
+  EXPECT_FALSE(fluid.is_ellipse(0));
+  EXPECT_THAT(fluid.semi_axes[0], ElementsAre(0.75, 0.25));
+  EXPECT_EQ(fluid.end_radius(0, c.particles.radii[0]), 0.25);
+  EXPECT_EQ(c.particles.radii[0], 0.75);
+  EXPECT_DOUBLE_EQ(c.particles.masses[0], 2 * (3.141592653589793 / 16 + 0.5));
+  EXPECT_DOUBLE_EQ(c.particles.inertias[0],
+                   homogeneous_inertia_of_plate(c.particles.masses[0], {0.75, 0.25}));
+  ASSERT_EQ(fluid.probes.size(), 1U);
+  EXPECT_EQ(fluid.probes[0].name, "in-1");
+  EXPECT_THAT(fluid.probes[0].to, ElementsAre(1, 6));
+}
+
 TEST(FluidCase, FluxesThatBalanceNeedNoOpenSide) {
   // In through the left by a parabola: 2/3 1.5 6 = 6; out through the bottom: 3 times 2.
   const auto c = read_particles_text(

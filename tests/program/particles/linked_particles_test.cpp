@@ -76,7 +76,7 @@ TEST_P(LinkedParticles, HaveTablesOfBodiesAndLinks) {
   EXPECT_THAT(content(out() / "bodies.csv"),
               StartsWith("time,id,x,y,angle,vx,vy,angular_velocity\n0,0,2,5,0,0,0,0\n"));
   EXPECT_THAT(content(out() / "hinges.csv"),
-              StartsWith("time,id,force_x,force_y,torque\n0,0,0,0,0\n"));
+              StartsWith("time,id,force_x,force_y,torque,angle,angular_velocity\n0,0,0,0,0,0,0\n"));
   EXPECT_THAT(content(out() / "springs.csv"), StartsWith("time,id,length,force\n0,0,1.9,0\n"));
   EXPECT_THAT(content(out() / "arms.csv"),
               AllOf(StartsWith("time,id,length,force,power\n0,0,3,0,0\n"), HasSubstr("\n7,0,2.5")));
