@@ -37,6 +37,7 @@ const std::map<std::string, Changes> kShortened = {
     {"flow/two_discs.toml",
      {{"constraint = \"rigid\"", "constraint = \"rigid\"\nedges_per_particle = 8"},
       {"end_time = [^ \n]+", "end_time = 0.01"}}},
+    {"valve/valve.toml", {{"end_time = [^ \n]+", "end_time = 0.02"}}},
 };
 
 /// A reader's folder whose cases are copies, changed by kShortened.
