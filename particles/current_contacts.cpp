@@ -12,9 +12,23 @@
 namespace viscontact::particles {
 namespace {
 
-double gap_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
-  if (p.dimension == 1) return contact_of<1>(p, pair, places).gap;
-  return p.dimension == 2 ? contact_of<2>(p, pair, places).gap : contact_of<3>(p, pair, places).gap;
+/// Gap [L] and unit normal of a pair.
+struct Place {
+  double gap = 0;
+  Vector normal{};
+};
+
+template <int D>
+Place place_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
+  const auto contact = contact_of<D>(p, pair, places);
+  Place place{contact.gap};
+  std::ranges::copy(contact.normal, place.normal.begin());
+  return place;
+}
+
+Place place_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
+  if (p.dimension == 1) return place_of<1>(p, pair, places);
+  return p.dimension == 2 ? place_of<2>(p, pair, places) : place_of<3>(p, pair, places);
 }
 
 /// The smallest gap of two discs, between their nearest images [L]; 0 if none overlap.
@@ -65,7 +79,8 @@ double largest_overlap(const Setting& setting, const State& state) {
   }
   for (const auto& pair : close)
     if (!p.bodies.are_one(pair.first, pair.second))
-      smallest = std::min(smallest, gap_of(p, {pair.first, pair.second, 0, 0, 0, pair.image}, {}));
+      smallest =
+          std::min(smallest, place_of(p, {pair.first, pair.second, 0, 0, 0, pair.image}, {}).gap);
   for (const auto& place : positions_of(obstacles_of(setting), state.time))
     for (std::size_t k = 0; k < p.count(); ++k)
       smallest = std::min(smallest, gap(place, p.position(k), p.radii[k]));
@@ -83,14 +98,28 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
   std::vector<CurrentContact> contacts;
   const auto& p = state.particles;
   const auto places = positions_of(obstacles_of(setting), state.time);
-  const double touching = setting.solver.tolerance * mean_radius(p);
+  // Particles in a fluid are held at its threshold gap.
+  const double touching = setting.solver.tolerance * mean_radius(p) +
+                          (setting.fluid ? setting.fluid->threshold_gap : 0);
   for (const auto* pairs : {&state.pairs, &state.walls})
-    for (const auto& pair : *pairs)
-      if (const double gap = gap_of(p, pair, places); pair.gamma < 0 || gap <= touching) {
-        const auto& memory = state.memories.of(pair.memory);
-        contacts.push_back({pair.first, pair.second, gap, pair.gamma, pair.gamma_error, pair.image,
-                            friction_of(setting, memory), memory.shown()});
-      }
+    for (const auto& pair : *pairs) {
+      const auto [gap, normal] = place_of(p, pair, places);
+      if (!(pair.gamma < 0 || gap <= touching || pair.impulse != 0)) continue;
+      const auto& memory = state.memories.of(pair.memory);
+      // Impulses are 0 before the first step, whose length is not known.
+      const double per_time = state.earlier_step > 0 ? 1 / state.earlier_step : 0;
+      contacts.push_back({.first = pair.first,
+                          .second = pair.second,
+                          .gap = gap,
+                          .gamma = pair.gamma,
+                          .gamma_error = pair.gamma_error,
+                          .image = pair.image,
+                          .friction = friction_of(setting, memory),
+                          .normal_force = per_time * pair.impulse,
+                          .tangential_force = per_time * memory.friction(),
+                          .normal = normal,
+                          .shown = memory.shown()});
+    }
   return contacts;
 }
 

@@ -28,6 +28,11 @@ struct CurrentContact {
   double gamma_error = 0;  ///< Pair::gamma_error, in the unit of gamma
   std::int32_t image = 0;  ///< Pair::image
   ContactFriction friction = ContactFriction::kNone;  ///< in the last step
+  /// Mean normal force in the last step [M L/T^2], of discs in a fluid per length: that of solids
+  /// and film together, > 0 where it pushes both apart.
+  double normal_force = 0;
+  Vector tangential_force{};  ///< mean friction on `second` in the last step, in the same unit
+  Vector normal{};            ///< unit normal from `first` to `second`; not in frames
   /// What laws remember of the pair and files show. It takes no room if there is nothing to show.
   [[no_unique_address]] ShownMemory shown{};
 };
@@ -37,8 +42,10 @@ struct CurrentContact {
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact);
 
-/// The pairs that are glued (gamma < 0) or touch (gap <= SolverSettings::tolerance times mean
-/// radius): first pairs of particles, then particles at obstacles, each in the order of the state.
+/// The pairs that are glued (gamma < 0), touch, or had a force in the last step: first pairs of
+/// particles, then particles at obstacles, each in the order of the state. A pair touches if its
+/// gap is at most SolverSettings::tolerance times the mean radius, in a fluid more than
+/// Fluid::threshold_gap.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
 /// Largest Pair::gamma_error of all pairs, in the unit of gamma.

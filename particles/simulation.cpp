@@ -389,6 +389,7 @@ StepReport Simulation::step(double end) {
     state_.link_forces[k] = link_impulses_[k] / link_time_;
   state_.arm_powers = arm_works_;
   for (auto& power : state_.arm_powers) power /= interval->h;
+  state_.earlier_step = interval->h;
   wrap_into_cell(state_);
   StepGrid::count(state_, *interval);
   return report;

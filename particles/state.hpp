@@ -65,6 +65,7 @@ struct State {
   std::vector<double> link_forces;
   /// Work of each arm in the last step over its length [M L^2/T^3]; empty before the first step.
   std::vector<double> arm_powers;
+  double earlier_step = 0;  ///< length of the last step [T]; 0 if there was none
   // What time stepping in a fluid needs of the step before; without a fluid these stay empty or 0.
   /// Velocities and angular velocities [L/T, 1/T], motion_components() numbers (fluid_solver.hpp)
   /// for each particle: vx, vy, angular velocity, or vz on an axis. Empty if there was no step.
@@ -73,7 +74,6 @@ struct State {
   /// many numbers in the same order. The forces that bodies, hinges and arms exert on particles
   /// without mass are left out.
   std::vector<double> earlier_forces;
-  double earlier_step = 0;  ///< length of the step before [T]; 0 if there was none
   /// In a fluid with inertia: length of the step before that one [T]; 0 if there was none.
   double step_before = 0;
   /// In a fluid with inertia the flow of the steps before, FluidSolver::saved_flow(). It is set

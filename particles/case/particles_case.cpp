@@ -10,6 +10,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
+#include "viscontact/particles/io/contact_file.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -150,9 +151,21 @@ void solver_keys(case_file::Keys& keys, SolverSettings& settings) {
                  "`\"conjugate_gradients\"`"});
 }
 
-void output_keys(case_file::Keys& keys, double& interval) {
-  keys.optional("every", case_file::number(interval, kModeratelyPositive),
+void output_keys(case_file::Keys& keys, ParticlesCase& c) {
+  keys.optional("every", case_file::number(c.frame_interval, kModeratelyPositive),
                 {"time between frames", "a hundredth of `end_time`"});
+  keys.optional(
+      "tables", case_file::texts(c.tables),
+      {"tables with rows for each frame: `\"motion\"`, `\"contacts\"`, `\"walls\"`, "
+       "`\"stress\"` ([file-formats.md](file-formats.md#tables-over-time)); in a fluid the "
+       "first two are always written",
+       "none", "a list of names"});
+  for (const auto& name : c.tables) {
+    keys.require(std::ranges::find(kAskedTables, name) != kAskedTables.end(), "tables",
+                 "has '{}'; the tables are {}", name, fmt::join(kAskedTables, ", "));
+    keys.require(name != "stress" || !std::holds_alternative<std::monostate>(c.setting.domain),
+                 "tables", "has 'stress', which needs the area of a [domain]");
+  }
 }
 
 void plane_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
@@ -238,13 +251,15 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
   if (root.has("solver"))
     case_file::read_keys(root.section("solver"), solver_keys, c.setting.solver);
   c.frame_interval = c.end_time / 100;
-  if (root.has("output"))
-    case_file::read_keys(root.section("output"), output_keys, c.frame_interval);
+  if (root.has("output")) case_file::read_keys(root.section("output"), output_keys, c);
   if (root.has("plane"))
     for (const auto& section : root.sections("plane")) {
       case_file::read_keys(section, plane_keys, c.setting.planes.emplace_back(), c);
       check_periods_of_plane(section, c.setting.planes.back(), c.setting.domain);
     }
+  if (std::ranges::find(c.tables, "walls") != c.tables.end())
+    root.section("output").require(!obstacles_of(c.setting).empty(), "tables",
+                                   "has 'walls', but the case has no walls and no planes");
 
   const auto lines = read_particles_of_case(root, c);
   read_forces_by_id(root, c);

@@ -59,6 +59,8 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
       pool_(1),
       obstacles_(obstacles_of(setting_)) {
   auto& p = state_.particles;
+  // The run before may have had no fluid.
+  if (state_.earlier_velocities.empty()) state_.earlier_step = 0;
   auto& film = setting_.laws.film;
   film.shape = p.dimension == 1 ? FilmShape::kSpheres : FilmShape::kDiscs;
   film.begins_at = setting_.fluid->threshold_gap;

@@ -273,6 +273,9 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
   const Eigen::VectorXd of_chosen = factor.solve(change);
   for (Eigen::Index c = 0; c < n; ++c) {
     const auto& row = rows[chosen[static_cast<std::size_t>(c)]];
+    // Without a mass that accelerates, nothing keeps an impulse: what changes these velocities at
+    // the end of the step is no part of its mean force.
+    if (!row.accelerates) continue;
     double square = 0;
     for (const auto& [component, coefficient] : row.entries)
       square += coefficient * coefficient * mobility[component];

@@ -119,21 +119,6 @@ void check_header(const std::filesystem::path& path, int dimension, bool in_flui
         "them or none");
 }
 
-/// The names of the shown memories, each after a comma.
-std::string shown_columns() {
-  std::string text;
-  for (const auto& field : kMemoryFields)
-    if (field.is_shown) (text += ',') += field.name;
-  return text;
-}
-
-/// The shown numbers of a contact, each after a comma.
-std::string shown_numbers(const CurrentContact& contact) {
-  std::string text;
-  for (const double number : contact.shown) (text += ',') += format_number(number);
-  return text;
-}
-
 /// The ids of the rows. Empty if the file has no column `id`, if all its fields are empty, or if
 /// the ids are 0, 1, ..., as they are without the column.
 std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::string& file) {
@@ -258,61 +243,32 @@ std::string write_particles(const Particles& particles, const std::optional<Flui
   return text;
 }
 
-std::string motion_header(int dimension) {
-  return dimension == 1 ? "time,id,z,vz\n" : "time,id,x,y,angle,vx,vy,angular_velocity\n";
+std::string motion_header(int dimension, bool turn) {
+  switch (dimension) {
+    case 1:
+      return "time,id,z,vz\n";
+    case 2:
+      return turn ? "time,id,x,y,angle,vx,vy,angular_velocity\n" : "time,id,x,y,vx,vy\n";
+    default:
+      return fmt::format("time,id,x,y,z,vx,vy,vz{}\n",
+                         turn ? ",angular_velocity_x,angular_velocity_y,angular_velocity_z" : "");
+  }
 }
 
 std::string motion_rows(double time, const Particles& particles) {
   const auto d = static_cast<std::size_t>(particles.dimension);
+  const bool is_disc = d == 2 && particles.turn(), is_sphere = d == 3 && particles.turn();
   std::string text;
   for (std::size_t k = 0; k < particles.count(); ++k) {
     fmt::format_to(std::back_inserter(text), "{},{}", format_number(time), particles.id(k));
     const auto add = [&](double value) { (text += ',') += format_number(value); };
     for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.positions[i]);
-    if (d == 2) add(particles.angles[k]);
+    if (is_disc) add(particles.angles[k]);
     for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.velocities[i]);
-    if (d == 2) add(particles.angular_velocities[k]);
+    if (is_disc) add(particles.angular_velocities[k]);
+    for (std::size_t i = 3 * k; is_sphere && i < 3 * k + 3; ++i)
+      add(particles.angular_velocities[i]);
     text += '\n';
-  }
-  return text;
-}
-
-std::string contacts_header() { return "time,i,j,gap,gamma" + shown_columns() + "\n"; }
-
-std::string contact_rows(double time, const Particles& particles,
-                         std::span<const CurrentContact> contacts) {
-  std::string text;
-  for (const auto& contact : contacts) {
-    const auto [i, j] = ids_of(particles, contact);
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}{}\n", format_number(time), i, j,
-                   format_number(contact.gap), format_number(contact.gamma),
-                   shown_numbers(contact));
-  }
-  return text;
-}
-
-std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds) {
-  std::string text;
-  for (const auto& rebound : rebounds) {
-    CurrentContact contact{};
-    contact.first = rebound.first;
-    contact.second = rebound.second;
-    const auto [first, second] = ids_of(particles, contact);
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", format_number(rebound.time),
-                   first, second, format_number(rebound.approach_velocity),
-                   format_number(rebound.solid_impulse), format_number(rebound.velocity));
-  }
-  return text;
-}
-
-std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts) {
-  std::string text =
-      fmt::format("# rows: {}\ni,j,gap,gamma,gamma_error{}\n", contacts.size(), shown_columns());
-  for (const auto& contact : contacts) {
-    const auto [i, j] = ids_of(particles, contact);
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}{}\n", i, j, format_number(contact.gap),
-                   format_number(contact.gamma), format_number(contact.gamma_error),
-                   shown_numbers(contact));
   }
   return text;
 }

@@ -59,27 +59,12 @@ struct FluidForces {
 std::string write_particles(const Particles& particles,
                             const std::optional<FluidForces>& forces = {});
 
-/// The line with the names of the columns of motion.csv:
-/// time,id,x,y,angle,vx,vy,angular_velocity for discs in a fluid; time,id,z,vz on an axis.
-std::string motion_header(int dimension);
+/// The line with the names of the columns of motion.csv: time,id,x,y,angle,vx,vy,angular_velocity
+/// for discs that `turn`; time,id,x,y,vx,vy for others; in space time,id,x,y,z,vx,vy,vz and, if
+/// particles turn, angular_velocity_x,angular_velocity_y,angular_velocity_z; time,id,z,vz on an
+/// axis.
+std::string motion_header(int dimension, bool turn);
 /// The rows of motion.csv of all particles at `time` [T].
 std::string motion_rows(double time, const Particles& particles);
-
-/// The line with the names of the columns of contacts.csv: time,i,j,gap,gamma and those of
-/// kMemoryFields that are shown.
-std::string contacts_header();
-/// The rows of contacts.csv at `time` [T]. i and j are as in write_contacts().
-std::string contact_rows(double time, const Particles& particles,
-                         std::span<const CurrentContact> contacts);
-
-/// The line with the names of the columns of rebounds.csv.
-inline constexpr const char* kReboundsHeader =
-    "time,first,second,approach_velocity,solid_impulse,velocity\n";
-/// The rows of rebounds.csv. first and second are as i and j in write_contacts().
-std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds);
-
-/// CSV text with the columns i,j,gap,gamma,gamma_error and those of kMemoryFields that are shown. i
-/// and j are the ids of two particles; j is -1, -2, ... for the first, second obstacle.
-std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts);
 
 }  // namespace viscontact::particles

@@ -25,7 +25,7 @@ void append(std::vector<double>& values, const Vector& x, int dimension) {
 /// The cells of a frame: a vertex for each contact with an obstacle, then a line for each other
 /// contact.
 struct ContactCells {
-  std::vector<double> gaps, gammas;
+  std::vector<double> gaps, gammas, normal_forces, tangential_forces;
   std::vector<std::int32_t> firsts, seconds, images, frictions;
   std::vector<ShownMemory> shown;
   PolyCells cells;
@@ -52,6 +52,8 @@ struct ContactCells {
       cells.add_line(contact.first, contact.second);
     gaps.push_back(contact.gap);
     gammas.push_back(contact.gamma);
+    normal_forces.push_back(contact.normal_force);
+    append(tangential_forces, contact.tangential_force, particles.dimension);
     const auto [first, second] = ids_of(particles, contact);
     firsts.push_back(first);
     seconds.push_back(second);
@@ -105,6 +107,8 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
   text += data.array("Int32", "j", 1, listed.seconds);
   if (particles.cell.is_periodic()) text += data.array("Int32", "image", 1, listed.images);
   if (has_friction) text += data.array("Int32", "friction", 1, listed.frictions);
+  text += data.array("Float64", "normal_force", 1, listed.normal_forces);
+  if (has_friction) text += data.array("Float64", "tangential_force", 3, listed.tangential_forces);
   std::size_t place = 0;
   for (const auto& field : kMemoryFields)
     if (field.is_shown) text += data.array("Float64", field.name, 1, listed.memory(place++));

@@ -18,10 +18,11 @@ namespace viscontact::particles {
 namespace {
 
 /// An array of the contacts, or zeros if the frame has none of this name.
-std::vector<std::int32_t> numbers_or_zeros(const AppendedReader& reader, const char* name,
-                                           std::size_t count) {
-  auto numbers = reader.has_array("CellData", name) ? reader.array<std::int32_t>("CellData", name)
-                                                    : std::vector<std::int32_t>(count, 0);
+template <class Number>
+std::vector<Number> numbers_or_zeros(const AppendedReader& reader, const char* name,
+                                     std::size_t count) {
+  auto numbers = reader.has_array("CellData", name) ? reader.array<Number>("CellData", name)
+                                                    : std::vector<Number>(count);
   if (numbers.size() != count) reader.refuse();
   return numbers;
 }
@@ -49,8 +50,11 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
   const auto gaps = reader.array<double>("CellData", "gap");
   const auto gammas = reader.array<double>("CellData", "gamma");
   const auto partners = reader.array<std::int32_t>("CellData", "j");
-  const auto images = numbers_or_zeros(reader, "image", gaps.size());
-  const auto frictions = numbers_or_zeros(reader, "friction", gaps.size());
+  const auto images = numbers_or_zeros<std::int32_t>(reader, "image", gaps.size());
+  const auto frictions = numbers_or_zeros<std::int32_t>(reader, "friction", gaps.size());
+  const auto normal_forces = numbers_or_zeros<double>(reader, "normal_force", gaps.size());
+  const auto tangential_forces =
+      numbers_or_zeros<double>(reader, "tangential_force", 3 * gaps.size());
   const auto memories = read_memories(reader, gaps.size());
   // Entries are places in the list of points, the numbers of particles in State, and not their ids.
   // A contact with a plane has one vertex; one of two particles has a line with two entries.
@@ -73,15 +77,23 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
     return static_cast<ContactFriction>(number);
   };
   std::vector<CurrentContact> contacts;
-  // A frame does not store the errors of gamma, because no picture shows them.
-  for (std::size_t i = 0; i < pairs; ++i)
-    contacts.push_back({particle(lines[2 * i]), particle(lines[2 * i + 1]), gaps[walls + i],
-                        gammas[walls + i], 0, image(images[walls + i]),
-                        friction(frictions[walls + i]), memories[walls + i]});
+  // A frame does not store the errors of gamma and the normals, because no picture shows them.
+  const auto add = [&](std::size_t i, std::int32_t first, std::int64_t second) {
+    contacts.push_back({.first = first,
+                        .second = particle(second),
+                        .gap = gaps[i],
+                        .gamma = gammas[i],
+                        .image = first < 0 ? 0 : image(images[i]),
+                        .friction = friction(frictions[i]),
+                        .normal_force = normal_forces[i],
+                        .tangential_force = {tangential_forces[3 * i], tangential_forces[3 * i + 1],
+                                             tangential_forces[3 * i + 2]},
+                        .shown = memories[i]});
+  };
+  for (std::size_t i = 0; i < pairs; ++i) add(walls + i, particle(lines[2 * i]), lines[2 * i + 1]);
   for (std::size_t i = 0; i < walls; ++i) {
     if (partners[i] >= 0) reader.refuse();
-    contacts.push_back({partners[i], particle(vertices[i]), gaps[i], gammas[i], 0, 0,
-                        friction(frictions[i]), memories[i]});
+    add(i, partners[i], vertices[i]);
   }
   return contacts;
 }

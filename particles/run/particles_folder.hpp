@@ -14,11 +14,26 @@ namespace viscontact::particles {
 
 /// The names of all files that a run may have, except those of its frames. restart.bin is the first
 /// to be removed, because the others are of no use to a run without it.
-inline constexpr auto kParticleResults = std::to_array<const char*>(
-    {"restart.bin", "particles.pvd", "particles.html", "particles.svg", "final_particles.csv",
-     "final_contacts.csv", "steps.csv", "run.json", "motion.csv", "contacts.csv", "flow.pvd",
-     "bodies.csv", "hinges.csv", "springs.csv", "arms.csv", "membranes.csv", "links.pvd",
-     "rebounds.csv"});
+inline constexpr auto kParticleResults = std::to_array<const char*>({"restart.bin",
+                                                                     "particles.pvd",
+                                                                     "particles.html",
+                                                                     "particles.svg",
+                                                                     "final_particles.csv",
+                                                                     "final_contacts.csv",
+                                                                     "steps.csv",
+                                                                     "run.json",
+                                                                     "motion.csv",
+                                                                     "contacts.csv",
+                                                                     "walls.csv",
+                                                                     "stress.csv",
+                                                                     "flow.pvd",
+                                                                     "bodies.csv",
+                                                                     "hinges.csv",
+                                                                     "springs.csv",
+                                                                     "arms.csv",
+                                                                     "membranes.csv",
+                                                                     "links.pvd",
+                                                                     "rebounds.csv"});
 
 /// What the name of a file of a frame has before and after the number of the frame.
 struct FrameKind {

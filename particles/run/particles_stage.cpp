@@ -21,6 +21,7 @@
 #include "viscontact/common/files/locks.hpp"
 #include "viscontact/particles/case/particles_case.hpp"
 #include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/io/contact_file.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/run/particle_simulation.hpp"

@@ -11,8 +11,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/particles/current_contacts.hpp"
-#include "viscontact/particles/io/link_file.hpp"
-#include "viscontact/particles/io/particle_file.hpp"
+#include "viscontact/particles/io/contact_file.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 
 namespace viscontact::particles {
@@ -46,28 +45,19 @@ RunLog::RunLog(const ParticlesCase& c, fs::path folder, const results::Provenanc
   if (c.setting.laws.restitution.is_on())
     add_file("rebounds.csv", TextKind::kHashComment, kReboundsHeader);
   if (!c.setting.links.empty()) add_list(kLinksFile);
-  for (const auto& table : time_tables(c.setting, c.particles))
-    add_table(table.name, table.header, [&c, rows = table.rows](const auto& state, auto errors) {
-      return rows(c.setting, state, errors);
-    });
-  if (!c.setting.fluid) return;
-  add_list(kFlowFile);
-  add_table("motion.csv", motion_header(c.particles.dimension),
-            [](const State& state, auto) { return motion_rows(state.time, state.particles); });
-  add_table("contacts.csv", contacts_header(), [&c](const State& state, auto) {
-    return contact_rows(state.time, state.particles, contacts_of(c.setting, state));
-  });
+  if (c.setting.fluid) add_list(kFlowFile);
+  for (const auto& tables :
+       {time_tables(c.setting, c.particles), asked_tables(c.setting, c.particles, c.tables)})
+    for (const auto& table : tables) {
+      add_file(table.name, TextKind::kHashComment, table.header);
+      tables_.push_back(table);
+    }
 }
 
 void RunLog::add_file(const std::string& name, TextKind kind, const std::string& head,
                       const std::string& foot) {
   const auto path = folder_ / name;
   files_.try_emplace(name, path, results::output_text(path, kind, head, provenance_), foot);
-}
-
-void RunLog::add_table(const std::string& name, const std::string& header, Rows rows) {
-  add_file(name, TextKind::kHashComment, header);
-  tables_.emplace_back(name, std::move(rows));
 }
 
 void RunLog::check(const RunRecord& record) const {
@@ -111,7 +101,8 @@ void RunLog::add_frame(const State& state, std::span<const double> link_force_er
   };
   write(kFrameFile, write_vtp(state.particles, contacts, setting.laws.friction.has_value()));
   if (!setting.links.empty()) write(kLinksFile, write_links(setting, state));
-  for (const auto& [name, rows] : tables_) files_.at(name).append(rows(state, link_force_errors));
+  for (const auto& table : tables_)
+    files_.at(table.name).append(table.rows(setting, state, link_force_errors));
   ++record_.frames;
   record_.last_frame = state.time;
 }

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -15,6 +14,7 @@
 #include "viscontact/common/vtk/flow_field.hpp"
 #include "viscontact/particles/case/particles_case.hpp"
 #include "viscontact/particles/impacts/rebound.hpp"
+#include "viscontact/particles/io/link_file.hpp"
 #include "viscontact/particles/run/particles_folder.hpp"
 #include "viscontact/particles/run/particles_record.hpp"
 #include "viscontact/particles/state.hpp"
@@ -60,20 +60,18 @@ class RunLog {
   StepTotals& totals() { return record_.totals; }  ///< the sums of record()
 
  private:
-  using Rows = std::function<std::string(const State&, std::span<const double>)>;
   void add_file(const std::string& name, TextKind kind, const std::string& head,
                 const std::string& foot = "");
-  void add_table(const std::string& name, const std::string& header, Rows rows);
   void write_frame(const FrameKind& kind, std::uint64_t number, double time,
                    const std::string& text);
 
   const ParticlesCase& case_;
   std::filesystem::path folder_;
   const results::Provenance& provenance_;
-  std::map<std::string, GrowingFile> files_;          // by name
-  std::vector<std::pair<std::string, Rows>> tables_;  // names of those with rows of each frame
-  std::vector<std::filesystem::path> unflushed_;      // files of frames that may not be on disk
-  RunRecord record_;                                  // without ends of files
+  std::map<std::string, GrowingFile> files_;      // by name
+  std::vector<TimeTable> tables_;                 // those with rows of each frame
+  std::vector<std::filesystem::path> unflushed_;  // files of frames that may not be on disk
+  RunRecord record_;                              // without ends of files
 };
 
 }  // namespace viscontact::particles

@@ -113,7 +113,8 @@ TEST_F(AgeingFilm, GivesWayWhenItsAgeSaysSo) {
 TEST_F(AgeingFilm, ShowsItsAgeInTheTableOfContacts) {
   expect_done(run(pressed_and_pulled("2.0", kAgeing), "pressed"));
   const auto text = content("pressed", "final_contacts.csv");
-  EXPECT_THAT(text, HasSubstr("\ni,j,gap,gamma,gamma_error,age\n0,-1,"));
+  EXPECT_THAT(text, HasSubstr("\ni,j,gap,gamma,gamma_error,normal_force,tangential_force_x,"
+                              "tangential_force_y,age\n0,-1,"));
   EXPECT_NEAR(std::stod(text.substr(text.rfind(',') + 1)), 2, kRounding);
 }
 
@@ -195,14 +196,16 @@ force = [0.0, -1.0]
   std::string line;
   while (std::getline(lines, line) && line.starts_with('#')) {
   }
-  EXPECT_EQ(line, "time,i,j,gap,gamma,age");
+  EXPECT_EQ(line, "time,i,j,gap,gamma,normal_force,tangential_force_x,tangential_force_y,age");
   double first_gamma = 0;
   int rows = 0;
   while (std::getline(lines, line)) {
     ++rows;
-    const auto of_age = line.rfind(','), of_gamma = line.rfind(',', of_age - 1);
-    const double age = std::stod(line.substr(of_age + 1));
-    const double gamma = std::stod(line.substr(of_gamma + 1));
+    std::istringstream fields(line);
+    std::vector<double> numbers;
+    for (std::string field; std::getline(fields, field, ',');) numbers.push_back(std::stod(field));
+    ASSERT_EQ(numbers.size(), 9U);
+    const double gamma = numbers[4], age = numbers[8];
     if (rows == 1) first_gamma = gamma;
     EXPECT_NEAR(age, 0.1 * rows, kRounding) << line;
     EXPECT_NEAR(gamma, std::max(first_gamma - (age - 0.1), kLowest / (1 + age / kAgeingTime)),

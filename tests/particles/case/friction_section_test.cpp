@@ -100,5 +100,18 @@ TEST_F(FrictionSection, TheSchemeIsEulerUnlessGiven) {
       HasSubstr("viscous_contact.scheme is 'verlet'; it must be \"euler\" or \"leapfrog\""));
 }
 
+/// The tables that [output] asks for, in a case of two discs.
+TEST_F(FrictionSection, TablesThatACaseCannotHaveAreRefused) {
+  EXPECT_THAT(read("", "[output]\ntables = [\"contacts\", \"motion\"]", "").tables,
+              ElementsAre("contacts", "motion"));
+  EXPECT_THAT(refused("", "[output]\ntables = [\"forces\"]", ""),
+              HasSubstr("case.toml:9: output.tables has 'forces'; the tables are motion, contacts, "
+                        "walls, stress"));
+  EXPECT_THAT(refused("", "[output]\ntables = [\"walls\"]", ""),
+              HasSubstr("case.toml:9: output.tables has 'walls', but the case has no walls"));
+  EXPECT_THAT(refused("", "[output]\ntables = [\"stress\"]", ""),
+              HasSubstr("case.toml:9: output.tables has 'stress', which needs the area"));
+}
+
 }  // namespace
 }  // namespace viscontact::particles

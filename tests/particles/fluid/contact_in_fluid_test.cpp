@@ -8,6 +8,7 @@
 #include "tests/particles/fluid/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/common/error.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/restart.hpp"
 
 namespace viscontact::particles {
@@ -119,6 +120,21 @@ TEST(ContactInFluid, StopsAtSolidContact) {
   EXPECT_NEAR(simulation.state().particles.positions[0], 1.1 + 7.0 / 100, 1e-12);
 }
 
+/// Files list a contact without a film, whose gamma is 0, as long as it holds.
+TEST(ContactInFluid, OfSolidsAtTheThresholdGapIsListed) {
+  auto system = sphere_on_floor(0, 0.1);
+  system.setting.laws.film.gamma_min = 0;
+  system.setting.forces[0] = {{{1, {-7, 0, 0}}, {1e9, {7, 0, 0}}}};
+  auto simulation = system.simulation(constant_drag(100));
+  run(simulation, 1);
+  const auto contacts = contacts_of(simulation.setting(), simulation.state());
+  ASSERT_EQ(contacts.size(), 1U);
+  EXPECT_EQ(contacts[0].gamma, 0);
+  EXPECT_NEAR(contacts[0].gap, 0.1, 1e-12);
+  run(simulation, 2);
+  EXPECT_TRUE(contacts_of(simulation.setting(), simulation.state()).empty());
+}
+
 TEST(ContactInFluid, WithoutThresholdGapTouches) {
   auto system = sphere_on_floor(0, 0.1, 0);
   system.state.particles.positions[0] = 1.02;
@@ -147,6 +163,7 @@ TEST(ContactInFluid, LeavesTheSideOfACylinderAlone) {
   add_pushed(system, {5, 0, 0}, 1, 0, {-10, 0, 0});
   auto simulation = system.simulation(constant_drag(100));
   const auto report = simulation.step(1e9);
+  EXPECT_TRUE(contacts_of(simulation.setting(), simulation.state()).empty());
   EXPECT_TRUE(report.converged);
   EXPECT_EQ(report.contacts, 0);
   EXPECT_NEAR(simulation.state().particles.positions[0], 4.99, 1e-14);

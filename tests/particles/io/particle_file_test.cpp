@@ -131,21 +131,30 @@ TEST_F(FluidParticleFile, IsRefusedWithTheLine) {
 TEST_F(FluidParticleFile, OfTheMotionHasARowForEachParticle) {
   auto p = discs_in_fluid();
   p.ids = {7, 3};
-  EXPECT_EQ(motion_header(2) + motion_rows(0.1, p),
+  EXPECT_EQ(motion_header(2, true) + motion_rows(0.1, p),
             "time,id,x,y,angle,vx,vy,angular_velocity\n"
             "0.1,7,1,2,0.7,-0.1,0.3333333333333333,2\n"
             "0.1,3,4,5,-1,0,0,0.14285714285714285\n");
   State state = no_particles(1);
   add_particle(state, {3, 0, 0}, 1, 0, {-0.5, 0, 0});
-  EXPECT_EQ(motion_header(1) + motion_rows(2, state.particles), "time,id,z,vz\n2,0,3,-0.5\n");
+  EXPECT_EQ(motion_header(1, false) + motion_rows(2, state.particles),
+            "time,id,z,vz\n2,0,3,-0.5\n");
 }
 
-TEST_F(FluidParticleFile, OfTheContactsNamesIdsAndWalls) {
-  auto p = discs_in_fluid();
-  p.ids = {7, 3};
-  const std::vector<CurrentContact> contacts = {{0, 1, 0.5, -2}, {-2, 1, 0.25, 0}};
-  EXPECT_EQ(contacts_header() + contact_rows(0.1, p, contacts),
-            "time,i,j,gap,gamma\n0.1,7,3,0.5,-2\n0.1,3,-2,0.25,0\n");
+TEST_F(FluidParticleFile, OfTheMotionHasTheColumnsThatParticlesHave) {
+  State state = no_particles(2);
+  add_particle(state, {1, 2, 0}, 1, 1, {-0.5, 3, 0});
+  EXPECT_EQ(motion_header(2, false) + motion_rows(2, state.particles),
+            "time,id,x,y,vx,vy\n2,0,1,2,-0.5,3\n");
+  state = no_particles(3);
+  add_particle(state, {1, 2, 3}, 1, 1, {4, 5, 6});
+  EXPECT_EQ(motion_header(3, false) + motion_rows(2, state.particles),
+            "time,id,x,y,z,vx,vy,vz\n2,0,1,2,3,4,5,6\n");
+  add_rotation(state.particles);
+  state.particles.angular_velocities = {7, 8, 9};
+  EXPECT_EQ(motion_header(3, true) + motion_rows(2, state.particles),
+            "time,id,x,y,z,vx,vy,vz,angular_velocity_x,angular_velocity_y,angular_velocity_z\n"
+            "2,0,1,2,3,4,5,6,7,8,9\n");
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST_F(ParticlesCommand, WritesWhatTheInterfacePromises) {
   EXPECT_THAT(content(out() / "final_contacts.csv"), HasSubstr("0,-1,"));
   // Glued since they fell: gravity and push have given the floor all that it remembers.
   EXPECT_THAT(content(out() / "final_contacts.csv"),
-              ::testing::ContainsRegex("2,-1,[^,]*,-2,[^,]*\n"));
+              ::testing::ContainsRegex("2,-1,[^,]*,-2,[^,]*,[^,]*,0,0\n"));
 }
 
 TEST_F(ParticlesCommand, FramesOfALongerRunDoNotStay) {

@@ -54,14 +54,14 @@ TEST_F(ParticlesCommand, VtkReadsTheFrames) {
       EXPECT_EQ(frame.at("points")[3 * k + d], end.position(k)[d]);
       EXPECT_EQ(frame.at("velocity")[3 * k + d], end.velocity(k)[d]);
     }
-  // Vertices of the three on the floor, then the line between those that touch; as in
-  // final_contacts.csv.
+  // Vertices of the three on the floor, then the lines between those that came off in the last
+  // step, and between those that touch; as in final_contacts.csv.
   EXPECT_EQ(frame.at("vtkVertex"), (std::vector<double>{0, 1, 2}));
-  EXPECT_EQ(frame.at("vtkLine"), (std::vector<double>{0, 2}));
-  EXPECT_EQ(frame.at("i"), (std::vector<double>{0, 1, 2, 0}));
-  EXPECT_EQ(frame.at("j"), (std::vector<double>{-1, -1, -1, 2}));
-  EXPECT_EQ(frame.at("gamma").size(), 4U);
-  EXPECT_EQ(frame.at("gap").size(), 4U);
+  EXPECT_EQ(frame.at("vtkLine"), (std::vector<double>{0, 1, 0, 2}));
+  EXPECT_EQ(frame.at("i"), (std::vector<double>{0, 1, 2, 0, 0}));
+  EXPECT_EQ(frame.at("j"), (std::vector<double>{-1, -1, -1, 1, 2}));
+  EXPECT_EQ(frame.at("gamma").size(), 5U);
+  EXPECT_EQ(frame.at("gap").size(), 5U);
   const auto series = read_file(out() / "particles.pvd");
   EXPECT_THAT(series, AllOf(HasSubstr("timestep=\"0\""), HasSubstr("timestep=\"10\""),
                             HasSubstr("file=\"particles_00020.vtp\"")));

@@ -1,0 +1,171 @@
+// Writes contacts and their forces as CSV tables (docs/file-formats.md), in the units of the case.
+// Nothing is thrown. A change must keep the names and the order of the columns.
+#include "viscontact/particles/io/contact_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <numbers>
+
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/io/particle_file.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+/// The names of the axes: z alone on an axis.
+std::string_view axes_of(int dimension) {
+  return dimension == 1 ? "z"
+                        : std::string_view("xyz").substr(0, static_cast<std::size_t>(dimension));
+}
+
+/// `begin` with each axis, each after a comma: ",force_x,force_y".
+std::string components(std::string_view begin, int dimension) {
+  std::string text;
+  for (const char axis : axes_of(dimension)) text += fmt::format(",{}{}", begin, axis);
+  return text;
+}
+
+/// Adds the components of a vector, each after a comma.
+void add(std::string& text, const Vector& x, int dimension) {
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+    (text += ',') += format_number(x[d]);
+}
+
+/// The columns after gamma and its error.
+std::string force_columns(int dimension) {
+  auto text = ",normal_force" + (dimension == 1 ? "" : components("tangential_force_", dimension));
+  for (const auto& field : kMemoryFields)
+    if (field.is_shown) (text += ',') += field.name;
+  return text;
+}
+
+void add_forces(std::string& text, const CurrentContact& contact, int dimension) {
+  (text += ',') += format_number(contact.normal_force);
+  if (dimension > 1) add(text, contact.tangential_force, dimension);
+  for (const double number : contact.shown) (text += ',') += format_number(number);
+  text += '\n';
+}
+
+/// The rows of contacts.csv.
+std::string contact_rows(const Setting& setting, const State& state, std::span<const double>) {
+  std::string text;
+  for (const auto& contact : contacts_of(setting, state)) {
+    const auto [i, j] = ids_of(state.particles, contact);
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}", format_number(state.time), i, j,
+                   format_number(contact.gap), format_number(contact.gamma));
+    add_forces(text, contact, state.particles.dimension);
+  }
+  return text;
+}
+
+/// The force of a contact on its second particle [M L/T^2].
+Vector force_of(const CurrentContact& contact) {
+  return contact.normal_force * contact.normal + contact.tangential_force;
+}
+
+/// The rows of walls.csv.
+std::string wall_rows(const Setting& setting, const State& state, std::span<const double>) {
+  std::vector<Vector> forces(obstacles_of(setting).size());
+  for (const auto& contact : contacts_of(setting, state))
+    if (contact.first < 0) {
+      auto& force = forces[static_cast<std::size_t>(-1 - contact.first)];
+      force = force - force_of(contact);
+    }
+  std::string text;
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    text += fmt::format("{},{}", format_number(state.time), -1 - static_cast<int>(k));
+    add(text, forces[k], state.particles.dimension);
+    text += '\n';
+  }
+  return text;
+}
+
+/// Area or volume of a domain [L^2, L^3].
+double measure_of(const Domain& domain) {
+  using std::numbers::pi;
+  if (const auto* disc = std::get_if<DiscDomain>(&domain)) return pi * disc->radius * disc->radius;
+  if (const auto* box = std::get_if<BoxDomain>(&domain))
+    return (box->to[0] - box->from[0]) * (box->to[1] - box->from[1]);
+  const auto* cylinder = std::get_if<CylinderDomain>(&domain);
+  return cylinder == nullptr ? 0 : pi * cylinder->radius * cylinder->radius * cylinder->height;
+}
+
+/// The vector from the first particle of a contact, or from the obstacle, to the second one [L].
+Vector branch_of(const Particles& p, const CurrentContact& contact) {
+  double length = contact.gap + p.radii[index_of(contact.second)];
+  if (contact.first >= 0) length += p.radii[index_of(contact.first)];
+  return length * contact.normal;
+}
+
+/// The row of stress.csv, docs/physics.md (5.16).
+std::string stress_row(const Setting& setting, const State& state, std::span<const double>) {
+  const auto n = static_cast<std::size_t>(state.particles.dimension);
+  std::array<double, 9> sums{};
+  for (const auto& contact : contacts_of(setting, state)) {
+    const Vector force = force_of(contact), branch = branch_of(state.particles, contact);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) sums[i * n + j] -= force[i] * branch[j];
+  }
+  auto text = format_number(state.time);
+  const double measure = measure_of(setting.domain);
+  for (std::size_t i = 0; i < n * n; ++i) (text += ',') += format_number(sums[i] / measure);
+  return text + "\n";
+}
+
+std::string motion_table_rows(const Setting&, const State& state, std::span<const double>) {
+  return motion_rows(state.time, state.particles);
+}
+
+}  // namespace
+
+std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts) {
+  auto text = fmt::format("# rows: {}\ni,j,gap,gamma,gamma_error{}\n", contacts.size(),
+                          force_columns(particles.dimension));
+  for (const auto& contact : contacts) {
+    const auto [i, j] = ids_of(particles, contact);
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}", i, j, format_number(contact.gap),
+                   format_number(contact.gamma), format_number(contact.gamma_error));
+    add_forces(text, contact, particles.dimension);
+  }
+  return text;
+}
+
+std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds) {
+  std::string text;
+  for (const auto& rebound : rebounds) {
+    CurrentContact contact{};
+    contact.first = rebound.first;
+    contact.second = rebound.second;
+    const auto [first, second] = ids_of(particles, contact);
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", format_number(rebound.time),
+                   first, second, format_number(rebound.approach_velocity),
+                   format_number(rebound.solid_impulse), format_number(rebound.velocity));
+  }
+  return text;
+}
+
+std::vector<TimeTable> asked_tables(const Setting& setting, const Particles& particles,
+                                    std::span<const std::string> names) {
+  const int dimension = particles.dimension;
+  const bool turn = particles.turn() || setting.fluid;  // all discs in a fluid turn
+  std::string stress;
+  for (const char i : axes_of(dimension))
+    for (const char j : axes_of(dimension)) stress += fmt::format(",stress_{}{}", i, j);
+  const std::array tables = {
+      TimeTable{"motion.csv", motion_header(dimension, turn), motion_table_rows},
+      TimeTable{"contacts.csv", "time,i,j,gap,gamma" + force_columns(dimension) + "\n",
+                contact_rows},
+      TimeTable{"walls.csv", "time,wall" + components("force_", dimension) + "\n", wall_rows},
+      TimeTable{"stress.csv", "time" + stress + "\n", stress_row}};
+  std::vector<TimeTable> asked;
+  for (std::size_t k = 0; k < tables.size(); ++k)
+    if ((setting.fluid && k < 2) || std::ranges::find(names, kAskedTables[k]) != names.end())
+      asked.push_back(tables[k]);
+  return asked;
+}
+
+}  // namespace viscontact::particles
