@@ -35,8 +35,8 @@ TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
   std::vector<std::string> expected = {"case.toml",       "table.csv",   "fit.json",
                                        "comparison.json", "report.html", "uncertainty.json",
                                        "trajectories",    "plots"};
-  for (const auto* plot :
-       {"thinnest_film", "gap", "gap_logarithmic", "external_force", "gamma", "fit", "uncertainty"})
+  for (const auto* plot : {"thinnest_film", "gap", "gap_logarithmic", "external_force",
+                           "lubrication_force", "gamma", "fit", "uncertainty"})
     expected.push_back(fmt::format("plots/{}.svg", plot));
   for (const auto& model : reduced_model::default_models())
     expected.push_back("trajectories/" + std::string(model.name) + ".csv");
