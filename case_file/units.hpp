@@ -10,7 +10,9 @@ namespace viscontact::case_file {
 /// The words for the units of length, time and mass, such as "m", "s" and "kg"; all empty if the
 /// case does not say them.
 struct Units {
-  std::string length, time, mass;
+  std::string length,  ///< such as "m"
+      time,            ///< such as "s"
+      mass;            ///< such as "kg"
 
   /// True if the case says its units.
   bool are_said() const { return !length.empty(); }

@@ -1,5 +1,6 @@
-// The outline of a particle in the plane: a circle, an ellipse, or a plate with round ends. Lengths are in the unit of the
-// case, angles in radians, counter-clockwise. Checks of a case, the fluid and its meshes use it.
+// The outline of a particle in the plane: a circle, an ellipse, or a plate with round ends. Lengths
+// are in the unit of the case, angles in radians, counter-clockwise. Checks of a case, the fluid and
+// its meshes use it.
 // Nothing is checked or thrown. A change must keep a circle exact.
 #pragma once
 
@@ -45,8 +46,9 @@ struct Outline {
 
 /// The points of the spines of two outlines, circles or plates, that are nearest to each other.
 struct SpinePoints {
-  std::array<double, 2> first{}, second{};  ///< [L]
-  bool cross = false;                       ///< whether the spines cross each other
+  std::array<double, 2> first{},  ///< on the first spine [L]
+      second{};                   ///< on the second spine [L]
+  bool cross = false;             ///< whether the spines cross each other
 };
 /// Of several such pairs it is the first one in the order of the ends.
 SpinePoints nearest_on_spines(const Outline& first, const Outline& second);

@@ -21,7 +21,7 @@ using NodesOfMembranes = std::vector<Eigen::MatrixXd>;
 
 /// The curves inside the domain.
 struct InnerCurves {
-  NodesOfMembranes membranes{};
+  NodesOfMembranes membranes{};             ///< of all membranes [L]
   std::vector<particles::Outline> discs{};  ///< rigid discs, holes of the mesh
   int edges = 24;                           ///< on each membrane
   int edges_of_disc = 24;                   ///< on each disc, more where a gap is narrow

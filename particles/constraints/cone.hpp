@@ -183,6 +183,7 @@ struct LinearCones {
       inverse[1][1] = 2 / (square_[0] + square_[1] + 2 * shift);
       return inverse;
     }
+    /// The function of ConeScaling.
     double square_along(const ConePoint& x) const { return (square_[0] - square_[1]) / 2 * x[1]; }
 
    private:
