@@ -34,8 +34,8 @@ struct CurrentContact {
   Vector tangential_force{};  ///< mean friction on `second` in the last step, in the same unit
   // Not in frames:
   Vector normal{};  ///< unit normal from `first` to `second`
-  /// Vector to the centre of `second` from that of `first`, or from the nearest point of an obstacle
-  /// [L].
+  /// Vector to the centre of `second` from that of `first`, or from the nearest point of an
+  /// obstacle [L].
   Vector branch{};
   /// What laws remember of the pair and files show. It takes no room if there is nothing to show.
   [[no_unique_address]] ShownMemory shown{};

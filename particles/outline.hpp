@@ -1,7 +1,6 @@
 // The outline of a particle in the plane: a circle, an ellipse, or a plate with round ends. Lengths
-// are in the unit of the case, angles in radians, counter-clockwise. Checks of a case, the fluid and
-// its meshes use it.
-// Nothing is checked or thrown. A change must keep a circle exact.
+// are in the unit of the case, angles in radians, counter-clockwise. Checks of a case, the fluid
+// and its meshes use it. Nothing is checked or thrown. A change must keep a circle exact.
 #pragma once
 
 #include <array>
@@ -38,7 +37,8 @@ struct Outline {
   double curvature_radius_at(double t) const;
   /// The radius of a circle, or that of the round ends of a plate [L].
   double end_radius() const { return is_plate ? semi_axes[1] : radius; }
-  /// The ends of the spine of a plate, the first one along `angle`; of a circle both are its centre.
+  /// The ends of the spine of a plate, the first one along `angle`; of a circle both are its
+  /// centre.
   std::array<std::array<double, 2>, 2> spine() const;
   /// Length of the outline [L] of a circle or plate.
   double length() const;

@@ -27,8 +27,8 @@ struct Pair {
   /// all impulses that gamma is the sum of. It is 0 where gamma is at one of its bounds, because
   /// these values are known.
   double gamma_error = 0;
-  /// The image of `second` that meets `first` (periods.hpp); two may touch it, and are two pairs. At
-  /// an obstacle it is 0, or the end of a plate that meets it, 0 or 1.
+  /// The image of `second` that meets `first` (periods.hpp); two may touch it, and are two pairs.
+  /// At an obstacle it is 0, or the end of a plate that meets it, 0 or 1.
   std::int32_t image = 0;
   /// Number of what else the laws remember of the pair, in State::memories.
   std::int32_t memory = PairMemories::kNone;

@@ -30,8 +30,8 @@ Domain read_domain(const case_file::TomlSection& section, int dimension);
 /// the same on both sides of a period, an entry for a side that is periodic, a net flux through
 /// walls without an open side, and any velocity of the walls of a cylinder.
 Fluid read_fluid(const case_file::TomlSection& section, const Domain& domain);
-/// Reads [[probe]] into `fluid`. Also throws for a line that does not go from wall to wall of a box,
-/// and in a case without FreeFEM or with membranes.
+/// Reads [[probe]] into `fluid`. Also throws for a line that does not go from wall to wall of a
+/// box, and in a case without FreeFEM or with membranes.
 void read_probes(const case_file::TomlSection& root, const Domain& domain,
                  std::optional<Fluid>& fluid);
 /// Describes these sections.

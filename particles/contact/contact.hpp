@@ -41,8 +41,8 @@ struct Contact {
   /// Change of the gap per impulse of this contact [T/M]: without a fluid h (1/m_i + 1/m_j), with
   /// the length h of the step and the masses of both particles.
   double w = 0;
-  /// Change of the gap per turn of the first and of the second particle, counter-clockwise [L]. In a
-  /// fluid only, where outlines are no circles and at the stops of hinges; otherwise 0.
+  /// Change of the gap per turn of the first and of the second particle, counter-clockwise [L]. In
+  /// a fluid only, where outlines are no circles and at the stops of hinges; otherwise 0.
   std::array<double, 2> levers{};
 
   /// True if it is the stop of a hinge, of which only the lever of `second` changes the gap.

@@ -79,8 +79,8 @@ double cross(const std::array<double, 2>& arm, const std::array<double, 2>& forc
 }
 
 /// Contact of a pair of which one is a plate, the other a plate, a disc or an obstacle: that of the
-/// discs about the nearest points of their spines. At an obstacle each end of the plate has a contact
-/// of its own, with the number Pair::image.
+/// discs about the nearest points of their spines. At an obstacle each end of the plate has a
+/// contact of its own, with the number Pair::image.
 Contact<2> contact_of_plates(const Fluid& fluid, const Particles& p, const Pair& pair,
                              std::span<const PlanePosition> obstacles) {
   const auto j = index_of(pair.second);

@@ -185,20 +185,21 @@ double reach_of(const State& state, const Fluid& fluid, std::span<const double> 
 PairRadii radii_in_fluid(const Fluid& fluid, const Pair& pair, const Particles& particles,
                          std::span<const Plane> obstacles);
 
-/// The stops of hinges as contacts: with the radius of the particle that a hinge holds as its lever,
-/// the gap of a stop is a length, as those of other contacts.
+/// The stops of hinges as contacts: with the radius of the particle that a hinge holds as its
+/// lever, the gap of a stop is a length, as those of other contacts.
 std::vector<Contact<2>> contacts_of_stops(const Links& links, const Particles& particles);
 
-/// Adds the torques of the stops, of which `contacts` ends with the contacts, to State::link_forces.
-/// `h` is the length of the step [T].
+/// Adds the torques of the stops, of which `contacts` ends with the contacts, to
+/// State::link_forces. `h` is the length of the step [T].
 void add_torques_of_stops(const Links& links, const Particles& particles,
                           std::span<const Contact<2>> contacts, double h,
                           std::span<double> link_forces);
 
 /// Finds the impulses of all contacts, such that no gap closes that was not among the contacts
-/// either. `state` is that before the step, `obstacles` are positions at the end of the step. Plates
-/// that turn by finite angles keep their gaps, but for a quarter of the tolerance. Pairs for which `is_left_out` is true are no contacts, because no
-/// contact force changes their distance. Throws what `mobility` throws.
+/// either. `state` is that before the step, `obstacles` are positions at the end of the step.
+/// Plates that turn by finite angles keep their gaps, but for a quarter of the tolerance. Pairs for
+/// which `is_left_out` is true are no contacts, because no contact force changes their distance.
+/// Throws what `mobility` throws.
 StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links& links,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,

@@ -46,8 +46,8 @@ class HeldMotion {
   /// until bodies are rigid, hinges and arms hold at that time, and the springs for which
   /// `is_stiff` is set, one number for each row, have the mean rate of the step. The change is that
   /// by forces along the rows as they are then, with the mobility `mobility` of each component
-  /// [T/M, 1/(M L^2) T]. Returns these forces [M L/T^2, M L^2/T^2], which are 0 in the rows of which
-  /// no unit accelerates.
+  /// [T/M, 1/(M L^2) T]. Returns these forces [M L/T^2, M L^2/T^2], which are 0 in the rows of
+  /// which no unit accelerates.
   std::vector<double> hold_at_end(std::span<const double> velocities,
                                   std::span<const double> mobility,
                                   const std::vector<char>& is_stiff,
