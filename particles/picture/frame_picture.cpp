@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "viscontact/particles/outline.hpp"
+
 namespace viscontact::particles {
 namespace {
 
@@ -338,11 +340,29 @@ struct ContactLine {
   std::string path;
 };
 
+/// Moves the ends of the line between two particles of which one is a plate to the nearest points
+/// of their spines.
+void move_to_spines(const Playback& playback, const Frame& frame, std::size_t first,
+                    std::size_t second, Vector& from, Vector& to) {
+  const auto outline = [&](std::size_t k, const Vector& centre) {
+    const auto [a, b] = playback.semi_axes[k];
+    return Outline{{centre[0], centre[1]},
+                   playback.radii[k],
+                   {a, b},
+                   frame.angles[k],
+                   playback.plates[k] != 0};
+  };
+  const auto near = nearest_on_spines(outline(first, from), outline(second, to));
+  from = {near.first[0], near.first[1], 0};
+  to = {near.second[0], near.second[1], 0};
+}
+
 ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentContact& contact) {
   const auto second = static_cast<std::size_t>(contact.second);
-  const Vector to = position(d.scene.playback, frame, second);
+  Vector to = position(d.scene.playback, frame, second);
   double radius = d.scene.playback.radii[second];
   Vector from{};
+  const Vector shift = shift_of(d.scene.playback.cell, contact.image);
   if (contact.first < 0) {
     const auto plane =
         tangent_at(frame.planes.at(static_cast<std::size_t>(-1 - contact.first)), to);
@@ -351,6 +371,12 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentCon
     const auto first = static_cast<std::size_t>(contact.first);
     from = position(d.scene.playback, frame, first);
     radius = std::min(radius, static_cast<double>(d.scene.playback.radii[first]));
+    if (const auto& playback = d.scene.playback; !playback.plates.empty()) {
+      to = to + shift;
+      move_to_spines(playback, frame, first, second, from, to);
+      to = to - shift;
+      radius = std::min(radius, playback.semi_axes[second][1]);
+    }
   }
   ContactLine line;
   line.colour = contact.friction == ContactFriction::kSlides
@@ -359,7 +385,6 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentCon
   line.width = line.colour == 0 ? std::clamp(0.06 * d.view.scale * radius, 0.3, 1.0)
                                 : std::clamp(0.3 * d.view.scale * radius, 0.8, 5.0);
   // The line to an image is drawn at both sides of the period.
-  const Vector shift = shift_of(d.scene.playback.cell, contact.image);
   line.path = path_of({from, to + shift}, d.view);
   if (contact.image != 0) line.path += path_of({from - shift, to}, d.view);
   return line;

@@ -291,7 +291,36 @@ function colourOf(i) {
   return level === 0 ? 0 : 1 + Math.round(level / 255 * (motion.colours.length - 1));
 }
 
-/** The line of a contact, from a centre to the other centre or to the foot on the plane. */
+/** The ends on the page of the line in the middle of a plate; twice the centre of another disc. */
+function spineOf(k) {
+  const half = plates[k] ? pageRadius[k] / radii[k] * (semiAxes[2 * k] - semiAxes[2 * k + 1]) : 0;
+  const x = half * Math.cos(angles[k]), y = -half * Math.sin(angles[k]);
+  return [[pageX[k] + x, pageY[k] + y], [pageX[k] - x, pageY[k] - y]];
+}
+
+/** The point of the line from a to b that is nearest to x. */
+function nearestOnLine([a, b], x) {
+  const along = [b[0] - a[0], b[1] - a[1]], square = along[0] ** 2 + along[1] ** 2;
+  const share = square ? ((x[0] - a[0]) * along[0] + (x[1] - a[1]) * along[1]) / square : 0;
+  const at = Math.min(1, Math.max(0, share));
+  return [a[0] + at * along[0], a[1] + at * along[1]];
+}
+
+/** Traces the line between the nearest points in the middle of two plates or discs. */
+function traceBetweenSpines(first, second) {
+  const one = spineOf(first), other = spineOf(second);
+  const lines = [...one.map(x => [x, nearestOnLine(other, x)]),
+                 ...other.map(x => [nearestOnLine(one, x), x])];
+  const length = ([a, b]) => Math.hypot(a[0] - b[0], a[1] - b[1]);
+  const [from, to] = lines.reduce((best, line) => (length(line) < length(best) ? line : best));
+  pen.moveTo(...from);
+  pen.lineTo(...to);
+}
+
+/**
+ * The line of a contact, from a centre to the other centre or to the foot on the plane, and with
+ * plates between the nearest points in their middle.
+ */
 function traceContact(i) {
   const image = images ? images[lines.pair[i]] : 0;
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
@@ -310,6 +339,9 @@ function traceContact(i) {
     pen.moveTo(pageX[first], pageY[first]);
     pen.lineTo(pageX[second] + x, pageY[second] + y);
     pen.moveTo(pageX[first] - x, pageY[first] - y);
+  } else if (plates) {
+    traceBetweenSpines(first, second);
+    return;
   } else {
     pen.moveTo(pageX[first], pageY[first]);
   }
