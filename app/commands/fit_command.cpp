@@ -5,6 +5,7 @@
 // which a file of another kind is recognised; they must agree with the writers.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -26,6 +27,17 @@
 
 namespace viscontact::app {
 namespace {
+
+/// Accepts finite numbers > 0. The check of CLI11 accepts what is not a number.
+CLI::Validator positive_number() {
+  return {[](const std::string& text) {
+            const auto number = parse_number(text);
+            return number && std::isfinite(*number) && *number > 0
+                       ? std::string()
+                       : fmt::format("'{}' is not a finite number > 0", text);
+          },
+          "", "positive number"};
+}
 
 /// Reads the value of --fix, which fixes the coefficient of 1/q in the force at the table's first
 /// velocity [M L^2/T^2]. No value, "1/q" or "theory" fixes it at the value that lubrication theory
@@ -235,10 +247,10 @@ void add_export(CLI::App& app) {
       ->check(one_of({"stokes_limit"}));
   add_value(*command, "--radius", o->radius, "NUMBER",
             "radius to which the fit is scaled; default: that of the fit")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   add_value(*command, "--viscosity", o->viscosity, "NUMBER",
             "viscosity to which the fit is scaled; default: that of the fit")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command->callback([o, output] {
     if (output->count() > 0) {
       check_outputs({o->output});

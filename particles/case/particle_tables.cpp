@@ -446,6 +446,8 @@ std::int32_t ParticleIds::number(const case_file::TomlSection& section, std::str
                                  double id, std::string_view verb) const {
   const bool whole = id == std::floor(id) && id <= std::numeric_limits<std::int32_t>::max();
   const auto found = whole ? places_.find(static_cast<std::int32_t>(id)) : places_.end();
+  section.require(case_.particles.count() > 0, key, "{} {}, but the case has no particles", verb,
+                  id);
   if (found == places_.end() && case_.particles.ids.empty())
     section.fail(key, fmt::format("{} {}, which is not the number of a particle; the particles are "
                                   "numbered from 0 to {}",

@@ -1,12 +1,15 @@
 // Lists pairs that are close to contact, chooses the contacts of a step among them and measures
-// their residuals. Numbers are in the units of the case. Errors are those of the mobility. A change
-// must keep the order of pairs, which files have.
+// their residuals. Numbers are in the units of the case. Errors are those of the mobility, and that
+// of plates that lie on each other. A change must keep the order of pairs, which files have.
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
+
+#include <fmt/format.h>
 
 #include <iterator>
 #include <limits>
 #include <tuple>
 
+#include "viscontact/common/error.hpp"
 #include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 #include "viscontact/particles/outline.hpp"
@@ -200,6 +203,32 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
   return true;
 }
 
+/// Throws Error(kNotConverged) if two plates are closer after the step than the tolerance allows.
+/// They have one contact, which cannot keep both ends apart of plates that lie on each other.
+void check_plates_apart(const StepContacts& step, const Particles& p, const Fluid& fluid,
+                        const ContactConditions& conditions) {
+  if (fluid.plates.empty()) return;
+  const auto after = moved(p, step.velocities, conditions.h, conditions.layout);
+  const double allowed = 2 * conditions.solver.tolerance * conditions.mean_radius;
+  const auto gap_at = [&](const Particles& at, const Pair& pair) {
+    return gap(
+        outline_of(fluid, at, at.angles, index_of(pair.first)),
+        outline_of(fluid, at, at.angles, index_of(pair.second), shift_of(at.cell, pair.image)));
+  };
+  for (const auto& pair : step.pairs) {
+    if (!fluid.is_plate(index_of(pair.first)) || !fluid.is_plate(index_of(pair.second))) continue;
+    const double least = std::min(fluid.threshold_gap, gap_at(p, pair)) - allowed;
+    if (const double left = gap_at(after, pair); left < least)
+      throw Error(
+          ErrorKind::kNotConverged,
+          fmt::format("the plates {} and {} would have a gap of {:.3g} after the step, less "
+                      "than fluid.threshold_gap, {:.3g}: plates make contact at one place, "
+                      "which cannot keep both ends apart of plates that lie on each other",
+                      p.id(index_of(pair.first)), p.id(index_of(pair.second)), left,
+                      fluid.threshold_gap));
+  }
+}
+
 }  // namespace
 
 PairRadii radii_in_fluid(const Fluid& fluid, const Pair& pair, const Particles& particles,
@@ -306,7 +335,10 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
     }
     step.reach = reach;
     const double needed = reach_of(state, fluid, step.velocities, conditions);
-    if (needed <= reach) return step;
+    if (needed <= reach) {
+      check_plates_apart(step, p, fluid, conditions);
+      return step;
+    }
     iterations = step.iterations;
     reach = 2 * needed;
   }

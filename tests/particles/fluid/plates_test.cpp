@@ -8,6 +8,7 @@
 
 #include "tests/particles/fluid/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/common/error.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/outline.hpp"
 
@@ -227,6 +228,30 @@ TEST_P(Plates, ReboundOnAHingeAndRestOnAStop) {
   EXPECT_NEAR(after(-10), 0.5, 5e-3);
   const double l = kHalf - kEnd;
   EXPECT_NEAR(after(-std::asin(1 / (2 * l)) + 0.1), 0, 1e-6);
+}
+
+// Plates that are pressed on each other flat have one contact, which cannot keep both ends apart. Steps
+// keep the gap until one cannot, which is an error that leaves the state.
+TEST_P(Plates, ThatLieOnEachOtherAreAnError) {
+  for (const double tilt : {0.0, 0.01}) {
+    auto system = with_plates(0.01, GetParam());
+    add_plate(system, {10, 10, 0}, 0, 1);
+    add_plate(system, {10.1, 10 + kGap + 2 * kEnd + 0.02, 0}, tilt, 1);
+    system.setting.forces[0] = constant({0, 20, 0});
+    system.setting.forces[1] = constant({0, -20, 0});
+    system.setting.laws.film.gamma_min = 0;
+    auto simulation = system.simulation(constant_drag(0.1));
+    std::string message;
+    for (int n = 0; n < 300 && message.empty(); ++n) {
+      try {
+        simulation.step(1e9);
+      } catch (const Error& error) {
+        message = error.what();
+      }
+      EXPECT_GE(gap_of(system, simulation, 0, 1), kGap - 1e-5);
+    }
+    EXPECT_NE(message.find("plates make contact at one place"), std::string::npos) << tilt;
+  }
 }
 
 }  // namespace
