@@ -411,7 +411,7 @@ TEST(RefusedFluidTest, RestitutionWithoutMassOrWithBodiesLinksOrSplitting) {
                     "viscous_contact.restitution");
   const auto heavy = changed(with(""), "radius = 1.0", "radius = 1.0\nmass = 1.0");
   EXPECT_EQ(read_particles_text(heavy).setting.laws.restitution.coefficient, 0.9);
-  EXPECT_EQ(read_particles_text(heavy + "[[hinge]]\nparticle = 1\nat = [-4.0, 0.0]\n")
+  EXPECT_EQ(read_particles_text(heavy + "[[hinge]]\nparticle = 1\nat = [3.0, 0.0]\n")
                 .setting.laws.restitution.coefficient,
             0.9);
   const auto split = changed(heavy, "viscosity = 2.0", "viscosity = 2.0\ncoupling = \"splitting\"");
