@@ -156,10 +156,11 @@ int main(void) {{
   }
 }
 
-TEST_F(Export, FortranModuleCompilesWithoutAWarningAndHasTheValues) {
-  put_text(path("force.f90"), export_fit(fit_, "fortran"));
+/// Fortran statements that print the values of the module at gaps in an interval.
+template <class Interval>
+std::string fortran_calls(const Interval& interval) {
   std::string calls;
-  for (const double gap : lubrication::spread_gaps(fit_.gap_interval)) {
+  for (const double gap : lubrication::spread_gaps(interval)) {
     std::string text = fmt::format("{:.17e}", gap);
     std::ranges::replace(text, 'e', 'd');
     calls += fmt::format(
@@ -167,10 +168,15 @@ TEST_F(Export, FortranModuleCompilesWithoutAWarningAndHasTheValues) {
         "    viscontact_impulse({0})\n",
         text, kVelocity);
   }
+  return calls;
+}
+
+TEST_F(Export, FortranModuleCompilesWithoutAWarningAndHasTheValues) {
+  put_text(path("force.f90"), export_fit(fit_, "fortran"));
   put_text(path("main.f90"),
            "program main\n  use viscontact_lubrication\n  use, intrinsic :: ieee_arithmetic\n"
            "  implicit none\n" +
-               calls +
+               fortran_calls(fit_.gap_interval) +
                "  if (.not. ieee_is_nan(viscontact_resistance(9d-4))) stop 1\n"
                "  if (.not. ieee_is_nan(viscontact_impulse(2.1d0))) stop 1\nend program\n");
   output_of({"gfortran", "-std=f2008", "-Wall", "-Wextra", "-pedantic", "-Werror", "-O2", "-J",
@@ -271,19 +277,10 @@ int main(void) {{
 
 TEST_F(Export, FortranModuleHasTheLimitsOutsideTheInterval) {
   put_text(path("force.f90"), export_fit(fit_, "fortran", "", both_limits()));
-  std::string calls;
-  for (const double gap : lubrication::spread_gaps(wide(fit_))) {
-    std::string text = fmt::format("{:.17e}", gap);
-    std::ranges::replace(text, 'e', 'd');
-    calls += fmt::format(
-        "  print '(3es25.16e3)', viscontact_resistance({0}), viscontact_force({0}, {1}d0), &\n"
-        "    viscontact_impulse({0})\n",
-        text, kVelocity);
-  }
   put_text(path("main.f90"),
            "program main\n  use viscontact_lubrication\n  use, intrinsic :: ieee_arithmetic\n"
            "  implicit none\n" +
-               calls +
+               fortran_calls(wide(fit_)) +
                "  if (.not. ieee_is_nan(viscontact_resistance(0d0))) stop 1\nend program\n");
   output_of({"gfortran", "-std=f2008", "-Wall", "-Wextra", "-pedantic", "-Werror", "-J",
              folder_.path().string(), path("force.f90"), path("main.f90"), "-o", path("program")});
