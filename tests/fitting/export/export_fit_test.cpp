@@ -230,9 +230,6 @@ for bad in ([0.5, -1.0], [0.0, 0.5], [0.5, float("nan")], [float("inf")]):
 }
 
 TEST_F(Export, OctaveFunctionsHaveTheValuesAndAreNanOutside) {
-  // scripts/setup does not install it.
-  if (run_process({"sh", "-c", "command -v octave-cli"}).exit_status != 0)
-    GTEST_SKIP() << "octave-cli is not installed";
   put_text(path("viscontact_lubrication.m"), export_fit(fit_, "matlab"));
   put_text(path("main.m"), fmt::format(R"(
 f = viscontact_lubrication();

@@ -99,8 +99,6 @@ TEST_F(ExportOfAPair, PythonAndOctaveTakeArrays) {
                "               pair.slide_roll(gaps), pair.spin(gaps)):\n"
                "    print(*(repr(float(value)) for value in row))\n");
   expect_values({"/usr/bin/python3", path("main.py")});  // Debian's, which has NumPy
-  if (run_process({"sh", "-c", "command -v octave-cli"}).exit_status != 0)
-    GTEST_SKIP() << "octave-cli is not installed, nor does scripts/setup install it";
   put_text(path("viscontact_pair.m"), export_pair(fit_, "matlab", "plane.json"));
   put_text(path("main.m"),
            "f = viscontact_pair();\ngaps = " + gaps +
