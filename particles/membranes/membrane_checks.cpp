@@ -155,6 +155,13 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
   const auto own = corners_of(membrane, p);
   const auto count = membrane.beads.size();
   section.require(!crosses_itself(own), shape, "makes a membrane that crosses itself");
+  // The sides of a flat membrane lie on each other, and no motion changes its area.
+  constexpr double kLeastReducedArea = 1e-3;
+  const double reduced_area =
+      4 * std::numbers::pi * membrane.area / (membrane.perimeter * membrane.perimeter);
+  section.require(reduced_area >= kLeastReducedArea, shape,
+                  "makes a flat membrane, with the reduced area {:.3g}; it must be at least {}",
+                  reduced_area, kLeastReducedArea);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = i + 2; j < count; ++j) {
       const auto a = index_of(membrane.beads[i]), b = index_of(membrane.beads[j]);

@@ -203,6 +203,14 @@ TEST_F(MembraneSection, TakesGivenParticles) {
   const auto shuffled = dry(ring(6, {0, 3, 4, 1, 2, 5}, "radius = 0.5\nmass = 1.0") + of_six);
   EXPECT_THAT(bad_input([&] { read(shuffled); }),
               HasSubstr("membrane[0].particles makes a membrane that crosses itself"));
+  std::string flat;
+  for (int k = 0; k < 4; ++k)
+    flat += fmt::format("[[particle]]\ncentre = [{}.0, 0.0]\nradius = 0.1\nmass = 1.0\n", k);
+  EXPECT_THAT(bad_input([&] {
+                read(dry(flat + "[[membrane]]\nparticles = [0, 1, 2, 3]\n"
+                                "bending_rigidity = 0.0\n"));
+              }),
+              HasSubstr("membrane[0].particles makes a flat membrane, with the reduced area 0"));
   for (const auto& [wrong, said] :
        {std::pair("[0, 1, 2]", "has 3 beads; a membrane without a fluid must have at least 4"),
         {"[0, 1, 2, 3, 0]", "contains particle 0 a second time"},
