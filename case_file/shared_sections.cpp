@@ -262,6 +262,9 @@ void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool
                                       "line {}; only one of the two may be given",
                                       keys.section().line("density")));
   }
+  keys.require(!needs_mass || given || keys.has("mass"), "mass",
+               "is missing; it must be a number {}, or the sphere must have a density",
+               kPositive.words);
   keys.required_if(
       needs_mass && !given, "mass", number(mass, kPositive),
       {"mass m of the sphere", "required with a section `[motion]`, or `density`", {}, "20.0"});
