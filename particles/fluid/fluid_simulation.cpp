@@ -377,7 +377,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     auto row_forces = held_->row_forces();
     if (!equation.link_times().empty()) add(further_row_forces, row_forces);
     of_step = motion.link_forces = held->link_forces(row_forces);
-    add_torques_of_stops(setting_.links, state_.particles, motion.contact.contacts, h,
+    add_torques_of_stops(setting_.links, state_.particles,
+                         motion.blow ? motion.blow->contacts : motion.contact.contacts, h,
                          motion.link_forces);
     if (!equation.link_times().empty()) {
       at_end = held->link_forces(hold_at_end(equation, *held, motion.linear, motion.at_end));
