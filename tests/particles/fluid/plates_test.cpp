@@ -230,6 +230,34 @@ TEST_P(Plates, ReboundOnAHingeAndRestOnAStop) {
   EXPECT_NEAR(after(-std::asin(1 / (2 * l)) + 0.1), 0, 1e-6);
 }
 
+// A disc of the mass 0.5 and the velocity 1 meets a plate that rests on its stop, 0.7 from the hinge: the
+// stop takes the moment (1 + e_d) 0.5 0.7 of the whole blow, and the plate stays.
+TEST_P(Plates, OnAStopGiveItTheWholeBlow) {
+  for (const double dry : {0.0, 0.5, 1.0}) {
+    auto system = with_plates(0.01, GetParam());
+    const double l = kHalf - kEnd, angle = std::numbers::pi / 2;
+    add_plate(system, {10, 10 + l, 0}, angle, 1);
+    add_disc(system, {10 - kEnd - 0.1 - kGap - 0.055, 10.7, 0}, 0.5, {1, 0, 0});
+    system.setting.fluid->semi_axes.push_back({0.1, 0.1});
+    system.setting.fluid->plates.push_back(0);
+    Hinge hinge;
+    hinge.at = {10, 10, 0};
+    hinge.point = {0, {-l, 0, 0}};
+    hinge.lowest_angle = angle;
+    system.setting.links.hinges = {hinge};
+    system.setting.laws.film.gamma_min = 0;
+    system.setting.laws.restitution.coefficient = dry;
+    auto simulation = system.simulation(constant_drag(1e-9));
+    double moment = 0;
+    while (simulation.state().time < 0.195) {
+      simulation.step(1e9);
+      moment += 0.01 * simulation.state().link_forces[2];
+    }
+    EXPECT_NEAR(moment, (1 + dry) * 0.5 * 0.7, 1e-6) << dry;
+    EXPECT_NEAR(simulation.state().particles.angles[0], angle, 1e-6);
+  }
+}
+
 // Plates that are pressed on each other flat have one contact, which cannot keep both ends apart. Steps
 // keep the gap until one cannot, which is an error that leaves the state.
 TEST_P(Plates, ThatLieOnEachOtherAreAnError) {
