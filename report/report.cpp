@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,6 +20,7 @@
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/report/page.hpp"
 #include "viscontact/report/run_plots.hpp"
+#include "viscontact/report/run_warnings.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_results.hpp"
 
@@ -30,199 +30,6 @@ namespace {
 constexpr auto kPlotNames = std::to_array<std::string_view>(
     {"thinnest_film", "gap", "gap_logarithmic", "external_force", "lubrication_force", "gamma",
      "solid_force", "fit", "uncertainty"});
-
-/// A warning of the report.
-struct ReportWarning {
-  std::string text;  ///< a sentence with numbers, without the full stop
-  std::string file;  ///< file of these numbers, relative to the run's folder
-};
-
-/// A fit is called poor if its largest relative residual is above this.
-constexpr double kPoorFit = 0.01;
-
-/// The report warns if more than this share of the random draws of coefficients was refused.
-constexpr double kManyRefused = 0.01;
-
-/// The warnings so far.
-struct Warnings {
-  std::vector<ReportWarning> all{};
-
-  /// Adds a warning with the file of its numbers; the other arguments are those of fmt::format.
-  template <class... Numbers>
-  void add(const std::string& file, fmt::format_string<Numbers...> text, Numbers&&... numbers) {
-    all.push_back({fmt::format(text, std::forward<Numbers>(numbers)...), file});
-  }
-};
-
-std::string trajectory_name(const std::string& model) { return "trajectories/" + model + ".csv"; }
-
-/// Warns of gaps and recovered films outside the fit's interval, where the table has no row.
-void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
-  if (run.fit.terms.empty()) return;  // exact
-  const auto [low, high] = run.fit.gap_interval;
-  const lubrication::LubricationForce force(run.fit,
-                                            {lubrication::BelowInterval::kLubricationLimit});
-  for (const auto& trajectory : run.trajectories) {
-    const auto choice = reduced_model::known_model(trajectory.model);
-    if (!choice || choice->exact_drag) continue;
-    const auto [first, last] =
-        std::ranges::minmax_element(trajectory.rows, {}, &reduced_model::TrajectoryRow::gap);
-    const double smallest = first->gap, largest = last->gap;
-    const bool contact = choice->model->contact != nullptr;
-    // In contact, the gap of a contact model is 0, where no drag is computed; the recovered film is
-    // compared.
-    const double thinnest = contact ? trajectory.recovered_minimal_gap.value_or(low) : smallest;
-    if (thinnest > 0 && thinnest < low)
-      warnings.add(
-          trajectory_name(trajectory.model),
-          "Extrapolation: {} gets down to {} {:.4g}, below the smallest fitted gap, {:.4g}",
-          trajectory.model, contact ? "a film of" : "a gap of", thinnest, low);
-    const bool drag_at_distance =
-        !contact ||
-        reduced_model::contact_model_of(*choice, run.c.motion.value(), force).drag.has_value();
-    if (largest > high && drag_at_distance)
-      warnings.add(
-          trajectory_name(trajectory.model),
-          "Extrapolation: {} gets up to a gap of {:.4g}, above the largest fitted gap, {:.4g}",
-          trajectory.model, largest, high);
-  }
-}
-
-void add_failed_models(Warnings& warnings, const results::RunResults& run) {
-  for (const auto& failed : run.comparison.failed_models)
-    warnings.add("failed_models.json", "{} failed and has no trajectory: {}", failed.model,
-                 failed.reason);
-}
-
-/// Warns if the residuals are larger than the table's error estimates. Each residual is compared
-/// with the error estimate of its own row, because that of another row may be much larger. A fit
-/// file of an earlier version does not have this comparison.
-void add_coarser_than_table(Warnings& warnings, const lubrication::FitDiagnostics& d) {
-  if (d.misfit != lubrication::Misfit::kBasis) return;
-  if (const auto& worst = d.worst_to_estimate)
-    warnings.add("fit.json",
-                 "The fit is coarser than the table: {} of {} rows have a relative residual "
-                 "above their own error estimate, most of all the row at gap {:.4g} ({:.2g}, "
-                 "which is {:.2g} times its estimate); another basis can do better",
-                 d.rows_beyond_estimate, d.rows, worst->gap, std::abs(worst->relative_residual),
-                 worst->ratio);
-  else
-    warnings.add("fit.json",
-                 "The fit is coarser than the table: chi-squared is {:.2g} for "
-                 "{} degrees of freedom; another basis can do better",
-                 d.chi_squared.value_or(0), d.degrees_of_freedom);
-}
-
-void add_poor_fit(Warnings& warnings, const lubrication::Fit& fit) {
-  const auto& diagnostics = fit.diagnostics;
-  if (std::abs(fit.largest_relative_residual) > kPoorFit)
-    warnings.add("fit.json",
-                 "Poor fit: the largest relative residual is {:.2g}{}; "
-                 "a fit is called poor above {:g}",
-                 fit.largest_relative_residual,
-                 diagnostics ? fmt::format(" (at gap {:.4g})", diagnostics->worst_gap) : "",
-                 kPoorFit);
-  if (!diagnostics) return;
-  for (const auto& warning : diagnostics->warnings) warnings.add("fit.json", "Fit: {}", warning);
-  add_coarser_than_table(warnings, *diagnostics);
-}
-
-void add_unmet_accuracy(Warnings& warnings, const results::RunResults& run) {
-  if (!run.table || !run.c.tabulation) return;
-  const double asked = run.c.tabulation->relative_accuracy;
-  const auto unmet = std::ranges::count_if(
-      run.table->rows, [&](const auto& row) { return row.relative_error_estimate > asked; });
-  if (unmet == 0) return;
-  const auto worst = std::ranges::max_element(run.table->rows, {},
-                                              &lubrication::MotionRow::relative_error_estimate);
-  warnings.add("table.csv",
-               "Accuracy not met: {} of {} rows of the table have an error estimate above the "
-               "relative {:.2g} asked for, the largest {:.2g} at gap {:.4g}",
-               unmet, run.table->rows.size(), asked, worst->relative_error_estimate, worst->gap);
-}
-
-void add_passage_through_plane(Warnings& warnings, const results::RunResults& run) {
-  for (const auto& trajectory : run.trajectories) {
-    const auto choice = reduced_model::known_model(trajectory.model);
-    if (!choice || choice->model->contact != nullptr || trajectory.rows.back().gap > 0) continue;
-    warnings.add(trajectory_name(trajectory.model),
-                 "The sphere of {} goes through the plane at time {:.4g}, although "
-                 "the drag of a film forbids it: the time step is too long",
-                 trajectory.model, trajectory.rows.back().time);
-  }
-}
-
-/// Warns if models without solid contact have gaps at which the rough surfaces would touch.
-void add_roughness(Warnings& warnings, const results::RunResults& run) {
-  const auto& motion = run.c.motion.value();
-  const double roughness = motion.roughness[0] + motion.roughness[1];
-  for (const auto& trajectory : run.trajectories) {
-    const auto choice = reduced_model::known_model(trajectory.model);
-    if (!choice || choice->model->contact != nullptr) continue;
-    const double smallest =
-        std::ranges::min(trajectory.rows, {}, &reduced_model::TrajectoryRow::gap).gap;
-    if (smallest < roughness)
-      warnings.add(trajectory_name(trajectory.model),
-                   "{} ignores the roughness: its gap falls to {:.4g}, but the solids would "
-                   "touch at {:.4g}. Solids touch in the contact models and in inertial_rough "
-                   "(motion.models), and in 'viscontact rolling', at incline 0 too, where friction "
-                   "acts on them",
-                   trajectory.model, smallest, roughness);
-  }
-}
-
-void add_refused_draws(Warnings& warnings, const results::RunResults& run) {
-  if (!run.uncertainty) return;
-  const auto& u = *run.uncertainty;
-  if (static_cast<double>(u.refused) > kManyRefused * static_cast<double>(u.draws))
-    warnings.add("uncertainty.json",
-                 "{} of {} draws of the fit's coefficients were refused, because they "
-                 "give no possible drag; the interval from the others is too narrow",
-                 u.refused, u.draws);
-}
-
-/// Warns of files that were made from other inputs: the hash that they record differs from that of
-/// the file in the folder.
-void add_other_origin(Warnings& warnings, const results::RunResults& run) {
-  const auto fit_hash = results::content_sha256(read_file(run.folder.fit()));
-  const std::array<std::pair<std::string, std::string>, 2> inputs = {
-      {{"case", sha256(run.c.text)}, {"fit", fit_hash}}};
-  for (const auto& trajectory : run.trajectories)
-    for (const auto& [key, hash] : inputs) {
-      const auto found = trajectory.provenance.find(key);
-      if (found == trajectory.provenance.end() || found->second == hash) continue;
-      warnings.add(trajectory_name(trajectory.model),
-                   "{} was made from another {} than the one in this folder", trajectory.model,
-                   key);
-    }
-  if (run.table && !run.fit.table_sha256.empty() &&
-      run.fit.table_sha256 != results::content_sha256(read_file(run.folder.table())))
-    warnings.add("fit.json", "The fit was made from another table than the one in this folder");
-  for (const auto& model : run.comparison.models)
-    if (std::ranges::find(run.trajectories, model.model, &reduced_model::Trajectory::model) ==
-        run.trajectories.end())
-      warnings.add("comparison.json",
-                   "The trajectory of {} is not in this folder and in no plot; copy it into "
-                   "trajectories/ and compare again",
-                   model.model);
-}
-
-/// The warnings of a run, in this order: models that failed, drag from outside the fit's interval,
-/// a poor fit, rows less accurate than was asked, spheres that go through the plane, roughness that
-/// a model does not know, refused draws, files that were not made from each other. Empty if there
-/// is nothing to warn of.
-std::vector<ReportWarning> warnings_of(const results::RunResults& run) {
-  Warnings warnings;
-  add_failed_models(warnings, run);
-  add_extrapolation(warnings, run);
-  add_poor_fit(warnings, run.fit);
-  add_unmet_accuracy(warnings, run);
-  add_passage_through_plane(warnings, run);
-  add_roughness(warnings, run);
-  add_refused_draws(warnings, run);
-  add_other_origin(warnings, run);
-  return warnings.all;
-}
 
 std::string trust(const lubrication::FitDiagnostics& d) {
   std::string text;
