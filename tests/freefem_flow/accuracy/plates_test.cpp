@@ -105,15 +105,18 @@ particles::Domain channel(bool is_periodic) {
   return particles::BoxDomain{{0, 0}, {5, 2}, {is_periodic, false}};
 }
 
+/// A side through which the fluid flows with this largest velocity.
+particles::WallVelocity parabolic(double largest) {
+  return {particles::WallVelocity::Kind::kParabolic, {largest, 0}};
+}
+
 // The parabola with the largest speed 1.5 carries 2/3 1.5 2 = 2, with the pressure gradient -8 mu
 // 1.5/2^2 = -3. P2 elements contain it, so that all are exact to rounding.
 TEST(Probes, MeasurePoiseuilleFlowExactly) {
   auto fluid = probed(12);
   particles::SideVelocities sides;
-  sides[0].kind = particles::WallVelocity::Kind::kParabolic;
-  sides[0].value = {1.5, 0};
-  sides[1].kind = particles::WallVelocity::Kind::kParabolic;
-  sides[1].value = {-1.5, 0};
+  sides[0] = parabolic(1.5);
+  sides[1] = parabolic(-1.5);
   fluid.boundary = sides;
   Placed placed(fluid, channel(false), {}, {}, {});
   placed.solver->velocities(std::vector<double>{}, true);
@@ -129,8 +132,7 @@ TEST(Probes, MeasurePoiseuilleFlowExactly) {
 TEST(Probes, WhatFlowsInFlowsOutBesideParticles) {
   auto fluid = probed(12);
   particles::SideVelocities sides;
-  sides[0].kind = particles::WallVelocity::Kind::kParabolic;
-  sides[0].value = {1.5, 0};
+  sides[0] = parabolic(1.5);
   sides[1].kind = particles::WallVelocity::Kind::kOpen;
   fluid.boundary = sides;
   Placed placed(fluid, channel(false), {2.1, 0.8}, {0.3}, {0});

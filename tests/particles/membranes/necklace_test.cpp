@@ -270,15 +270,21 @@ TEST(Necklace, UnitsOrderAndRotationDoNotMatter) {
   EXPECT_NEAR(measures.x, reference.x * std::cos(0.7) - reference.y * std::sin(0.7), 1e-8);
 }
 
+/// A necklace with its centre at this height above a floor, under gravity, with a bending viscosity.
+Scene above_a_floor(double height, double viscosity) {
+  Scene scene;
+  scene.gravity = {0, -1, 0};
+  scene.viscosity = viscosity;
+  scene.centre = {0, height, 0};
+  scene.make(0.01);
+  scene.setting.planes.push_back(plane_at_rest({}, {0, 1, 0}));
+  return scene;
+}
+
 // A vesicle lands on a floor and comes to rest: the floor carries its weight, and it is as long and
 // as large as before.
 TEST(Necklace, RestsOnAFloor) {
-  Scene scene;
-  scene.gravity = {0, -1, 0};
-  scene.viscosity = 0.3;
-  scene.centre = {0, 1.4, 0};
-  scene.make(0.01);
-  scene.setting.planes.push_back(plane_at_rest({}, {0, 1, 0}));
+  const auto scene = above_a_floor(1.4, 0.3);
   Simulation simulation(scene.setting, scene.state, 1);
   run(simulation, 12, expect_converged);
   const auto& p = simulation.state().particles;
@@ -342,12 +348,7 @@ TEST(Necklace, RollsLikeATrack) {
 }
 
 TEST(Necklace, ContinuesBitForBit) {
-  Scene scene;
-  scene.gravity = {0, -1, 0};
-  scene.viscosity = 0.1;
-  scene.centre = {0, 1.1, 0};
-  scene.make(0.01);
-  scene.setting.planes.push_back(plane_at_rest({}, {0, 1, 0}));
+  const auto scene = above_a_floor(1.1, 0.1);
   Simulation whole(scene.setting, scene.state, 1), part(scene.setting, scene.state, 1);
   run(part, 0.4);
   Simulation rest(scene.setting, part.state(), 1);
