@@ -106,6 +106,7 @@ particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units) {
   fluid.threshold_gap /= units.length;
   for (auto& axes : fluid.semi_axes)
     for (auto& axis : axes) axis /= units.length;
+  for (auto& area : fluid.cut_areas) area /= units.length * units.length;
   fluid.density /= units.viscosity / (units.length * units.length);
   for (auto& membrane : fluid.membranes) {
     membrane.bending_rigidity /= units.viscosity * units.length * units.length * units.length;
@@ -169,6 +170,9 @@ void ScaledSolver::place(const particles::FluidParticles& bodies) {
   scaled.dimension = bodies.particles->dimension;
   scaled.positions = in_units(bodies.particles->positions, units_);
   scaled.radii = in_units(bodies.particles->radii, units_);
+  scaled.ids = bodies.particles->ids;
+  // The mesh asks only which particles are of one body; lengths in a body stay unscaled.
+  scaled.bodies = bodies.particles->bodies;
   std::vector<double> inertia(bodies.inertia.begin(), bodies.inertia.end());
   for (std::size_t i = 0; i < inertia.size(); ++i)
     inertia[i] *= velocity_units_[i % components_] / force_units_[i % components_];

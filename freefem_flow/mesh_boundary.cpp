@@ -3,14 +3,18 @@
 // an Error(kNotConverged). Opposite periodic sides must get the same points.
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <numeric>
 
+#include "viscontact/common/error.hpp"
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 #include "viscontact/freefem_flow/boundary/periodic_cells.hpp"
+#include "viscontact/particles/fluid/overlapping_members.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
@@ -21,7 +25,9 @@ class BoundaryMaker {
  public:
   BoundaryMaker(const particles::Fluid& fluid, const particles::Domain& domain,
                 const particles::FluidParticles& bodies, double coarsening)
-      : fitted_(fluid.mesh == particles::FluidMesh::kFitted),
+      : bodies_(*bodies.particles),
+        cut_areas_(fluid.cut_areas),
+        fitted_(fluid.mesh == particles::FluidMesh::kFitted),
         has_holes_(fluid.constraint == particles::RigidConstraint::kRigid),
         lengths_(fluid, domain, bodies, coarsening) {}
 
@@ -84,6 +90,10 @@ class BoundaryMaker {
     for (std::size_t k = 0; k < lengths_.outlines().size(); ++k) {
       constexpr double kOfRadius = 0.5, kLongest = 10;
       const auto& outline = lengths_.outlines()[k];
+      if (k < cut_areas_.size() && cut_areas_[k] > 0) {
+        add_arcs(k);
+        continue;
+      }
       if (!has_holes_) {
         auto inner = outline;
         inner.radius *= kOfRadius;
@@ -92,6 +102,36 @@ class BoundaryMaker {
       }
       add_outline(outline, kFirstParticleLabel + static_cast<int>(k), has_holes_,
                   [&](double t) { return lengths_.on_outline(k, t); });
+    }
+  }
+
+  /// The arcs of a disc outside those of its body that overlap it, as parts of a hole.
+  void add_arcs(std::size_t k) {
+    const auto chords = chords_of(bodies_, k);
+    double area = 0;
+    for (const auto& chord : chords) area += chord.area;
+    constexpr double kRounding = 1e-9;  // of positions that move with their body
+    if (std::abs(area - cut_areas_[k]) > kRounding * bodies_.radii[k] * bodies_.radii[k])
+      throw Error(ErrorKind::kNotConverged,
+                  fmt::format("particle {} overlaps one of its body across a side of the period, "
+                              "where the mesh does not join them; another origin of the period, or "
+                              "a plate in place of the discs, avoids this",
+                              bodies_.id(k)));
+    constexpr double kTurn = 2 * std::numbers::pi;
+    const auto& circle = lengths_.outlines()[k];
+    for (std::size_t c = 0; c < chords.size(); ++c) {
+      const auto &before = chords[c], &after = chords[(c + 1) % chords.size()];
+      const double from = before.middle + before.half;
+      const double to = after.middle - after.half + (c + 1 < chords.size() ? 0 : kTurn);
+      const auto at = [&](double s) { return from + s / circle.radius; };
+      std::vector<Point> points;
+      for (const double s : cut_curve((to - from) * circle.radius, 1,
+                                      [&](double t) { return lengths_.on_outline(k, at(t)); }))
+        points.push_back(circle.at(at(s)));
+      points.front() = before.to;
+      points.back() = after.from;
+      std::ranges::reverse(points);
+      boundary_.add(points, kFirstParticleLabel + static_cast<int>(k));
     }
   }
 
@@ -171,6 +211,8 @@ class BoundaryMaker {
     add_line({0, z}, {0, 0}, kAxisLabel, fluid);
   }
 
+  const particles::Particles& bodies_;
+  const std::vector<double>& cut_areas_;
   bool fitted_, has_holes_;
   EdgeLengths lengths_;
   MeshBoundary boundary_;

@@ -32,7 +32,7 @@ Place place_of(const Particles& p, const Pair& pair, std::span<const PlanePositi
 }
 
 /// The place of a pair in a fluid with ellipses or plates, which make contact as the circles about
-/// the nearest points of their spines. At an obstacle Pair::image is the end of the spine.
+/// the nearest points of their spines. At an obstacle Pair::place is the end of the spine.
 Place place_of_outlines(const Fluid& fluid, const Particles& p, const Pair& pair,
                         std::span<const PlanePosition> places) {
   const auto outline = [&](std::int32_t k, const Vector& shift = {}) {
@@ -47,18 +47,20 @@ Place place_of_outlines(const Fluid& fluid, const Particles& p, const Pair& pair
       place.branch = (place.gap + second.radius) * place.normal;
       return place;
     }
-    const Vector end = vector(second.spine()[index_of(pair.image)]);
+    const Vector end = vector(second.spine()[index_of(pair.place)]);
     Place place{gap(obstacle, end, second.end_radius()), normal_at(obstacle, end)};
     place.branch = vector(second.centre) - end + (place.gap + second.end_radius()) * place.normal;
     return place;
   }
   const auto first = outline(pair.first),
              second = outline(pair.second, shift_of(p.cell, pair.image));
-  const auto near = nearest_on_spines(first, second);
+  const auto near = SpineContacts(first, second).at(pair.place, first, second);
   const Vector apart = vector(near.second) - vector(near.first);
   const double distance = norm(apart);
-  return {gap(first, second), distance > 0 ? (1 / distance) * apart : Vector{1, 0, 0},
-          vector(second.centre) - vector(first.centre)};
+  return {
+      pair.place == 0 ? gap(first, second) : distance - first.end_radius() - second.end_radius(),
+      distance > 0 ? (1 / distance) * apart : Vector{1, 0, 0},
+      vector(second.centre) - vector(first.centre)};
 }
 
 Place place_of(const Setting& setting, const Particles& p, const Pair& pair,
@@ -125,8 +127,8 @@ double largest_overlap(const Setting& setting, const State& state) {
       // The gap of the circle around an outline is at most that of the outline.
       if (gap(places[w], p.position(k), p.radii[k]) < smallest)
         for (const std::int32_t end : {0, 1}) {
-          const Pair pair{
-              -1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k), 0, 0, 0, end};
+          Pair pair{-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k)};
+          pair.place = end;
           smallest = std::min(smallest, place_of(setting, p, pair, places).gap);
         }
   return (0 - smallest) / mean_radius(p);  // the subtraction returns 0 instead of -0
@@ -158,7 +160,7 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
                           .gap = gap,
                           .gamma = pair.gamma,
                           .gamma_error = pair.gamma_error,
-                          .image = pair.first < 0 ? 0 : pair.image,  // of an obstacle it is an end
+                          .image = pair.image,
                           .friction = friction_of(setting, memory),
                           .normal_force = per_time * pair.impulse,
                           .tangential_force = per_time * memory.friction(),

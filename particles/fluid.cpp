@@ -43,7 +43,8 @@ bool Fluid::are_of_one_membrane(std::int32_t first, std::int32_t second) const {
 
 double Fluid::size_of(int dimension, std::size_t k, double radius) const {
   if (is_plate(k)) return size_of_plate(semi_axes[k]);
-  return is_ellipse(k) ? size_of_ellipse(semi_axes[k]) : size_of_particle(dimension, radius);
+  if (is_ellipse(k)) return size_of_ellipse(semi_axes[k]);
+  return size_of_particle(dimension, radius) - (cut_areas.empty() ? 0 : cut_areas[k]);
 }
 
 double Fluid::homogeneous_inertia_of(std::size_t k, double mass, double radius) const {

@@ -125,6 +125,9 @@ struct Fluid {
   std::vector<std::array<double, 2>> semi_axes{};
   /// Which particles are plates with round ends, one number for each: 1 or 0. Empty: none is.
   std::vector<char> plates{};
+  /// Area of each disc beyond the chords at which discs of its body that overlap it cut it [L^2]
+  /// (chords_of(), overlapping_members.hpp), >= 0. Empty: no members of bodies overlap.
+  std::vector<double> cut_areas{};
 
   /// Membranes in the fluid, in the order of their beads, which are all particles of the case.
   std::vector<Membrane> membranes{};
@@ -148,7 +151,8 @@ struct Fluid {
   double end_radius(std::size_t k, double radius) const {
     return is_plate(k) ? semi_axes[k][1] : radius;
   }
-  /// Area of particle k [L^2], or volume of a sphere on the axis [L^3], of this radius [L].
+  /// Area of particle k [L^2] without what is cut from it, or volume of a sphere on the axis
+  /// [L^3], of this radius [L].
   double size_of(int dimension, std::size_t k, double radius) const;
   /// Moment of inertia of particle k in the plane [M L^2] if it is homogeneous and has this mass
   /// [M] and radius [L].

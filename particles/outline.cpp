@@ -91,6 +91,34 @@ double side_of(const std::array<Point, 2>& line, const Point& x) {
          (line[1][1] - line[0][1]) * (x[0] - line[0][0]);
 }
 
+/// The places where two spines may touch: of each end of the first one, then of the second one,
+/// the end and the nearest point of the other spine.
+std::array<SpinePoints, 4> places_of_ends(const Outline& first, const Outline& second) {
+  const auto one = first.spine(), other = second.spine();
+  const bool cross = side_of(one, other[0]) * side_of(one, other[1]) < 0 &&
+                     side_of(other, one[0]) * side_of(other, one[1]) < 0;
+  return {SpinePoints{one[0], nearest_on_line(other, one[0]), cross},
+          SpinePoints{one[1], nearest_on_line(other, one[1]), cross},
+          SpinePoints{nearest_on_line(one, other[0]), other[0], cross},
+          SpinePoints{nearest_on_line(one, other[1]), other[1], cross}};
+}
+
+/// Number of the place with the least distance among those for which `takes_part(number)` is true,
+/// the first one of several; the number of places if there is none.
+template <class Predicate>
+std::size_t nearest_of(const std::array<SpinePoints, 4>& places, const Predicate& takes_part) {
+  std::size_t nearest = places.size();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t end = 0; end < places.size(); ++end) {
+    if (!takes_part(end)) continue;
+    const double apart = distance(places[end].first, places[end].second);
+    if (nearest < places.size() && !(apart < least)) continue;
+    least = apart;
+    nearest = end;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 std::array<Point, 2> Outline::spine() const {
@@ -104,21 +132,34 @@ double Outline::length() const {
 }
 
 SpinePoints nearest_on_spines(const Outline& first, const Outline& second) {
-  const auto one = first.spine(), other = second.spine();
-  SpinePoints nearest;
-  double least = std::numeric_limits<double>::infinity();
-  const auto take = [&](const Point& on_first, const Point& on_second) {
-    if (const double apart = distance(on_first, on_second); apart < least) {
-      least = apart;
-      nearest.first = on_first;
-      nearest.second = on_second;
-    }
+  const auto places = places_of_ends(first, second);
+  return places[nearest_of(places, [](std::size_t) { return true; })];
+}
+
+SpineContacts::SpineContacts(const Outline& first, const Outline& second) {
+  constexpr double kApart = 0.1;  // of the smaller end radius
+  const auto places = places_of_ends(first, second);
+  const auto& nearest = places[nearest_of(places, [](std::size_t) { return true; })];
+  const double apart = kApart * std::min(first.end_radius(), second.end_radius());
+  const auto is_other = [&](std::size_t end) {
+    return distance(places[end].first, nearest.first) > apart &&
+           distance(places[end].second, nearest.second) > apart;
   };
-  for (const auto& end : one) take(end, nearest_on_line(other, end));
-  for (const auto& end : other) take(nearest_on_line(one, end), end);
-  nearest.cross = side_of(one, other[0]) * side_of(one, other[1]) < 0 &&
-                  side_of(other, one[0]) * side_of(other, one[1]) < 0;
-  return nearest;
+  const auto other = nearest_of(places, is_other);
+  if (nearest.cross || other == places.size()) return;
+  count_ = 2;
+  const auto between = [](const SpinePoints& x, const SpinePoints& y) {
+    return distance(x.first, y.first) + distance(x.second, y.second);
+  };
+  for (std::size_t end = 0; end < places.size(); ++end)
+    contact_of_end_[end] = between(places[end], places[other]) < between(places[end], nearest);
+}
+
+SpinePoints SpineContacts::at(int number, const Outline& first, const Outline& second) const {
+  const auto places = places_of_ends(first, second);
+  const int contact = number < count_ ? number : 0;
+  return places[nearest_of(places,
+                           [&](std::size_t end) { return contact_of_end_[end] == contact; })];
 }
 
 Point Outline::at(double t) const {

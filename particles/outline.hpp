@@ -44,14 +44,36 @@ struct Outline {
   double length() const;
 };
 
-/// The points of the spines of two outlines, circles or plates, that are nearest to each other.
+/// Points of the spines of two outlines, circles or plates.
 struct SpinePoints {
   std::array<double, 2> first{},  ///< on the first spine [L]
       second{};                   ///< on the second spine [L]
   bool cross = false;             ///< whether the spines cross each other
 };
-/// Of several such pairs it is the first one in the order of the ends.
+/// The points that are nearest to each other. Of several such pairs it is the first one in the
+/// order of the ends.
 SpinePoints nearest_on_spines(const Outline& first, const Outline& second);
+
+/// The one or two contacts that two outlines, circles or plates, may have. Each end of a spine and
+/// the point of the other spine that is nearest to it are a place where both may touch. The nearest
+/// of these places belongs to the contact 0. The contact 1 is the nearest place of which neither
+/// point is within a tenth of the smaller end radius of those of the contact 0, so that it keeps
+/// the other ends apart where plates lie on each other. Each further place belongs to the contact
+/// whose place is nearer to it.
+class SpineContacts {
+ public:
+  /// Of both outlines as they are now.
+  SpineContacts(const Outline& first, const Outline& second);
+  /// 1, or 2 if there is a contact 1.
+  int count() const { return count_; }
+  /// The points of contact `number`, those of the contact 0 if there is no contact of this number,
+  /// when the outlines have become `first` and `second`: of all its places the nearest one.
+  SpinePoints at(int number, const Outline& first, const Outline& second) const;
+
+ private:
+  int count_ = 1;
+  std::array<int, 4> contact_of_end_{};  // of the ends of the first spine, then of the second one
+};
 
 /// Distance of a point from the outline [L]; < 0 inside.
 double distance_to(const Outline& outline, const std::array<double, 2>& x);

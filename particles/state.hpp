@@ -28,10 +28,12 @@ struct Pair {
   /// these values are known.
   double gamma_error = 0;
   /// The image of `second` that meets `first` (periods.hpp); two may touch it, and are two pairs.
-  /// At an obstacle it is 0, or the end of a plate that meets it, 0 or 1.
   std::int32_t image = 0;
   /// Number of what else the laws remember of the pair, in State::memories.
   std::int32_t memory = PairMemories::kNone;
+  /// Which contact of both bodies it is: of a plate at an obstacle that of its end 0 or 1 on the
+  /// spine, of two plates 0 or 1 (SpineContacts), otherwise 0.
+  std::int32_t place = 0;
   /// Place of the plane in the list of planes; only if `first` is negative.
   std::size_t plane() const { return static_cast<std::size_t>(-1 - first); }
   /// True if all members are equal.

@@ -89,12 +89,17 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
       }
   // Further neighbours leave the edges as long as they are.
   const double reach = longest_ / of_gap_;
-  for (const auto& outline : outlines_) {
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    const auto& outline = outlines_[k];
     auto& neighbours = neighbours_.emplace_back();
-    for (const auto& other : images_)
-      if (const double gap = distance_to(other, outline.centre) - outline.radius;
-          gap < reach && other.centre != outline.centre)
-        neighbours.push_back(other);
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+      const auto& other = images_[i];
+      const double gap = distance_to(other, outline.centre) - outline.radius;
+      // Members of a body that overlap are one outline, without a gap.
+      const bool is_joined = gap < 0 && p.bodies.are_one(static_cast<std::int32_t>(k),
+                                                         static_cast<std::int32_t>(i % p.count()));
+      if (gap < reach && other.centre != outline.centre && !is_joined) neighbours.push_back(other);
+    }
   }
 }
 

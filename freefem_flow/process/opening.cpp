@@ -127,15 +127,21 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   // The gradient of a domain with walls is in their velocities.
   const bool mean_gradient = flow != nullptr && labels.empty();
   text += "gradient" + words_of(mean_gradient ? flow->gradient : std::array<double, 4>{}) + '\n';
-  const char* const shapes = fluid.semi_axes.empty() ? "particles"
-                             : fluid.plates.empty()  ? "ellipses"
-                                                     : "outlines";
+  const bool are_outlines = !fluid.plates.empty() || !fluid.cut_areas.empty();
+  const char* const shapes = are_outlines              ? "outlines"
+                             : fluid.semi_axes.empty() ? "particles"
+                                                       : "ellipses";
   text += fmt::format("{} {}\n", shapes, radii.size());
-  if (fluid.semi_axes.empty())
-    for (const double radius : radii) text += format_number(radius) + '\n';
-  for (std::size_t k = 0; k < fluid.semi_axes.size(); ++k) {
-    text += words_of(fluid.semi_axes[k]);
-    if (!fluid.plates.empty()) text += fluid.is_plate(k) ? " plate" : " ellipse";
+  for (std::size_t k = 0; k < radii.size(); ++k) {
+    const bool is_disc = fluid.semi_axes.empty();
+    if (is_disc && !are_outlines)
+      text += format_number(radii[k]);
+    else
+      text += words_of(is_disc ? std::array{radii[k], radii[k]} : fluid.semi_axes[k]);
+    if (are_outlines && !fluid.cut_areas.empty() && fluid.cut_areas[k] > 0)
+      text += " cut" + words_of(std::array{fluid.cut_areas[k]});
+    else if (are_outlines)
+      text += fluid.is_plate(k) ? " plate" : " ellipse";
     text += '\n';
   }
   if (fluid.has_inertia())

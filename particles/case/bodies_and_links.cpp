@@ -62,8 +62,8 @@ void body_keys(case_file::Keys& keys, RigidBodyRequest& body, const ParticlesCas
   const std::string_view words = "from 1e-100 to 1e100, in a fluid also 0";
   keys.required("particles", case_file::custom("a list of ids", read_ids, body.members, ids),
                 {"particles of the body, each of one body at most. They keep their places in the "
-                 "body and do not touch each other, so that they may overlap (not [in a "
-                 "fluid](fluid.md#bodies-and-links)). Not on an axis"});
+                 "body and do not touch each other, so that they may overlap ([in a "
+                 "fluid](fluid.md#bodies-and-links) with conditions). Not on an axis"});
   if (keys.reads()) check_members(keys.section(), body.members, c);
   keys.optional("mass", case_file::number(body.mass, positive),
                 {"the centre of mass is that of the particles, the mean of their centres if they "

@@ -10,6 +10,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
+#include "viscontact/particles/fluid/overlapping_members.hpp"
 #include "viscontact/particles/io/contact_file.hpp"
 
 namespace viscontact::particles {
@@ -86,10 +87,10 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
                c.end_time / step, kMostSteps);
   film_keys(keys, film, c.setting.fluid);
   keys.optional("restitution", case_file::number(restitution.coefficient, kShare),
-                {"without arms, and without hinges or, in a fluid, without bodies and springs: the "
-                 "coefficient e_d of [restitution](physics.md#5-many-particles-particles), (5.15) "
-                 "and in a fluid (6.11), of the solids. The case must give `gamma_min`, or "
-                 "`viscosity` and `roughness`"});
+                {"the coefficient e_d of [restitution](physics.md#5-many-particles-particles), "
+                 "(5.15) and in a fluid (6.11), of the solids. A case with it has no arms; without "
+                 "a fluid it has no hinges, and in a fluid no bodies and springs. It must give "
+                 "`gamma_min`, or `viscosity` and `roughness`"});
   keys.require(!restitution.is_on() || film.gamma_min || film.roughness, "restitution", "{}",
                kNoSolidContact);
   keys.optional(
@@ -265,6 +266,8 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
   const auto lines = read_particles_of_case(root, c);
   read_forces_by_id(root, c);
   read_bodies(root, c);
+  if (c.setting.fluid && c.particles.dimension == 2)
+    c.setting.fluid->cut_areas = cut_areas_of(c.particles);
   read_links(root, c);
   root.section("viscous_contact")
       .require(

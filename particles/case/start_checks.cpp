@@ -3,11 +3,14 @@
 // the CSV file, because the file can be long. Used by particles_case.cpp.
 #include <algorithm>
 #include <array>
+#include <numbers>
+#include <numeric>
 #include <variant>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
 #include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/fluid/overlapping_members.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 #include "viscontact/particles/outline.hpp"
 
@@ -208,6 +211,46 @@ bool is_driven(const ParticlesCase& c, std::int32_t body) {
   return body < 0 || c.setting.given_motions.contains(body);
 }
 
+/// Whether members k and `other` of a body, which overlap, may do so: false with a penalty or a
+/// fixed mesh, and for outlines that are no discs.
+bool may_overlap(const ParticlesCase& c, std::size_t k, std::size_t other) {
+  const auto& fluid = *c.setting.fluid;
+  const auto is_disc = [&](std::size_t of) { return !fluid.is_plate(of) && !fluid.is_ellipse(of); };
+  return fluid.constraint == RigidConstraint::kRigid && is_disc(k) && is_disc(other);
+}
+
+/// Checks that the mesh can follow disc k of a body, which overlaps the disc `other` of it. Returns
+/// whether their circles meet on the outline of the body.
+bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size_t k,
+                   std::size_t other) {
+  const auto fail = [&](std::string_view why) {
+    throw_bad_input(names.at(k), fmt::format("{} and {} of one body overlap so that {}",
+                                             names(other), names(k), why));
+  };
+  if (!chord_of(c.particles, k, other))
+    fail("one of them is inside the other one, where it must be left out");
+  const auto chords = chords_of(c.particles, k);
+  constexpr double kDegree = std::numbers::pi / 180, kLeastArc = 1 * kDegree;
+  for (std::size_t i = 0; i < chords.size(); ++i) {
+    const auto &before = chords[i], &after = chords[(i + 1) % chords.size()];
+    const double turn = i + 1 < chords.size() ? 0 : 2 * std::numbers::pi;
+    if (after.middle - after.half + turn - before.middle - before.half < kLeastArc)
+      fail(
+          fmt::format("less than one degree of the circle of {} is between two of the others; the "
+                      "mesh needs more, and three circles must not meet at a point",
+                      names(k)));
+  }
+  const auto chord = std::ranges::find(chords, other, &Chord::other);
+  if (chord == chords.end()) return false;
+  constexpr double kLeastWedge = 20 * kDegree;
+  if (chord->wedge < kLeastWedge)
+    fail(
+        fmt::format("the fluid where their circles meet is a wedge of {:.3g} degrees; the mesh "
+                    "needs at least {:.0f}, for which the overlap must be deeper",
+                    chord->wedge / kDegree, kLeastWedge / kDegree));
+  return true;
+}
+
 /// Checks rigid bodies and links in a fluid.
 void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
                   const ParticleNames& names) {
@@ -222,22 +265,41 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
     const auto& body = p.bodies.bodies[b];
     const auto masses = member_masses(body, p);
     double least = 0;
+    std::vector<std::size_t> union_of(masses.size());  // the lowest member of the union of each one
+    std::iota(union_of.begin(), union_of.end(), 0U);
     for (std::size_t m = 0; m < masses.size(); ++m) {
       least += masses[m] * dot(body.offsets[m], body.offsets[m]);
       const auto k = index_of(body.members[m]);
       for (std::size_t n = 0; n < m; ++n) {
         const auto other = index_of(body.members[n]);
-        const auto outline = [&](std::size_t of) {
-          return outline_of(*c.setting.fluid, p, p.angles, of);
-        };
-        const double gap = particles::gap(outline(k), outline(other));
+        const Vector apart = p.position(other) - p.position(k);
+        const Vector shift = nearest_image(cell_of(c.setting.domain), apart) - apart;
+        const double gap = particles::gap(outline_of(*c.setting.fluid, p, p.angles, k),
+                                          outline_of(*c.setting.fluid, p, p.angles, other, shift));
+        if (gap < 0 && norm(shift) > 0)
+          throw_bad_input(names.at(k),
+                          fmt::format("{} and {} of one body overlap across a side of the period, "
+                                      "where the mesh does not join them; another origin of the "
+                                      "period avoids this",
+                                      names(other), names(k)));
         const double needed = kLeastGapOfMesh * std::min(p.radii[k], p.radii[other]);
+        if (gap < 0 && may_overlap(c, k, other)) {
+          check_overlap(c, names, other, k);
+          if (!check_overlap(c, names, k, other)) continue;
+          if (union_of[m] == union_of[n])
+            throw_bad_input(names.at(k), fmt::format("{} closes a ring of particles that overlap, "
+                                                     "in which fluid would be enclosed",
+                                                     names(k)));
+          std::ranges::replace(union_of, std::size_t(union_of[m]), std::size_t(union_of[n]));
+          continue;
+        }
         if (gap < needed)
           throw_bad_input(names.at(k),
                           fmt::format("{} and {} have a gap of {:.3g}; in a fluid the particles of "
                                       "a body must keep a gap of at least a thousandth of the "
                                       "smaller radius, {:.3g}, because the mesh has fluid between "
-                                      "them",
+                                      "them; with fluid.constraint = \"rigid\" and the fitted mesh "
+                                      "discs may also overlap",
                                       names(other), names(k), gap, needed));
       }
     }

@@ -19,7 +19,7 @@ namespace {
 
 /// Particles in order of their number, obstacles in order of -1, -2, ...
 auto place_of_pair(const Pair& pair) {
-  return std::tuple(std::max(pair.first, -1 - pair.first), pair.second, pair.image);
+  return std::tuple(std::max(pair.first, -1 - pair.first), pair.second, pair.image, pair.place);
 }
 
 /// Sorts the pairs, and adds those of `before` that remember something.
@@ -35,6 +35,15 @@ void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
   std::ranges::set_union(before, pairs, std::back_inserter(merged), {}, place_of_pair,
                          place_of_pair);
   pairs = std::move(merged);
+}
+
+/// True if both particles are plates that may touch at two places.
+bool has_second_contact(const Fluid& fluid, const Particles& p, const Pair& pair) {
+  const auto i = index_of(pair.first), j = index_of(pair.second);
+  return fluid.is_plate(i) && fluid.is_plate(j) &&
+         SpineContacts(outline_of(fluid, p, p.angles, i),
+                       outline_of(fluid, p, p.angles, j, shift_of(p.cell, pair.image)))
+                 .count() == 2;
 }
 
 /// Lists all pairs with a gap below `reach` [L] and those that are glued, with their memory. The
@@ -57,6 +66,8 @@ void list_pairs(StepContacts& step, const State& state, const Fluid& fluid,
     Pair made{pair.first, pair.second};
     made.image = pair.image;
     step.pairs.push_back(made);
+    made.place = 1;
+    if (has_second_contact(fluid, p, made)) step.pairs.push_back(made);
   }
   for (std::size_t w = 0; w < obstacles.size(); ++w) {
     if (p.dimension == 1 && obstacles[w].normal[0] == 0) continue;
@@ -64,7 +75,7 @@ void list_pairs(StepContacts& step, const State& state, const Fluid& fluid,
       if (!(gap(obstacles[w], p.position(k), p.radii[k]) < reach)) continue;
       Pair pair{-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k)};
       step.walls.push_back(pair);
-      pair.image = 1;  // the other end of a plate
+      pair.place = 1;  // the other end of a plate
       if (fluid.is_plate(k)) step.walls.push_back(pair);
     }
   }
@@ -83,17 +94,18 @@ double cross(const std::array<double, 2>& arm, const std::array<double, 2>& forc
 
 /// Contact of a pair of which one is a plate, the other a plate, a disc or an obstacle: that of the
 /// discs about the nearest points of their spines. At an obstacle each end of the plate has a
-/// contact of its own, with the number Pair::image.
-Contact<2> contact_of_plates(const Fluid& fluid, const Particles& p, const Pair& pair,
-                             std::span<const PlanePosition> obstacles) {
+/// contact of its own, and two plates may have two, with the number Pair::place. `start` are the
+/// particles where the step begins, which say which places belong to which contact.
+Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const Particles& p,
+                             const Pair& pair, std::span<const PlanePosition> obstacles) {
   const auto j = index_of(pair.second);
   Contact<2> contact{std::max(pair.first, -1), pair.second, {}, 0, pair.gamma, pair.impulse};
-  const auto second =
-      outline_of(fluid, p, p.angles, j, pair.first < 0 ? Vector{} : shift_of(p.cell, pair.image));
+  const Vector shift = pair.first < 0 ? Vector{} : shift_of(p.cell, pair.image);
+  const auto second = outline_of(fluid, p, p.angles, j, shift);
   if (pair.first < 0) {
     const auto& place = obstacles[pair.plane()];
     const auto ends = second.spine();
-    const auto& end = ends[index_of(pair.image)];
+    const auto& end = ends[index_of(pair.place)];
     const Vector normal = normal_at(place, {end[0], end[1], 0});
     contact.normal = {normal[0], normal[1]};
     contact.gap = gap(place, Vector{end[0], end[1], 0}, second.end_radius());
@@ -103,8 +115,11 @@ Contact<2> contact_of_plates(const Fluid& fluid, const Particles& p, const Pair&
     return contact;
   }
   contact.image = pair.image;
-  const auto first = outline_of(fluid, p, p.angles, index_of(pair.first));
-  const auto near = nearest_on_spines(first, second);
+  const auto i = index_of(pair.first);
+  const auto first = outline_of(fluid, p, p.angles, i);
+  const SpineContacts places(outline_of(fluid, start, start.angles, i),
+                             outline_of(fluid, start, start.angles, j, shift));
+  const auto near = places.at(pair.place, first, second);
   contact.normal = {near.second[0] - near.first[0], near.second[1] - near.first[1]};
   const double distance = std::hypot(contact.normal[0], contact.normal[1]);
   if (distance > 0)
@@ -125,7 +140,7 @@ Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& 
                             std::span<const PlanePosition> obstacles,
                             const ContactConditions& conditions) {
   if (has_plate(fluid, pair.first, pair.second))
-    return contact_of_plates(fluid, p, pair, obstacles);
+    return contact_of_plates(fluid, p, p, pair, obstacles);
   if (p.dimension == 1) {
     const auto on_axis = contact_of<1>(p, pair, obstacles);
     Contact<2> contact{on_axis.first, on_axis.second, {on_axis.normal[0], 0}};
@@ -191,8 +206,11 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
     const auto& pair = c < n ? step.pairs[c] : step.walls[c - n];
     if (!has_plate(fluid, pair.first, pair.second)) continue;
     // A gap within the tolerance counts as closed at the beginning, and so it does at the end.
-    double gap = contact_of_plates(fluid, after, pair, obstacles).gap - fluid.threshold_gap;
-    const double before = contact_of_plates(fluid, p, pair, obstacles).gap - fluid.threshold_gap;
+    const auto gap_at = [&](const Particles& at) {
+      return contact_of_plates(fluid, p, at, pair, obstacles).gap - fluid.threshold_gap;
+    };
+    double gap = gap_at(after);
+    const double before = gap_at(p);
     if (std::abs(before) <= conditions.solver.tolerance * conditions.mean_radius / 2) gap -= before;
     changes[c] = gap - gap_after(contact, step.velocities.data(), h, conditions.layout);
     if (gap < 0 || contact.impulse != 0 || contact.lowest < 0)
@@ -203,8 +221,8 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
   return true;
 }
 
-/// Throws Error(kNotConverged) if two plates are closer after the step than the tolerance allows.
-/// They have one contact, which cannot keep both ends apart of plates that lie on each other.
+/// Throws Error(kNotConverged) if two plates are closer after the step than the tolerance allows:
+/// they turned so far that they touch at another place than where the step began.
 void check_plates_apart(const StepContacts& step, const Particles& p, const Fluid& fluid,
                         const ContactConditions& conditions) {
   if (fluid.plates.empty()) return;
@@ -222,8 +240,8 @@ void check_plates_apart(const StepContacts& step, const Particles& p, const Flui
       throw Error(
           ErrorKind::kNotConverged,
           fmt::format("the plates {} and {} would have a gap of {:.3g} after the step, less "
-                      "than fluid.threshold_gap, {:.3g}: plates make contact at one place, "
-                      "which cannot keep both ends apart of plates that lie on each other",
+                      "than fluid.threshold_gap, {:.3g}, at a place that is no contact when the "
+                      "step begins; a shorter time step helps",
                       p.id(index_of(pair.first)), p.id(index_of(pair.second)), left,
                       fluid.threshold_gap));
   }

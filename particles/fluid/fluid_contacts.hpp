@@ -199,8 +199,8 @@ void add_torques_of_stops(const Links& links, const Particles& particles,
 /// either. `state` is that before the step, `obstacles` are positions at the end of the step.
 /// Plates that turn by finite angles keep their gaps, but for a quarter of the tolerance. Pairs for
 /// which `is_left_out` is true are no contacts, because no contact force changes their distance.
-/// Throws what `mobility` throws, and Error(kNotConverged) if two plates that lie on each other, which
-/// have one contact, cannot be kept apart.
+/// Throws what `mobility` throws, and Error(kNotConverged) if two plates turn so far that they
+/// overlap at a place that was no contact of theirs.
 StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links& links,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,

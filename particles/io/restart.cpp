@@ -1,11 +1,12 @@
 // Writes and reads the binary restart file (restart.hpp). Numbers are in the units of the case; a
-// damaged file is an Error(kBadInput). Files of versions 1 to 9 must stay readable; a change of the
+// damaged file is an Error(kBadInput). Files of versions 1 to 10 must stay readable; a change of the
 // fields of State or Pair needs a new version.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <string_view>
@@ -22,8 +23,8 @@ namespace {
 // Version 7 differs from version 6 by memories that version 6 has no array for. It is written only
 // where a pair has such a memory. Version 8 has the flow of a fluid with inertia, and is written
 // only where there is one. Version 9 has the positions before the last step, and is written only
-// with membranes.
-constexpr int kVersion = 9;
+// with membranes. Version 10 has Pair::place, and is written only where a plate has a contact.
+constexpr int kVersion = 10;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -46,6 +47,7 @@ struct StoredBody {
 /// What a file stores in another form than the state.
 struct StoredArrays {
   std::vector<std::int32_t> images;  ///< of state.pairs; empty if all are 0
+  std::vector<std::int32_t> places;  ///< of state.pairs, then of state.walls; empty if all are 0
   std::vector<Vector> frictions;     ///< of pairs and walls; empty if all are 0
   std::vector<double> carried;       ///< as `frictions`
   std::vector<StoredBody> bodies;
@@ -99,6 +101,8 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   field(state.flow);
   if (version < 9) return;
   field(state.earlier_positions);
+  if (version < 10) return;
+  field(arrays.places);
 }
 
 /// The first of kMemoryFields that has no array of its own in version 6.
@@ -247,12 +251,14 @@ std::string_view line_of(std::string_view& rest, std::string_view begin, const s
 /// Reads the version and checks the byte order in the first line of `rest`, and removes this line.
 int read_version(std::string_view& rest, const std::string& file) {
   const auto line = line_of(rest, kWhat, file);
-  const int version = line.empty() ? 0 : line[0] - '0';
-  if (version < 1 || version > kVersion || !line.substr(1).starts_with(", "))
+  int version = 0;
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), version);
+  const auto rest_of_line = line.substr(static_cast<std::size_t>(end - line.data()));
+  if (error != std::errc{} || version < 1 || version > kVersion || !rest_of_line.starts_with(", "))
     throw_bad_input({file}, "is a restart file of a version that is not known (" +
                                 std::string(line.substr(0, 20)) + "); versions 1 to " +
                                 std::to_string(kVersion) + " can be read");
-  if (const auto order = line.substr(3); order != kOrder)
+  if (const auto order = rest_of_line.substr(2); order != kOrder)
     throw_bad_input({file}, "was written by a machine with another byte order (" +
                                 std::string(order.substr(0, 20)) + "; it must be " +
                                 std::string(kOrder) + ")");
@@ -286,7 +292,8 @@ bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {
       at_obstacle ? pair.first < 0 : pair.first >= 0 && pair.first < pair.second;
   return first_in_range && pair.second >= 0 && index_of(pair.second) < particles &&
          pair.gamma <= 0 && std::isfinite(pair.gamma) && std::isfinite(pair.impulse) &&
-         pair.gamma_error >= 0 && pair.image >= -kLargestImage && pair.image <= kLargestImage;
+         pair.gamma_error >= 0 && pair.image >= -kLargestImage && pair.image <= kLargestImage &&
+         (pair.place == 0 || pair.place == 1);
 }
 
 }  // namespace
@@ -300,17 +307,21 @@ std::string write_restart(const State& state) {
     if (std::ranges::all_of(values, [](const Value& value) { return value == Value{}; }))
       values.clear();
   };
+  for (const auto* pairs : {&state.pairs, &state.walls})
+    for (const auto& pair : *pairs) arrays.places.push_back(pair.place);
   clear_zeros(arrays.images);
+  clear_zeros(arrays.places);
   clear_zeros(arrays.frictions);
   clear_zeros(arrays.carried);
   for (const auto& body : state.particles.bodies.bodies)
     arrays.bodies.push_back({body.centre, body.velocity, body.angle, body.orientation,
                              body.angular_momentum, body.angular_velocity});
   std::string bytes;
-  const int version = !state.earlier_positions.empty() ? 9
-                      : !state.flow.empty()            ? 8
-                      : !arrays.names.empty()          ? 7
-                                                       : 6;
+  const int version = !arrays.places.empty()             ? 10
+                      : !state.earlier_positions.empty() ? 9
+                      : !state.flow.empty()              ? 8
+                      : !arrays.names.empty()            ? 7
+                                                         : 6;
   for_fields(state, arrays, version, Writer{bytes});
   std::string text;
   text.append(kWhat).append(std::to_string(version)).append(", ").append(kOrder).append("\n");
@@ -332,10 +343,13 @@ State read_restart(const std::filesystem::path& path) {
   State state;
   StoredArrays arrays;
   for_fields(state, arrays, version, reader);
-  if (!reader.at_end() || (!arrays.images.empty() && arrays.images.size() != state.pairs.size()) ||
-      !take_memories(arrays, state))
+  const auto of_pairs = state.pairs.size(), of_all = of_pairs + state.walls.size();
+  if (!reader.at_end() || (!arrays.images.empty() && arrays.images.size() != of_pairs) ||
+      (!arrays.places.empty() && arrays.places.size() != of_all) || !take_memories(arrays, state))
     reader.throw_short();
   for (std::size_t k = 0; k < arrays.images.size(); ++k) state.pairs[k].image = arrays.images[k];
+  for (std::size_t k = 0; k < arrays.places.size(); ++k)
+    (k < of_pairs ? state.pairs[k] : state.walls[k - of_pairs]).place = arrays.places[k];
   for (const auto& stored : arrays.bodies) {
     RigidBody body;
     body.centre = stored.centre;

@@ -18,6 +18,7 @@
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/io/vtk.hpp"
+#include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
 
@@ -91,6 +92,17 @@ void take_over_bodies(State& state, const ParticlesCase& c, const fs::path& rest
         fmt::format("has the forces of other hinges, springs or arms than {}", c.path.string()));
 }
 
+/// Throws Error(kBadInput) if a hinge of the state is beyond its stop: an earlier run had another
+/// stop there, and the first step would turn what the hinge holds back at once.
+void check_stops(const State& state, const ParticlesCase& c, const fs::path& restart) {
+  constexpr double kBeyond = 1e-3;  // [rad]; steps keep a stop to smaller errors
+  for (const auto& stop : stop_equations(c.setting.links, state.particles))
+    if (const double left = stop.rows.front().value; left < -kBeyond)
+      throw_bad_input({restart.string()},
+                      fmt::format("has hinge {} turned beyond a stop of {} by {:.3g} rad",
+                                  stop.number, c.path.string(), -left));
+}
+
 }  // namespace
 
 State first_state(const ParticlesCase& c, const std::string& restart) {
@@ -110,6 +122,7 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
     state.particles.angular_velocities = c.particles.angular_velocities;
     state.particles.inertias = c.particles.inertias;
   }
+  check_stops(state, c, restart);
   if (state.time > c.end_time * (1 - 1e-9))
     throw_bad_input(
         {restart},

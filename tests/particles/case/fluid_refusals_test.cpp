@@ -1,6 +1,8 @@
 // Cases of particles in a fluid, or in a domain, that are refused, with the line of what is wrong.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -383,6 +385,34 @@ TEST(RefusedFluidTest, ImageOfAParticleOverlapsAnother) {
                       "[0.5, 1.0]", "[0.5, 0.2]"),
               "[1.2, 3.0]", "[0.5, 5.8]");
   expect_refused_at(text, "[[particle]]\ncentre = [0.5, 5.8]", "overlap by 0.1 at the start");
+}
+
+/// A fluid with three discs of the radius 1 that are one body, with centres at these x, y.
+std::string with_body(const std::vector<std::array<double, 2>>& centres,
+                      const std::string& constraint = "rigid") {
+  std::string text = "title = \"Body\"\n[fluid]\nviscosity = 1.0\nconstraint = \"" + constraint +
+                     "\"\n[domain]\ndisc = { centre = [0.0, 0.0], radius = 9.0 }\n"
+                     "[viscous_contact]\ntime_step = 0.1\nend_time = 1.0\n";
+  for (const auto& [x, y] : centres)
+    text += fmt::format("[[particle]]\ncentre = [{}, {}]\nradius = 1.0\n", x, y);
+  return text + "[[body]]\nparticles = [0, 1, 2]\n";
+}
+
+TEST(RefusedFluidTest, DiscsOfABodyThatOverlapInAWayThatTheMeshDoesNotResolve) {
+  const auto row = with_body({{-1.5, 0}, {0, 0}, {1.5, 0}});
+  EXPECT_EQ(read_particles_text(row).setting.fluid->cut_areas.size(), 3U);
+  EXPECT_TRUE(
+      read_particles_text(with_body({{-3, 0}, {0, 0}, {3, 0}})).setting.fluid->cut_areas.empty());
+  expect_refused_at(with_body({{-1.5, 0}, {0, 0}, {1.5, 0}}, "penalty"),
+                    "[[particle]]\ncentre = [0", "discs may also overlap");
+  expect_refused_at(with_body({{-2, 0}, {0, 0}, {1.5, 0}}), "[[particle]]\ncentre = [0",
+                    "must keep a gap of at least a thousandth");
+  expect_refused_at(with_body({{-1.99, 0}, {0, 0}, {1.5, 0}}), "[[particle]]\ncentre = [-1.99",
+                    "is a wedge of 11.5 degrees; the mesh needs at least 20");
+  expect_refused_at(with_body({{-0.9, 0}, {0.9, 0}, {0, 1.2}}), "[[particle]]\ncentre = [-0.9",
+                    "less than one degree of the circle");
+  expect_refused_at(with_body({{-0.95, 0}, {0.95, 0}, {0, 1.65}}),
+                    "[[particle]]\ncentre = [0, 1.65", "closes a ring of particles that overlap");
 }
 
 TEST(RefusedFluidTest, ThresholdGapBelowTheGapAtWhichTheSolidsTouch) {

@@ -67,6 +67,18 @@ TEST_F(RestartFile, HasThePositionsBeforeAStepOfMembranes) {
               HasSubstr("is not a whole restart file"));
 }
 
+TEST_F(RestartFile, SaysWhichEndOfAPlateIsAtAnObstacle) {
+  auto state = disc_on_plane(-0.75);
+  state.walls.push_back(state.walls[0]);
+  state.walls[1].place = 1;
+  const auto text = write_restart(state);
+  EXPECT_THAT(text, HasSubstr("version 10"));
+  EXPECT_EQ(read(text).walls, state.walls);
+  state.walls[1].place = 2;
+  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }),
+              HasSubstr("is not a whole restart file"));
+}
+
 /// A restart file of an earlier version: `change` makes its binary part from that of version 2.
 std::string of_version(int version, const State& state,
                        const std::function<void(std::string&)>& change) {
@@ -207,7 +219,7 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
 TEST_F(RestartFile, OfALaterVersionIsRefused) {
   auto text = write_restart(disc_on_plane(-0.5));
   text.replace(text.find("version 6"), 9, "version :");
-  EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 9 can be read"));
+  EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 10 can be read"));
 }
 
 TEST_F(RestartFile, WithoutAFiniteGammaIsRefused) {

@@ -99,6 +99,35 @@ TEST_F(ParticlesCommand, ARestartIsOfTheSameParticles) {
   refused(longer, "cut short", folder_.file("bit.bin", bytes).string());
 }
 
+// A disc of the radius 1 hangs on a hinge at its top and swings from the angle 0 to about 1; a restart
+// with a stop at 0.5 would have to turn it back at once.
+TEST_F(ParticlesCommand, ARestartIsNotBeyondAStop) {
+  const std::string swing = R"(title = "Swing"
+[space]
+dimension = 2
+[viscous_contact]
+time_step = 0.01
+end_time = 1.0
+[[particle]]
+centre = [0.0, 0.0]
+radius = 1.0
+mass = 1.0
+angular_velocity = 1.0
+velocity = [0.9, 0.0]
+[[hinge]]
+particle = 0
+at = [0.0, 0.9]
+)";
+  expect_done(run(put_case(swing), out()));
+  const auto restart = (out() / "restart.bin").string();
+  const auto longer = replaced(swing, "end_time = 1.0", "end_time = 1.2");
+  expect_refusal(run(put_case(longer + "highest_angle = 0.5\n", "stop.toml"), out("no"),
+                     {"--restart", restart}),
+                 ErrorKind::kBadInput, HasSubstr("has hinge 0 turned beyond a stop"));
+  expect_done(run(put_case(longer + "highest_angle = 1.5\n", "far.toml"), out("far"),
+                  {"--restart", restart}));
+}
+
 TEST_F(ParticlesCommand, RerunMakesTheSameAgain) {
   expect_done(run(put_case(kCase), out()));
   expect_done(run_viscontact(
