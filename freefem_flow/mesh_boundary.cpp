@@ -26,7 +26,7 @@ class BoundaryMaker {
   BoundaryMaker(const particles::Fluid& fluid, const particles::Domain& domain,
                 const particles::FluidParticles& bodies, double coarsening)
       : bodies_(*bodies.particles),
-        cut_areas_(fluid.cut_areas),
+        fluid_(fluid),
         fitted_(fluid.mesh == particles::FluidMesh::kFitted),
         has_holes_(fluid.constraint == particles::RigidConstraint::kRigid),
         lengths_(fluid, domain, bodies, coarsening) {}
@@ -90,7 +90,7 @@ class BoundaryMaker {
     for (std::size_t k = 0; k < lengths_.outlines().size(); ++k) {
       constexpr double kOfRadius = 0.5, kLongest = 10;
       const auto& outline = lengths_.outlines()[k];
-      if (k < cut_areas_.size() && cut_areas_[k] > 0) {
+      if (k < fluid_.cut_areas.size() && fluid_.cut_areas[k] > 0) {
         add_arcs(k);
         continue;
       }
@@ -107,16 +107,7 @@ class BoundaryMaker {
 
   /// The arcs of a disc outside those of its body that overlap it, as parts of a hole.
   void add_arcs(std::size_t k) {
-    const auto chords = chords_of(bodies_, k);
-    double area = 0;
-    for (const auto& chord : chords) area += chord.area;
-    constexpr double kRounding = 1e-9;  // of positions that move with their body
-    if (std::abs(area - cut_areas_[k]) > kRounding * bodies_.radii[k] * bodies_.radii[k])
-      throw Error(ErrorKind::kNotConverged,
-                  fmt::format("particle {} overlaps one of its body across a side of the period, "
-                              "where the mesh does not join them; another origin of the period, or "
-                              "a plate in place of the discs, avoids this",
-                              bodies_.id(k)));
+    const auto chords = chords_of(fluid_, bodies_, k);
     constexpr double kTurn = 2 * std::numbers::pi;
     const auto& circle = lengths_.outlines()[k];
     for (std::size_t c = 0; c < chords.size(); ++c) {
@@ -212,16 +203,32 @@ class BoundaryMaker {
   }
 
   const particles::Particles& bodies_;
-  const std::vector<double>& cut_areas_;
+  const particles::Fluid& fluid_;
   bool fitted_, has_holes_;
   EdgeLengths lengths_;
   MeshBoundary boundary_;
 };
 
+/// Throws Error(kNotConverged) if discs of a body that overlap are on different sides of a period.
+void check_unions(const particles::Fluid& fluid, const particles::Particles& particles) {
+  for (std::size_t k = 0; k < fluid.cut_areas.size(); ++k) {
+    double area = 0;
+    for (const auto& chord : chords_of(fluid, particles, k)) area += chord.area;
+    constexpr double kRounding = 1e-9;  // of positions that move with their body
+    if (std::abs(area - fluid.cut_areas[k]) > kRounding * particles.radii[k] * particles.radii[k])
+      throw Error(ErrorKind::kNotConverged,
+                  fmt::format("particle {} overlaps one of its body across a side of the period, "
+                              "where the mesh does not join them; another origin of the period, or "
+                              "a plate in place of the discs, avoids this",
+                              particles.id(k)));
+  }
+}
+
 }  // namespace
 
 MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
                            const particles::FluidParticles& bodies, double coarsening) {
+  check_unions(fluid, *bodies.particles);
   BoundaryMaker maker(fluid, domain, bodies, coarsening);
   return std::visit([&](const auto& shape) { return maker.of(shape); }, domain);
 }

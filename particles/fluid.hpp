@@ -147,6 +147,8 @@ struct Fluid {
   bool is_ellipse(std::size_t k) const {
     return !semi_axes.empty() && semi_axes[k][0] != semi_axes[k][1] && !is_plate(k);
   }
+  /// True if particle k is a disc or a sphere.
+  bool is_disc(std::size_t k) const { return !is_plate(k) && !is_ellipse(k); }
   /// The radius of the round ends of a plate, or else `radius` [L].
   double end_radius(std::size_t k, double radius) const {
     return is_plate(k) ? semi_axes[k][1] : radius;

@@ -139,27 +139,29 @@ SpinePoints nearest_on_spines(const Outline& first, const Outline& second) {
 SpineContacts::SpineContacts(const Outline& first, const Outline& second) {
   constexpr double kApart = 0.1;  // of the smaller end radius
   const auto places = places_of_ends(first, second);
-  const auto& nearest = places[nearest_of(places, [](std::size_t) { return true; })];
+  const auto nearest = nearest_of(places, [](std::size_t) { return true; });
+  places_ = {static_cast<int>(nearest)};
+  contact_of_.fill(places_.front());
   const double apart = kApart * std::min(first.end_radius(), second.end_radius());
-  const auto is_other = [&](std::size_t end) {
-    return distance(places[end].first, nearest.first) > apart &&
-           distance(places[end].second, nearest.second) > apart;
+  const auto other = nearest_of(places, [&](std::size_t place) {
+    return distance(places[place].first, places[nearest].first) > apart &&
+           distance(places[place].second, places[nearest].second) > apart;
+  });
+  if (places[nearest].cross || other == places.size()) return;
+  places_.push_back(static_cast<int>(other));
+  const auto between = [&](std::size_t one, std::size_t two) {
+    return distance(places[one].first, places[two].first) +
+           distance(places[one].second, places[two].second);
   };
-  const auto other = nearest_of(places, is_other);
-  if (nearest.cross || other == places.size()) return;
-  count_ = 2;
-  const auto between = [](const SpinePoints& x, const SpinePoints& y) {
-    return distance(x.first, y.first) + distance(x.second, y.second);
-  };
-  for (std::size_t end = 0; end < places.size(); ++end)
-    contact_of_end_[end] = between(places[end], places[other]) < between(places[end], nearest);
+  for (std::size_t place = 0; place < places.size(); ++place)
+    if (between(place, other) < between(place, nearest)) contact_of_[place] = places_[1];
 }
 
-SpinePoints SpineContacts::at(int number, const Outline& first, const Outline& second) const {
+SpinePoints SpineContacts::at(int place, const Outline& first, const Outline& second) const {
   const auto places = places_of_ends(first, second);
-  const int contact = number < count_ ? number : 0;
+  const int contact = contact_of(place);
   return places[nearest_of(places,
-                           [&](std::size_t end) { return contact_of_end_[end] == contact; })];
+                           [&](std::size_t other) { return contact_of_[other] == contact; })];
 }
 
 Point Outline::at(double t) const {

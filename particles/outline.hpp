@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "viscontact/particles/domain/plane.hpp"
 #include "viscontact/particles/fluid.hpp"
@@ -55,24 +56,27 @@ struct SpinePoints {
 SpinePoints nearest_on_spines(const Outline& first, const Outline& second);
 
 /// The one or two contacts that two outlines, circles or plates, may have. Each end of a spine and
-/// the point of the other spine that is nearest to it are a place where both may touch. The nearest
-/// of these places belongs to the contact 0. The contact 1 is the nearest place of which neither
-/// point is within a tenth of the smaller end radius of those of the contact 0, so that it keeps
-/// the other ends apart where plates lie on each other. Each further place belongs to the contact
-/// whose place is nearer to it.
+/// the point of the other spine that is nearest to it are a place where both may touch; the places
+/// have the numbers 0 and 1 of the ends of the first spine, and 2 and 3 of those of the second one.
+/// The nearest place is a contact. Another contact is the nearest place of which neither point is
+/// within a tenth of the smaller end radius of those of the first contact, so that it keeps the
+/// other ends apart where plates lie on each other. Each further place belongs to the contact that
+/// is nearer to it.
 class SpineContacts {
  public:
   /// Of both outlines as they are now.
   SpineContacts(const Outline& first, const Outline& second);
-  /// 1, or 2 if there is a contact 1.
-  int count() const { return count_; }
-  /// The points of contact `number`, those of the contact 0 if there is no contact of this number,
-  /// when the outlines have become `first` and `second`: of all its places the nearest one.
-  SpinePoints at(int number, const Outline& first, const Outline& second) const;
+  /// The place of each contact, one or two.
+  const std::vector<int>& places() const { return places_; }
+  /// The place of the contact to which the place `place` belongs.
+  int contact_of(int place) const { return contact_of_[static_cast<std::size_t>(place)]; }
+  /// The points of the contact to which the place `place` belongs, when the outlines have become
+  /// `first` and `second`: of all its places the nearest one.
+  SpinePoints at(int place, const Outline& first, const Outline& second) const;
 
  private:
-  int count_ = 1;
-  std::array<int, 4> contact_of_end_{};  // of the ends of the first spine, then of the second one
+  std::vector<int> places_;
+  std::array<int, 4> contact_of_{};
 };
 
 /// Distance of a point from the outline [L]; < 0 inside.

@@ -256,7 +256,10 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
     impacts<D>()->add_late_changes(state_.particles);
     if (!body_steps_.empty()) place_members(state_.particles);
     report.iterations += impacts<D>()->iterations();
-    report.converged = report.converged && impacts<D>()->converged();
+    if (!impacts<D>()->converged()) {
+      report.converged = false;
+      report.excess = std::numeric_limits<double>::infinity();
+    }
     const auto& rebounds = impacts<D>()->rebounds();
     rebounds_.insert(rebounds_.end(), rebounds.begin(), rebounds.end());
     impacts<D>().reset();
@@ -295,15 +298,22 @@ void Simulation::examine(const ProjectionResult& projected, double next) const {
       std::max(projected.link_residual, -residuals.smallest_gap) <= kBroken * mean_radius_)
     return;
   std::string names;
-  for (const auto& name : projected.unsolved_links)
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+  constexpr std::size_t kMostNames = 6;
+  const auto& all = projected.unsolved_links;
+  for (std::size_t k = 0; k < std::min(all.size(), kMostNames); ++k)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", all[k]);
+  if (all.size() > kMostNames) names += fmt::format(" and {} more", all.size() - kMostNames);
   if (residuals.smallest_gap < 0 && projected.contact_contradicts)
     names += " without an overlap of " +
              name_of_pair(residuals.deepest_overlap, state_.particles, setting_);
   throw Error(ErrorKind::kNotConverged,
               fmt::format("the constraints of the step to time {} contradict each other: no motion "
-                          "satisfies {}; change their lengths or places, or leave one out",
-                          next, names));
+                          "satisfies {}; change their lengths or places, or leave one out{}",
+                          next, names,
+                          setting_.links.membranes.empty()
+                              ? ""
+                              : "; a membrane may need a shorter time_step, a smaller "
+                                "bending_rigidity, or inner_area = \"free\""));
 }
 
 template <int D>

@@ -32,7 +32,7 @@ struct Pair {
   /// Number of what else the laws remember of the pair, in State::memories.
   std::int32_t memory = PairMemories::kNone;
   /// Which contact of both bodies it is: of a plate at an obstacle that of its end 0 or 1 on the
-  /// spine, of two plates 0 or 1 (SpineContacts), otherwise 0.
+  /// spine, of two plates a place of SpineContacts, 0 to 3, otherwise 0.
   std::int32_t place = 0;
   /// Place of the plane in the list of planes; only if `first` is negative.
   std::size_t plane() const { return static_cast<std::size_t>(-1 - first); }

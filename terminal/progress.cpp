@@ -25,9 +25,23 @@ bool understands_escapes(int descriptor) {
 }  // namespace
 
 void show_progress(const std::string& text) {
-  if (quiet_objects > 0 || !understands_escapes(STDERR_FILENO)) return;
-  std::fputs((kEraseLine + text).c_str(), stderr);
-  std::fflush(stderr);
+  if (quiet_objects > 0) return;
+  if (understands_escapes(STDERR_FILENO)) {
+    std::fputs((kEraseLine + text).c_str(), stderr);
+    std::fflush(stderr);
+    return;
+  }
+  static ProgressLines lines;
+  if (!text.empty() && lines.is_due(ProgressLines::Clock::now())) say(text);
+}
+
+bool ProgressLines::is_due(Clock::time_point now) {
+  constexpr auto kBetween = std::chrono::minutes(1);
+  const std::scoped_lock lock(mutex_);
+  if (!last_) last_ = now;
+  if (now - *last_ < kBetween) return false;
+  last_ = now;
+  return true;
 }
 
 bool ProgressTimer::is_due() {

@@ -1,17 +1,34 @@
 // What a person at a terminal sees on standard error: a progress line, and messages with coloured
-// words. If standard error is not a terminal, messages are plain text and progress is not shown; a
-// change must keep that, because scripts read the messages. app, pipeline and report write by it.
+// words. If standard error is not a terminal, messages are plain text, and progress is a line of its
+// own once a minute; a change must keep that, because scripts read the messages and logs of long
+// jobs tell how far they are. app, pipeline and report write by it.
 #pragma once
 
 #include <chrono>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace viscontact::terminal {
 
 /// Replaces the progress line by `text` if standard error is a terminal that understands escape
-/// sequences; otherwise does nothing.
+/// sequences. Otherwise writes `text` as a line when a minute has passed since the first call or
+/// since the last line that it wrote. An empty text removes the progress line, and writes none.
 void show_progress(const std::string& text);
+
+/// Decides when progress is written where there is no terminal. Threads may share it.
+class ProgressLines {
+ public:
+  using Clock = std::chrono::steady_clock;
+  /// True if a minute has passed between the first call, or the one that last returned true, and
+  /// `now`.
+  bool is_due(Clock::time_point now);
+
+ private:
+  std::mutex mutex_;
+  std::optional<Clock::time_point> last_;
+};
 
 /// Limits how often a progress line is shown.
 class ProgressTimer {

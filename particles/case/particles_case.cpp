@@ -267,7 +267,7 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
   read_forces_by_id(root, c);
   read_bodies(root, c);
   if (c.setting.fluid && c.particles.dimension == 2)
-    c.setting.fluid->cut_areas = cut_areas_of(c.particles);
+    c.setting.fluid->cut_areas = cut_areas_of(*c.setting.fluid, c.particles);
   read_links(root, c);
   root.section("viscous_contact")
       .require(

@@ -215,8 +215,7 @@ bool is_driven(const ParticlesCase& c, std::int32_t body) {
 /// fixed mesh, and for outlines that are no discs.
 bool may_overlap(const ParticlesCase& c, std::size_t k, std::size_t other) {
   const auto& fluid = *c.setting.fluid;
-  const auto is_disc = [&](std::size_t of) { return !fluid.is_plate(of) && !fluid.is_ellipse(of); };
-  return fluid.constraint == RigidConstraint::kRigid && is_disc(k) && is_disc(other);
+  return fluid.constraint == RigidConstraint::kRigid && fluid.is_disc(k) && fluid.is_disc(other);
 }
 
 /// Checks that the mesh can follow disc k of a body, which overlaps the disc `other` of it. Returns
@@ -229,15 +228,22 @@ bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size
   };
   if (!chord_of(c.particles, k, other))
     fail("one of them is inside the other one, where it must be left out");
-  const auto chords = chords_of(c.particles, k);
+  const auto chords = chords_of(*c.setting.fluid, c.particles, k);
   constexpr double kDegree = std::numbers::pi / 180, kLeastArc = 1 * kDegree;
   for (std::size_t i = 0; i < chords.size(); ++i) {
     const auto &before = chords[i], &after = chords[(i + 1) % chords.size()];
     const double turn = i + 1 < chords.size() ? 0 : 2 * std::numbers::pi;
-    if (after.middle - after.half + turn - before.middle - before.half < kLeastArc)
+    const double arc = after.middle - after.half + turn - before.middle - before.half;
+    if (arc < 0)
+      fail(
+          fmt::format("{} has a part in common with both {} and {}, and each two of the three "
+                      "circles meet outside the third one, which the mesh does not join; move one "
+                      "of them or leave it out",
+                      names(k), names(before.other), names(after.other)));
+    if (arc < kLeastArc)
       fail(
           fmt::format("less than one degree of the circle of {} is between two of the others; the "
-                      "mesh needs more, and three circles must not meet at a point",
+                      "mesh needs more",
                       names(k)));
   }
   const auto chord = std::ranges::find(chords, other, &Chord::other);
@@ -346,6 +352,9 @@ void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
 void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
                     const ParticleNames& names) {
   const auto& fluid = *c.setting.fluid;
+  root.section("fluid").require(fluid.solver.empty() || fluid.cut_areas.empty(), "solver",
+                                "is a program of the user's own, which knows discs only; it must "
+                                "be left out, because discs of a body overlap");
   for (std::size_t k = 0; k < fluid.semi_axes.size(); ++k) {
     root.section("fluid").require(
         fluid.solver.empty() || !fluid.is_plate(k), "solver",

@@ -44,11 +44,10 @@ struct ContactLaws {
   std::optional<FrictionLaw> friction;  ///< of the solids; needs particles that turn, and no fluid
   RestitutionLaw restitution;           ///< of the solids; needs a film law with solid contact
 
-  /// gamma_min of a pair in the unit of gamma, <= 0; minus infinity if its solids never touch. Two
-  /// plates have one film, at the nearest points; their second contact has none.
-  double lowest_gamma(const Pair& pair, const PairMemory& /*memory*/,
+  /// gamma_min of a pair in the unit of gamma, <= 0; minus infinity if its solids never touch.
+  double lowest_gamma(const Pair& /*pair*/, const PairMemory& /*memory*/,
                       const PairRadii& radii) const {
-    return pair.first >= 0 && pair.place > 0 ? 0 : film.lowest_gamma(radii.second, radii.first);
+    return film.lowest_gamma(radii.second, radii.first);
   }
 
   /// Takes over the impulse of a pair after a step of length `h` [T]: gamma, and the memories of

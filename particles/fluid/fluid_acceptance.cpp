@@ -3,6 +3,9 @@
 // state must then be that before the step. Used by fluid_simulation.cpp.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/fluid/fluid_motion.hpp"
 #include "viscontact/particles/fluid/held_rows.hpp"
@@ -22,7 +25,7 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
                             longest, report.time));
   const auto& blow = motion.blow;
   if (blow)  // no contact takes part in the displacement
-    for (auto& contact : motion.contact.contacts) contact.w = 0;
+    for (auto& contact : motion.contact.contacts) contact.w = std::min(contact.w, 0.0);
   auto residuals =
       measure_residuals(motion.contact.contacts, motion.moved, contact_conditions(motion.free, h));
   refuse_deep_overlap(residuals, state_.particles, setting_, mean_radius_, report.time, [] {
@@ -30,6 +33,8 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
            "others too little room?";
   });
   report.converged = motion.contact.is_solved && motion.links_hold && (!blow || blow->is_solved);
+  if (!motion.links_hold || (blow && !blow->is_solved))
+    report.excess = std::numeric_limits<double>::infinity();
   report_residuals(residuals, mean_radius_, report);
   if (blow) {
     auto contacts = blow->contacts;

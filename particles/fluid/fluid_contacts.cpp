@@ -7,6 +7,7 @@
 
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "viscontact/common/error.hpp"
@@ -37,13 +38,33 @@ void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
   pairs = std::move(merged);
 }
 
-/// True if both particles are plates that may touch at two places.
-bool has_second_contact(const Fluid& fluid, const Particles& p, const Pair& pair) {
+/// The contacts of two plates, one or two; nothing of other pairs.
+std::optional<SpineContacts> contacts_of_two_plates(const Fluid& fluid, const Particles& p,
+                                                    const Pair& pair) {
+  if (pair.first < 0) return {};
   const auto i = index_of(pair.first), j = index_of(pair.second);
-  return fluid.is_plate(i) && fluid.is_plate(j) &&
-         SpineContacts(outline_of(fluid, p, p.angles, i),
-                       outline_of(fluid, p, p.angles, j, shift_of(p.cell, pair.image)))
-                 .count() == 2;
+  if (!fluid.is_plate(i) || !fluid.is_plate(j)) return {};
+  return SpineContacts(outline_of(fluid, p, p.angles, i),
+                       outline_of(fluid, p, p.angles, j, shift_of(p.cell, pair.image)));
+}
+
+/// The pairs of the step before, with those of two plates at the places where they touch now. Where
+/// two contacts became one, it has the memory of the one with the film that pulls more.
+std::vector<Pair> at_present_places(const std::vector<Pair>& before, const State& state,
+                                    const Fluid& fluid) {
+  if (fluid.plates.empty()) return before;
+  std::vector<Pair> pairs;
+  for (auto pair : before) {
+    if (const auto contacts = contacts_of_two_plates(fluid, state.particles, pair))
+      pair.place = contacts->contact_of(pair.place);
+    const auto same = std::ranges::find(pairs, place_of_pair(pair), place_of_pair);
+    if (same == pairs.end()) {
+      pairs.push_back(pair);
+      continue;
+    }
+    if (pair.gamma < same->gamma) *same = pair;
+  }
+  return pairs;
 }
 
 /// Lists all pairs with a gap below `reach` [L] and those that are glued, with their memory. The
@@ -65,9 +86,15 @@ void list_pairs(StepContacts& step, const State& state, const Fluid& fluid,
     if (p.bodies.are_one(pair.first, pair.second)) continue;
     Pair made{pair.first, pair.second};
     made.image = pair.image;
-    step.pairs.push_back(made);
-    made.place = 1;
-    if (has_second_contact(fluid, p, made)) step.pairs.push_back(made);
+    const auto contacts = contacts_of_two_plates(fluid, p, made);
+    if (!contacts) {
+      step.pairs.push_back(made);
+      continue;
+    }
+    for (const int place : contacts->places()) {
+      made.place = place;
+      step.pairs.push_back(made);
+    }
   }
   for (std::size_t w = 0; w < obstacles.size(); ++w) {
     if (p.dimension == 1 && obstacles[w].normal[0] == 0) continue;
@@ -79,7 +106,7 @@ void list_pairs(StepContacts& step, const State& state, const Fluid& fluid,
       if (fluid.is_plate(k)) step.walls.push_back(pair);
     }
   }
-  keep_memory(step.pairs, state.pairs);
+  keep_memory(step.pairs, at_present_places(state.pairs, state, fluid));
   keep_memory(step.walls, state.walls);
 }
 
@@ -213,7 +240,7 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
     const double before = gap_at(p);
     if (std::abs(before) <= conditions.solver.tolerance * conditions.mean_radius / 2) gap -= before;
     changes[c] = gap - gap_after(contact, step.velocities.data(), h, conditions.layout);
-    if (gap < 0 || contact.impulse != 0 || contact.lowest < 0)
+    if (contact.w != kHeld && (gap < 0 || contact.impulse != 0 || contact.lowest < 0))
       largest = std::max(largest, std::abs(changes[c]));
   }
   if (largest <= conditions.solver.tolerance * conditions.mean_radius / 4) return false;
@@ -279,6 +306,20 @@ void add_torques_of_stops(const Links& links, const Particles& particles,
     link_forces[stops[s].first_force] += of_stops[s].levers[1] * of_stops[s].impulse / h;
 }
 
+namespace {
+
+/// Whether a force of the contact changes its gap. It does not where a hinge holds the place at which
+/// it acts.
+bool moves(const Contact<2>& contact, const Mobility& mobility,
+           const ContactConditions& conditions) {
+  if (!(conditions.least_w > 0)) return true;
+  std::vector<double> forces(conditions.free_velocities.size());
+  add_contact_force(contact, 1, forces, conditions.layout);
+  return opening(contact, mobility(forces).data(), conditions.layout) > conditions.least_w;
+}
+
+}  // namespace
+
 void solve_listed(StepContacts& step, const Mobility& mobility,
                   const ContactConditions& conditions) {
   ContactProblem problem(conditions, mobility);
@@ -293,6 +334,10 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
       const bool takes_part = after < 0 || contact.lowest != 0 || contact.impulse != 0;
       if (is_chosen[c] != 0 || !takes_part) continue;
       is_chosen[c] = 1;
+      if (!moves(contact, mobility, conditions)) {
+        step.contacts[c].w = kHeld;
+        continue;
+      }
       chosen.push_back(c);
       problem.add(contact);
     }
@@ -405,6 +450,7 @@ StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const 
   residuals.impulse_errors.resize(contacts.size());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& contact = contacts[c];
+    if (contact.w == kHeld) continue;
     const double after = gap_after(contact, velocities.data(), conditions.h, conditions.layout);
     if (!contact.is_stop())
       residuals.take_gap(

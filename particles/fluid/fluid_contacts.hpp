@@ -83,11 +83,18 @@ struct ContactConditions {
   /// The length of the step in which forces change the momentum, over h; 1 but in a fluid with
   /// inertia. The impulse of a force lambda is h lambda times this share.
   double share_of_impulse = 1;
+  /// Change of the velocity of a gap by a unit force of its contact [T/M] up to which the contact
+  /// counts as one that hinges hold, and takes no part; 0: none is held.
+  double least_w = 0;
   double least_reach = 0;  ///< pairs are listed up to this gap at least [L]
   /// Whether the mobility is symmetric. Moving fluid carries what a contact does to the contacts
   /// behind it, so that the mobility of a fluid with inertia is not.
   bool is_symmetric = true;
 };
+
+/// Contact::w of a contact whose gap a hinge holds, as no force of the contact can change it. It takes
+/// no part, and its gap is as exact as the hinge.
+inline constexpr double kHeld = -1;
 
 /// Sets Contact::allowed. Contacts with w = 0 take no part, and only the tolerance of the gaps
 /// holds for them.

@@ -172,6 +172,18 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
   ContactConditions conditions{
       free, h, layout_, setting_.solver, mean_radius_, error_of_answers(fluid), kick_length(h) / h};
   conditions.is_symmetric = !fluid.has_inertia() || fluid.coupling == Coupling::kSplitting;
+  if (!setting_.links.hinges.empty()) {
+    // A particle resists with its mass over the step and with a drag of about the viscosity, or some
+    // 1e5 times as much in the narrowest gap of a mesh. What a hinge holds moves by errors only.
+    constexpr double kShare = 1e-9, kErrors = 10;
+    double heaviest = 0;
+    const auto& p = state_.particles;
+    for (std::size_t k = 0; k < p.count(); ++k)
+      heaviest = std::max(heaviest, p.masses[k] + fluid.density * fluid.size_of(2, k, p.radii[k]));
+    for (const auto& body : p.bodies.bodies) heaviest = std::max(heaviest, body.mass);
+    conditions.least_w = std::max(kShare, kErrors * error_of_answers(fluid)) /
+                         (fluid.viscosity + heaviest / kick_length(h));
+  }
   return conditions;
 }
 

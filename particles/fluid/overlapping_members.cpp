@@ -33,12 +33,12 @@ std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::si
   return chord;
 }
 
-std::vector<Chord> chords_of(const Particles& particles, std::size_t k) {
+std::vector<Chord> chords_of(const Fluid& fluid, const Particles& particles, std::size_t k) {
   std::vector<Chord> chords;
   const auto body = particles.bodies.body_of(static_cast<std::int32_t>(k));
-  if (body < 0) return chords;
+  if (body < 0 || !fluid.is_disc(k) || fluid.constraint != RigidConstraint::kRigid) return chords;
   for (const auto member : particles.bodies.bodies[static_cast<std::size_t>(body)].members)
-    if (const auto other = static_cast<std::size_t>(member); other != k)
+    if (const auto other = static_cast<std::size_t>(member); other != k && fluid.is_disc(other))
       if (const auto chord = chord_of(particles, k, other)) chords.push_back(*chord);
   const auto is_within = [](const Chord& chord, const Chord& of) {
     const double apart = std::remainder(chord.middle - of.middle, 2 * std::numbers::pi);
@@ -52,10 +52,10 @@ std::vector<Chord> chords_of(const Particles& particles, std::size_t k) {
   return chords;
 }
 
-std::vector<double> cut_areas_of(const Particles& particles) {
+std::vector<double> cut_areas_of(const Fluid& fluid, const Particles& particles) {
   std::vector<double> areas(particles.count());
   for (std::size_t k = 0; k < areas.size(); ++k)
-    for (const auto& chord : chords_of(particles, k)) areas[k] += chord.area;
+    for (const auto& chord : chords_of(fluid, particles, k)) areas[k] += chord.area;
   if (std::ranges::all_of(areas, [](double area) { return area == 0; })) areas.clear();
   return areas;
 }

@@ -1,7 +1,7 @@
 // Discs of a rigid body that overlap, in a fluid in the plane: the body is their union. Each disc
 // is cut along the chords at which its circle meets those of the others, so that the cut discs
 // cover the union once. Lengths are in the unit of the case. Checks of a case, sizes and the mesh
-// use it. Nothing is checked or thrown. A change must keep the sum of the cut areas that of the union.
+// use it. Nothing is checked or thrown. A change must keep the sum of what is left of the discs that of the union.
 #pragma once
 
 #include <array>
@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
@@ -31,11 +32,12 @@ struct Chord {
 /// not be images of each other. The ends of the chord are the same numbers for both discs.
 std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::size_t other);
 
-/// The chords at which members of its body cut disc k, by their angle `middle` from -pi to pi,
-/// without those whose arc is within that of another one.
-std::vector<Chord> chords_of(const Particles& particles, std::size_t k);
+/// The chords at which discs of its body cut disc k in this fluid, by their angle `middle` from -pi to pi,
+/// without those whose arc is within that of another one. None if particle k is an ellipse or plate,
+/// which have no chords, and by penalty, where discs may not overlap.
+std::vector<Chord> chords_of(const Fluid& fluid, const Particles& particles, std::size_t k);
 
 /// Fluid::cut_areas for these particles [L^2]: of each one the sum of the areas beyond its chords.
-std::vector<double> cut_areas_of(const Particles& particles);
+std::vector<double> cut_areas_of(const Fluid& fluid, const Particles& particles);
 
 }  // namespace viscontact::particles

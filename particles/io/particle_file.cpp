@@ -107,9 +107,13 @@ void check_header(const std::filesystem::path& path, int dimension, bool in_flui
         std::ranges::find(of_fluid, name) == of_fluid.end())
       throw_bad_input(
           {path.string()},
-          fmt::format("has a column '{}', which is not known; the known columns are id, x, y, z, "
+          fmt::format("has a column '{}', which is not known{}; the known columns are id, x, y, z, "
                       "vx, vy, vz, radius, mass{}{}",
-                      shortened(name), of_fluid.empty() ? "" : ", ", fmt::join(of_fluid, ", ")));
+                      shortened(name),
+                      name.empty() ? " (pandas writes its index so; to_csv(..., index=False) does "
+                                     "not)"
+                                   : "",
+                      of_fluid.empty() ? "" : ", ", fmt::join(of_fluid, ", ")));
     if (name.starts_with('v')) ++velocities;
   }
   if (velocities != 0 && velocities != 3 && velocities != static_cast<std::size_t>(dimension))

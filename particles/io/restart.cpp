@@ -23,7 +23,7 @@ namespace {
 // Version 7 differs from version 6 by memories that version 6 has no array for. It is written only
 // where a pair has such a memory. Version 8 has the flow of a fluid with inertia, and is written
 // only where there is one. Version 9 has the positions before the last step, and is written only
-// with membranes. Version 10 has Pair::place, and is written only where a plate has a contact.
+// with membranes. Version 10 has Pair::place, and is written only where one is not 0.
 constexpr int kVersion = 10;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
@@ -293,7 +293,7 @@ bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {
   return first_in_range && pair.second >= 0 && index_of(pair.second) < particles &&
          pair.gamma <= 0 && std::isfinite(pair.gamma) && std::isfinite(pair.impulse) &&
          pair.gamma_error >= 0 && pair.image >= -kLargestImage && pair.image <= kLargestImage &&
-         (pair.place == 0 || pair.place == 1);
+         pair.place >= 0 && pair.place <= (at_obstacle ? 1 : 3);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -75,6 +76,8 @@ std::string point_data(AppendedData& data, const Particles& particles) {
   text += data.array("Float64", "radius", 1, particles.radii);
   text += data.array("Float64", "velocity", 3, velocities);
   text += data.array("Int32", "id", 1, ids);
+  if (std::ranges::any_of(particles.masses, [](double mass) { return mass > 0; }))
+    text += data.array("Float64", "mass", 1, particles.masses);
   if (!particles.angles.empty()) {
     text += data.array("Float64", "angle", 1, particles.angles);
     text += data.array("Float64", "angular_velocity", 1, particles.angular_velocities);

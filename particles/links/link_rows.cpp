@@ -288,7 +288,11 @@ std::string name_of(const LinkEquations& equations, const Links& links,
   if (equations.is_of_membrane()) {
     const auto& membrane = links.membranes[k];
     if (equations.kind == LinkEquations::Kind::kArea) return fmt::format("membrane {} (area)", k);
-    return pair("membrane", membrane.bead(equations.bead), membrane.bead(equations.bead + 1));
+    if (equations.kind == LinkEquations::Kind::kDistance)
+      return pair("membrane", membrane.bead(equations.bead), membrane.bead(equations.bead + 1));
+    return fmt::format("membrane {} ({} at particle {})", k,
+                       equations.kind == LinkEquations::Kind::kBend ? "bend" : "turn",
+                       particles.id(index_of(membrane.bead(equations.bead))));
   }
   const auto& hinge = links.hinges[k];
   if (equations.kind == LinkEquations::Kind::kStop) return fmt::format("a stop of hinge {}", k);

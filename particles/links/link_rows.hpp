@@ -117,7 +117,8 @@ struct UnitMotion {
 /// Value of a part for the motion of its unit, to first order in the turn [L, rad].
 double value_of(const LinkPart& part, const UnitMotion& motion);
 
-/// The equations with the directions and arms after these motions; nothing else changes.
+/// The equations with the directions of arms and springs, and the arms of parts, after these
+/// motions; nothing else changes.
 LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
                                const Particles& particles, std::span<const UnitMotion> motions);
 
@@ -126,7 +127,7 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
                                  const Particles& particles, const LinkTimes& times,
                                  std::span<const UnitMotion> motions);
 
-/// Extension of a spring after these motions [L], of a torsion spring [rad].
+/// Extension of a spring (kSpring) after these motions [L].
 double extension_after(const LinkEquations& spring, const Links& links, const Particles& particles,
                        std::span<const UnitMotion> motions);
 

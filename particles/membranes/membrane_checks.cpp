@@ -142,8 +142,9 @@ void check_given_beads(const case_file::TomlSection& section, const ParticlesCas
                     p.masses[index_of(*bead)]);
     section.require(!c.setting.given_motions.contains(*bead), "particles",
                     "contains particle {}, whose motion is given; beads must be free", id);
-    section.require(!in_fluid || !c.setting.fluid->is_ellipse(index_of(*bead)), "particles",
-                    "contains particle {}, which is an ellipse; beads must be discs", id);
+    section.require(!in_fluid || c.setting.fluid->is_disc(index_of(*bead)), "particles",
+                    "contains particle {}, which is an ellipse or a plate; beads must be discs",
+                    id);
   }
 }
 
@@ -170,17 +171,27 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
       constexpr double kRounding = 1 + 1e-9;
       section.require((i == 0 && j + 1 == count) || distance * kRounding >= p.radii[a] + p.radii[b],
                       shape,
-                      "makes beads {} and {} overlap across the membrane; its area must be larger, "
-                      "or it must have more beads (or smaller ones)",
-                      i, j);
+                      "makes particles {} and {} overlap across the membrane; its area must be "
+                      "larger, or its beads smaller",
+                      p.id(a), p.id(b));
     }
-  const double reduced =
-      4 * std::numbers::pi * membrane.area / (membrane.perimeter * membrane.perimeter);
   // What a membrane that is made may have, but for rounding.
-  section.require(!c.setting.fluid || (reduced > 0.2999 && reduced < 0.99901), shape,
+  section.require(!c.setting.fluid || (reduced_area > 0.2999 && reduced_area < 0.99901), shape,
                   "makes a membrane of the reduced area {:.6g}; in a fluid it must be from 0.3 to "
                   "0.999",
-                  reduced);
+                  reduced_area);
+  // The largest area leaves no motion but rigid ones: there the gradient of the area is a sum of
+  // those of the distances. A membrane of 0.993 of it was hit by a disc, and kept both.
+  constexpr double kOfLargestArea = 0.993;
+  if (!c.setting.fluid && membrane.keeps_area) {
+    const double largest = largest_area(membrane.lengths);
+    section.require(
+        membrane.area <= kOfLargestArea * largest, shape,
+        "makes a membrane of the area {:.6g}, and the largest one that its beads can "
+        "enclose is {:.6g}; it must be at most {} of this one, with which it can change "
+        "its shape, or inner_area must be \"free\"",
+        membrane.area, largest, kOfLargestArea);
+  }
   for (std::size_t d = 0; d < 2; ++d) {
     double from = own[d], to = own[d];
     for (std::size_t i = d; i < own.size(); i += 2) {
@@ -227,7 +238,7 @@ void check_others(const case_file::TomlSection& first, const ParticlesCase& c) {
                                       p.id(k), what));
     };
     if (p.masses[k] > 0) refuse("has a mass");
-    if (c.setting.fluid->is_ellipse(k)) refuse("is an ellipse");
+    if (!c.setting.fluid->is_disc(k)) refuse("is an ellipse or a plate");
     if (c.setting.torques.contains(static_cast<std::int32_t>(k))) refuse("has a torque");
   }
   for (const auto& membrane : c.setting.fluid->membranes) {

@@ -125,6 +125,34 @@ double shape_curve(Membrane& membrane, Particles& particles) {
   return (kept - given).lpNorm<Eigen::Infinity>();
 }
 
+double largest_area(std::span<const double> lengths) {
+  // The angles under which the centre of the circle sees the sides add up to a full turn, where the
+  // longest side counts negative if the centre lies beyond it. Bisection of the curvature 1/radius.
+  const auto longest = std::ranges::max_element(lengths);
+  double others = 0;
+  for (auto side = lengths.begin(); side != lengths.end(); ++side)
+    if (side != longest) others += std::asin(std::min(1.0, *side / *longest));
+  const bool is_inside = others >= std::numbers::pi / 2;
+  double low = 0, high = 2 / *longest;
+  constexpr int kHalvings = 200;
+  for (int n = 0; n < kHalvings; ++n) {
+    const double curvature = (low + high) / 2;
+    double sum = 0;
+    for (auto side = lengths.begin(); side != lengths.end(); ++side)
+      sum += (side == longest && !is_inside ? -1 : 1) *
+             std::asin(std::min(1.0, *side * curvature / 2));
+    // Beyond the longest side the sum also vanishes for a curvature of 0, and is > 0 between.
+    const bool is_below = is_inside ? sum < std::numbers::pi : sum > 0;
+    (is_below ? low : high) = curvature;
+  }
+  const double radius = 2 / (low + high);
+  double area = 0;
+  for (auto side = lengths.begin(); side != lengths.end(); ++side)
+    area += (side == longest && !is_inside ? -1 : 1) * *side / 2 *
+            std::sqrt(std::max(0.0, radius * radius - *side * *side / 4));
+  return area;
+}
+
 std::vector<double> corners_of(const Membrane& membrane, const Particles& particles) {
   const auto necklace = necklace_of(membrane, particles);
   std::vector<double> corners;

@@ -29,6 +29,10 @@ void shape_polygon(Membrane& membrane, const Particles& particles);
 /// largest component of a displacement [L], or infinity if there are no such places.
 double shape_curve(Membrane& membrane, Particles& particles);
 
+/// The largest area of a polygon with these distances of neighbours [L^2], that of the one whose
+/// corners are on a circle. Of distances > 0 [L], each less than the sum of the others.
+double largest_area(std::span<const double> lengths);
+
 /// The corners of the polygon through the beads: those images of which each is the nearest to the
 /// one before it.
 std::vector<double> corners_of(const Membrane& membrane, const Particles& particles);

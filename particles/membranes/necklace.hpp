@@ -20,7 +20,7 @@ Eigen::VectorXd distances_of(const Eigen::VectorXd& necklace);
 
 /// The area inside the polygon [L^2], > 0 if it is counter-clockwise.
 double area_of(const Eigen::VectorXd& necklace);
-/// Its derivatives, as many numbers as positions [L].
+/// The derivatives of area_of(), as many numbers as positions [L].
 Eigen::VectorXd area_gradient(const Eigen::VectorXd& necklace);
 
 /// The angles by which the polygon turns at the beads, each in (-pi, pi] [rad].

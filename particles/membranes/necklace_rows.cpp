@@ -81,7 +81,7 @@ LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
   return row;
 }
 
-/// By how much bead k turns less than the line between its neighbours.
+/// By how much bead k turns more than the line between its neighbours.
 LinkRow turn_row(const Membrane& membrane, const Particles& p, std::int32_t k) {
   const Vector chord = across(membrane, p, k);
   const Vector of_ends = (1 / dot(chord, chord)) * left_of(chord);

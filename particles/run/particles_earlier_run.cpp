@@ -95,12 +95,16 @@ void take_over_bodies(State& state, const ParticlesCase& c, const fs::path& rest
 /// Throws Error(kBadInput) if a hinge of the state is beyond its stop: an earlier run had another
 /// stop there, and the first step would turn what the hinge holds back at once.
 void check_stops(const State& state, const ParticlesCase& c, const fs::path& restart) {
-  constexpr double kBeyond = 1e-3;  // [rad]; steps keep a stop to smaller errors
+  // Steps keep a stop to the tolerance of lengths, here at the distance of a mean radius.
+  constexpr double kBeyond = 1e-3;  // [rad]
+  const double allowed = std::max(kBeyond, 10 * c.setting.solver.tolerance);
   for (const auto& stop : stop_equations(c.setting.links, state.particles))
-    if (const double left = stop.rows.front().value; left < -kBeyond)
-      throw_bad_input({restart.string()},
-                      fmt::format("has hinge {} turned beyond a stop of {} by {:.3g} rad",
-                                  stop.number, c.path.string(), -left));
+    if (const double left = stop.rows.front().value; left < -allowed)
+      throw_bad_input(
+          {restart.string()},
+          fmt::format("has hinge {} turned beyond its {} in {} by {:.3g} rad", stop.number,
+                      stop.parts().front().direction[2] > 0 ? "lowest_angle" : "highest_angle",
+                      c.path.string(), -left));
 }
 
 }  // namespace

@@ -20,10 +20,10 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileEnd, bytes, last_line)
 namespace viscontact::particles {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RelativeErrors, best, of_one_mesh, of_penalty)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, iterations, most_iterations,
-                                   first_time, last_time, largest_residual, largest_overlap,
-                                   largest_impulse_residual, divided, unresolved, seconds,
-                                   peak_memory_mebibytes, fluid_seconds, unknowns,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, failed, iterations,
+                                   most_iterations, first_time, last_time, largest_residual,
+                                   largest_overlap, largest_impulse_residual, divided, unresolved,
+                                   seconds, peak_memory_mebibytes, fluid_seconds, unknowns,
                                    first_velocity_errors, last_velocity_errors, first_force_errors,
                                    last_force_errors)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
@@ -35,6 +35,7 @@ constexpr const char* kRecordOf = "# record after step ";
 void StepTotals::add(const StepReport& report) {
   ++steps;
   unconverged += report.converged ? 0 : 1;
+  failed += report.converged || report.excess <= kStillAResult ? 0 : 1;
   iterations += report.iterations;
   most_iterations = std::max(most_iterations, report.iterations);
   largest_residual = std::max(largest_residual, report.residual);
@@ -118,6 +119,7 @@ std::string run_json(const ParticlesCase& c, const StepTotals& totals, const Sta
   json["time_step"] = c.setting.time_step;
   json["steps"] = totals.steps;
   json["unconverged_steps"] = totals.unconverged;
+  json["failed_steps"] = totals.failed;
   json["iterations"] = totals.iterations;
   json["mean_iterations"] = static_cast<double>(totals.iterations) / steps;
   json["largest_iterations"] = totals.most_iterations;

@@ -19,11 +19,17 @@
 
 namespace viscontact::particles {
 
+/// The largest StepReport::excess of a step that did not converge and still is a result: such steps
+/// cause a warning, and others end the command with an error.
+inline constexpr double kStillAResult = 10;
+
 /// Sums and largest values over the steps of a run: those of this call and those of the interrupted
 /// calls before it in the same folder.
 struct StepTotals {
   /// Number of steps, of steps that did not converge, and of the iterations of all steps.
   std::int64_t steps = 0, unconverged = 0, iterations = 0;
+  /// Number of steps among `unconverged` whose StepReport::excess is above kStillAResult.
+  std::int64_t failed = 0;
   int most_iterations = 0;                           ///< largest number of iterations in one step
   double first_time = 0, last_time = 0;              ///< at the start and after the last step [T]
   double largest_residual = 0, largest_overlap = 0;  ///< divided by the mean radius

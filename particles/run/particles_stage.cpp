@@ -209,10 +209,13 @@ void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& rec
           static_cast<double>(std::max<std::int64_t>(record.steps, 1)),
       record.largest_residual, record.largest_overlap, (folder / "particles.html").string()));
   if (record.unconverged > 0)
-    terminal::warn(
-        fmt::format("particles: warning: {} of {} steps did not reach the tolerances {} and {}",
-                    record.unconverged, record.steps, c.setting.solver.tolerance,
-                    c.setting.solver.impulse_tolerance));
+    terminal::warn(fmt::format(
+        "particles: warning: {} of {} steps did not reach the tolerances {} and {}, {}",
+        record.unconverged, record.steps, c.setting.solver.tolerance,
+        c.setting.solver.impulse_tolerance,
+        record.failed > 0
+            ? fmt::format("{} of them by more than a factor of {}", record.failed, kStillAResult)
+            : fmt::format("by less than a factor of {} (steps.csv says which)", kStillAResult)));
   if (record.unresolved > 0)
     terminal::warn(fmt::format(
         "particles: warning: {} contacts were computed although their particles move past each "
@@ -224,17 +227,16 @@ void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& rec
         fmt::format("particles: interrupted at t = {:.6g}; the same command continues from there",
                     record.last_time));
   stop.throw_if_stop_requested();
-  if (record.unconverged > 0)
-    throw Error(
-        ErrorKind::kNotConverged,
-        fmt::format("{}: {} of {} steps did not converge: residuals are up to {:.2g} (of "
-                    "the gaps; solver.tolerance is {}) and {:.2g} (of the impulses; "
-                    "solver.impulse_tolerance is {}). All results are written, and "
-                    "steps.csv says which steps; raise solver.max_iterations ({}) or the "
-                    "tolerances",
-                    c.path.string(), record.unconverged, record.steps, record.largest_residual,
-                    c.setting.solver.tolerance, record.largest_impulse_residual,
-                    c.setting.solver.impulse_tolerance, c.setting.solver.max_iterations));
+  if (record.failed > 0)
+    throw Error(ErrorKind::kNotConverged,
+                fmt::format("{}: {} of {} steps did not converge: residuals are up to {:.2g} (of "
+                            "the gaps; solver.tolerance is {}) and {:.2g} (of the impulses; "
+                            "solver.impulse_tolerance is {}). All results are written, and "
+                            "steps.csv says which steps; raise solver.max_iterations ({}) or the "
+                            "tolerances",
+                            c.path.string(), record.failed, record.steps, record.largest_residual,
+                            c.setting.solver.tolerance, record.largest_impulse_residual,
+                            c.setting.solver.impulse_tolerance, c.setting.solver.max_iterations));
 }
 
 /// For a run that was finished before this call: prints the messages of the call that finished it,

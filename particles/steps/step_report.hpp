@@ -52,6 +52,9 @@ struct StepReport {
   /// (docs/particles.md, "The projection").
   double impulse_residual = 0;
   bool converged = true;  ///< the residuals of all contacts are within the tolerances
+  /// Largest residual over what is allowed for its contact or link, >= 0; infinite if the step did
+  /// not converge for another reason.
+  double excess = 0;
   /// Largest overlap -(D + h G v) after the step, divided by the mean radius. It is computed from
   /// linearised gaps; no gap is smaller than its linearised gap.
   double largest_overlap = 0;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "viscontact/common/error.hpp"
 
@@ -34,6 +35,9 @@ void report_residuals(const StepResiduals& residuals, double mean_radius, StepRe
   report.residual = std::max(report.residual, residuals.largest / mean_radius);
   report.impulse_residual = std::max(report.impulse_residual, residuals.of_impulses);
   report.converged = report.converged && residuals.converged;
+  report.excess = std::max(report.excess, residuals.converged || residuals.excess > 1
+                                              ? residuals.excess
+                                              : std::numeric_limits<double>::infinity());
   report.largest_overlap =
       std::max(report.largest_overlap, (0 - residuals.smallest_gap) / mean_radius);
 }

@@ -200,7 +200,7 @@ TEST(MeshBoundary, OfDiscsOfABodyThatOverlapIsThatOfTheirUnion) {
   particles.inertias.assign(4, 0);
   add_rigid_body(particles, {{0, 1, 2}});
   auto fluid = fluid_with(24, RigidConstraint::kRigid);
-  fluid.cut_areas = cut_areas_of(particles);
+  fluid.cut_areas = cut_areas_of(fluid, particles);
   const auto boundary = mesh_boundary(fluid, DiscDomain{{}, 6}, {&particles, {}, {}, {}}, 1);
   expect_closed(boundary);
   EXPECT_EQ(labels_of(boundary), (std::multiset<int>{1, 100, 100, 101, 102, 103}));

@@ -46,6 +46,20 @@ TEST(Progress, IsNotShownWithoutATerminal) {
             "");
 }
 
+TEST(Progress, IsALineOnceAMinuteWithoutATerminal) {
+  ProgressLines lines;
+  const auto start = ProgressLines::Clock::now();
+  const auto at = [&](int seconds) { return lines.is_due(start + std::chrono::seconds(seconds)); };
+  EXPECT_FALSE(at(0));
+  EXPECT_FALSE(at(59));
+  EXPECT_TRUE(at(60));
+  EXPECT_FALSE(at(61));
+  EXPECT_FALSE(at(119));
+  EXPECT_TRUE(at(150));
+  EXPECT_FALSE(at(209));
+  EXPECT_TRUE(at(210));
+}
+
 TEST(Progress, IsDueOnceInATenthOfASecond) {
   ProgressTimer timer;
   EXPECT_FALSE(timer.is_due());

@@ -15,6 +15,7 @@
 namespace viscontact::freefem_flow {
 namespace {
 
+using particles::norm;
 using particles::RigidConstraint;
 using particles::Vector;
 
@@ -40,7 +41,7 @@ struct InRoundWall {
     std::vector<std::int32_t> members(state.particles.count());
     std::iota(members.begin(), members.end(), 0);
     add_rigid_body(state.particles, {members});
-    setting.fluid->cut_areas = cut_areas_of(state.particles);
+    setting.fluid->cut_areas = cut_areas_of(*setting.fluid, state.particles);
   }
   /// The state after a step.
   particles::Particles after_step() const {
@@ -100,6 +101,24 @@ TEST(OverlappingMembers, FloatInAFluidOfTheirDensity) {
     EXPECT_NEAR(after.velocity(k)[1], 0, 1e-12);
     EXPECT_NEAR(after.angular_velocities[k], 0, 1e-12);
   }
+}
+
+// Two plates of one body whose circles meet, but not the plates, are plates, by rigid motions and by
+// penalty.
+TEST(OverlappingMembers, AreNoPlatesWhoseCirclesMeet) {
+  const auto velocity = [](RigidConstraint constraint) {
+    InRoundWall body({{0, -0.5, 1}, {0, 0.5, 1}}, 12);
+    body.setting.fluid->semi_axes = {{1, 0.1}, {1, 0.1}};
+    body.setting.fluid->plates = {1, 1};
+    body.setting.fluid->constraint = constraint;
+    body.join();
+    EXPECT_TRUE(body.setting.fluid->cut_areas.empty());
+    body.setting.forces[0] = {{{1e300, {1, 0, 0}}}};
+    return body.after_step().velocity(0);
+  };
+  const Vector rigid = velocity(RigidConstraint::kRigid),
+               penalty = velocity(RigidConstraint::kPenalty);
+  for (std::size_t d = 0; d < 2; ++d) EXPECT_NEAR(penalty[d], rigid[d], 1e-2 * norm(rigid));
 }
 
 // The same body turned by an angle moves with the turned velocity, but for the error of its mesh.

@@ -410,7 +410,9 @@ TEST(RefusedFluidTest, DiscsOfABodyThatOverlapInAWayThatTheMeshDoesNotResolve) {
   expect_refused_at(with_body({{-1.99, 0}, {0, 0}, {1.5, 0}}), "[[particle]]\ncentre = [-1.99",
                     "is a wedge of 11.5 degrees; the mesh needs at least 20");
   expect_refused_at(with_body({{-0.9, 0}, {0.9, 0}, {0, 1.2}}), "[[particle]]\ncentre = [-0.9",
-                    "less than one degree of the circle");
+                    "each two of the three circles meet outside the third one");
+  expect_refused_at(changed(row, "viscosity = 1.0", "viscosity = 1.0\nsolver = [\"true\"]"),
+                    "solver", "because discs of a body overlap");
   expect_refused_at(with_body({{-0.95, 0}, {0.95, 0}, {0, 1.65}}),
                     "[[particle]]\ncentre = [0, 1.65", "closes a ring of particles that overlap");
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "tests/particles/fluid/stand_in_fluid.hpp"
@@ -230,6 +231,33 @@ TEST_P(Plates, ReboundOnAHingeAndRestOnAStop) {
   EXPECT_NEAR(after(-std::asin(1 / (2 * l)) + 0.1), 0, 1e-6);
 }
 
+// A hinge holds the end of a plate where a fixed disc touches it: no force of this contact moves the
+// plate, which turns about the hinge as if the disc were not there.
+TEST_P(Plates, OnAHingeAtTheirContactTurnAsWithoutIt) {
+  const auto angle_with = [&](bool has_disc) {
+    auto system = with_plates(0.01, GetParam());
+    const double l = kHalf - kEnd;
+    add_plate(system, {10 + l, 10, 0}, 0, 1);
+    if (has_disc) {
+      add_disc(system, {10, 10 - kEnd - 0.1 - kGap, 0}, 1, {});
+      system.setting.fluid->semi_axes.push_back({0.1, 0.1});
+      system.setting.fluid->plates.push_back(0);
+      system.setting.given_motions[1] = {};
+    }
+    Hinge hinge;
+    hinge.at = {10, 10, 0};
+    hinge.point = {0, {-l, 0, 0}};
+    system.setting.links.hinges = {hinge};
+    system.setting.torques[0] = constant({0, 0, 1});
+    system.setting.laws.film.gamma_min = 0;
+    auto simulation = system.simulation(constant_drag(0.5));
+    EXPECT_TRUE(run(simulation, 0.5).converged);
+    return simulation.state().particles.angles[0];
+  };
+  EXPECT_GT(angle_with(false), 0.05);
+  EXPECT_NEAR(angle_with(true), angle_with(false), 1e-9);
+}
+
 // A disc of the mass 0.5 and the velocity 1 meets a plate that rests on its stop, 0.7 from the hinge: the
 // stop takes the moment (1 + e_d) 0.5 0.7 of the whole blow, and the plate stays.
 TEST_P(Plates, OnAStopGiveItTheWholeBlow) {
@@ -295,6 +323,39 @@ TEST_P(Plates, ShareALoadAsABeam) {
   EXPECT_NEAR(contacts[0].normal_force, 20 * (10.9 - 10.5) / (10.9 - 9.6), 1e-6);
   EXPECT_NEAR(contacts[1].normal_force, 20 * (10.5 - 9.6) / (10.9 - 9.6), 1e-6);
   EXPECT_NEAR(simulation.state().particles.angles[1], 0, 1e-9);
+}
+
+// Each end of a plate that lies on another one has a film, which books the load of this end. Without its
+// load the plate, pulled in its middle, comes off without turning, as the mirror image of itself.
+TEST_P(Plates, ThatLieOnEachOtherHaveAFilmAtEachEnd) {
+  auto system = with_plates(0.01, GetParam());
+  add_plate(system, {10, 10, 0}, 0, 1);
+  add_plate(system, {10.5, 10 + kGap + 2 * kEnd + 0.01, 0}, 0, 1);
+  system.setting.given_motions[0] = {};
+  system.setting.forces[1] = constant({0, -20, 0});
+  auto simulation = system.simulation(constant_drag(0.1));
+  std::map<std::int32_t, double> booked;
+  for (int n = 0; n < 50; ++n) {
+    EXPECT_TRUE(simulation.step(1e9).converged);
+    for (const auto& pair : simulation.state().pairs) booked[pair.place] -= pair.impulse;
+  }
+  ASSERT_EQ(booked.size(), 2U);  // the end at x = 10.9 of the lower, and at 9.6 of the upper plate
+  for (const auto& pair : simulation.state().pairs)
+    EXPECT_NEAR(pair.gamma, booked[pair.place], 1e-9 * std::abs(pair.gamma)) << pair.place;
+  EXPECT_NEAR(booked[0] / booked[3], (10.5 - 9.6) / (10.9 - 10.5), 1e-6);
+}
+
+TEST_P(Plates, ThatAreSymmetricComeOffWithoutTurning) {
+  auto system = with_plates(0.01, GetParam());
+  add_plate(system, {10, 10, 0}, 0, 1);
+  add_plate(system, {10, 10 + kGap + 2 * kEnd + 0.01, 0}, 0, 1);
+  system.setting.given_motions[0] = {};
+  system.setting.forces[1] = {{{0.2, {0, -20, 0}}, {1e300, {0, 20, 0}}}};
+  auto simulation = system.simulation(constant_drag(0.1));
+  EXPECT_TRUE(run(simulation, 1).converged);
+  EXPECT_NEAR(simulation.state().particles.angular_velocities[1], 0, 1e-9);
+  EXPECT_GT(simulation.state().particles.velocities[3], 0);
+  for (const auto& pair : simulation.state().pairs) EXPECT_EQ(pair.gamma, 0);
 }
 
 }  // namespace

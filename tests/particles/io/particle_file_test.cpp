@@ -111,6 +111,8 @@ TEST_F(FluidParticleFile, StaysAsItWasWithoutAFluid) {
       bad_input([&] { read("x,y,radius,mass,fluid_torque\n1,2,1,1,0\n", 2, false); }),
       HasSubstr("has a column 'fluid_torque', which is not known; the known columns are id, "
                 "x, y, z, vx, vy, vz, radius, mass, angle, angular_velocity"));
+  EXPECT_THAT(bad_input([&] { read(",x,y,radius,mass\n0,1,2,1,1\n", 2, false); }),
+              HasSubstr("has a column '', which is not known (pandas writes its index so"));
   EXPECT_THAT(bad_input([&] { read("x,y,radius,mass\n1,2,1,0\n", 2, false); }),
               HasSubstr("mass is 0; it must be > 0"));
 }

@@ -54,6 +54,14 @@ TEST_F(VtkFile, WithoutAFluidHasNoRotation) {
   EXPECT_TRUE(frame(state.particles, {}).angles.empty());
 }
 
+TEST_F(VtkFile, HasTheMassesIfThereAreAny) {
+  State state = no_particles(2);
+  add_particle(state, {1, 2, 0}, 1, 0);
+  EXPECT_THAT(write_vtp(state.particles, {}), ::testing::Not(HasSubstr("\"mass\"")));
+  state.particles.masses = {3};
+  EXPECT_THAT(write_vtp(state.particles, {}), HasSubstr("Name=\"mass\""));
+}
+
 TEST_F(VtkFile, OfSpheresOnAnAxisHasThemOnZ) {
   State state = no_particles(1);
   add_particle(state, {3, 0, 0}, 1, 1);

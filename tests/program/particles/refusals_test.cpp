@@ -1,4 +1,5 @@
 // Cases that `viscontact particles` refuses, and runs that it cannot finish.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,9 +32,29 @@ TEST_F(ParticlesCommand, StepsThatDoNotConvergeAreReportedAndAllIsWritten) {
   EXPECT_THAT(result.errors, HasSubstr("warning"));
   const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
   EXPECT_GT(record["unconverged_steps"], 0);
+  EXPECT_GT(record["failed_steps"], 0);
   EXPECT_GT(record["largest_residual"], 1e-6);
   EXPECT_THAT(read_file(out() / "steps.csv"), ::testing::ContainsRegex(",0\n"));
   EXPECT_TRUE(fs::exists(out() / "particles.html"));
+}
+
+TEST_F(ParticlesCommand, StepsThatNearlyConvergeAreAWarning) {
+  std::string text = replaced(kCase, "max_iterations = 10000", "max_iterations = 1");
+  for (int k = 1; k < 5; ++k)
+    text += "\n[[particle]]\ncentre = [0.3, " + std::to_string(2 + 2.2 * k) +
+            "]\nradius = 1.0\nmass = 1.0\n";
+  run(put_case(text), out());
+  const double missed =
+      nlohmann::json::parse(read_file(out() / "run.json"))["largest_residual"].get<double>();
+  // Half of the tolerance is allowed, so that the largest residual exceeds it by a factor of four.
+  text = replaced(text, "tolerance = 1e-6",
+                  fmt::format("impulse_tolerance = 0.1\ntolerance = {}", missed / 2));
+  const auto result = run(put_case(text), out("near"));
+  expect_done(result);
+  EXPECT_THAT(result.errors, HasSubstr("by less than a factor of 10 (steps.csv says which)"));
+  const auto record = nlohmann::json::parse(read_file(out("near") / "run.json"));
+  EXPECT_GT(record["unconverged_steps"], 0);
+  EXPECT_EQ(record["failed_steps"], 0);
 }
 
 struct BadParticles {

@@ -123,7 +123,7 @@ at = [0.0, 0.9]
   const auto longer = replaced(swing, "end_time = 1.0", "end_time = 1.2");
   expect_refusal(run(put_case(longer + "highest_angle = 0.5\n", "stop.toml"), out("no"),
                      {"--restart", restart}),
-                 ErrorKind::kBadInput, HasSubstr("has hinge 0 turned beyond a stop"));
+                 ErrorKind::kBadInput, HasSubstr("has hinge 0 turned beyond its highest_angle"));
   expect_done(run(put_case(longer + "highest_angle = 1.5\n", "far.toml"), out("far"),
                   {"--restart", restart}));
 }
