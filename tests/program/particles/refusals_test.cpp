@@ -39,7 +39,7 @@ TEST_F(ParticlesCommand, StepsThatDoNotConvergeAreReportedAndAllIsWritten) {
 }
 
 TEST_F(ParticlesCommand, StepsThatNearlyConvergeAreAWarning) {
-  std::string text = replaced(kCase, "max_iterations = 10000", "max_iterations = 1");
+  std::string text = replaced(kCase, "max_iterations = 10000", "max_iterations = 8");
   for (int k = 1; k < 5; ++k)
     text += "\n[[particle]]\ncentre = [0.3, " + std::to_string(2 + 2.2 * k) +
             "]\nradius = 1.0\nmass = 1.0\n";
