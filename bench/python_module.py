@@ -4,14 +4,15 @@ the same step in C++, and simulate() of the lecture's case.
 
     PYTHONPATH=build/release/python bench/python_module.py [ROUNDS]
 
-needs a build with -D VISCONTACT_PYTHON=ON and build/bench/box2d. Steps are those of the benchmark
-box2d with 1000 discs until t = 2.5: Python and C++ run them in turn, ROUNDS times (default 9). All
-times are CPU times, because the machine may be shared.
+needs a build with -D VISCONTACT_PYTHON=ON. Steps are those of the benchmark box2d with 1000 discs,
+until t = 2.5 (the early fall, with the shortest steps) and until t = 10. The loop is in C++
+(Particles.run), in Python (Particles.step), in Python with forces by NumPy, and in C++ again, which
+shows the noise; in turn, ROUNDS times (default 60; of the long run a tenth). All times are CPU times,
+because the machine may be shared.
 """
 
 import pathlib
 import statistics
-import subprocess
 import sys
 import tempfile
 import time
@@ -21,7 +22,7 @@ import numpy as np
 import viscontact
 
 SOURCE = pathlib.Path(__file__).parents[1]
-COUNT, UNTIL = 1000, 2.5
+COUNT = 1000
 
 
 def milliseconds(function, times):
@@ -62,29 +63,43 @@ def write_box(folder):
     return case
 
 
-def step_in_cpp():
-    """CPU time of a step [ms]."""
-    printed = subprocess.run([SOURCE / "build/bench/box2d", "--count", str(COUNT), "--until",
-                              str(UNTIL)], check=True, capture_output=True, text=True).stdout
-    return float(printed.split(" ms CPU a step")[0].split()[-1])
+def loop_in_cpp(discs, until):
+    discs.run(until)
 
 
-def step_in_python(case, with_forces):
-    discs = viscontact.Particles(case)
-    forces, positions = discs.forces if with_forces else None, discs.positions
-    spent, steps = 0, 0
-    while discs.time < UNTIL * (1 - 1e-9):
-        start = time.process_time()
-        if with_forces:
-            np.multiply(positions, -1e-30, out=forces)
-        discs.step(UNTIL)
-        spent += time.process_time() - start
-        steps += 1
-    return 1e3 * spent / steps
+def loop_in_python(discs, until):
+    while discs.time < until * (1 - 1e-9):
+        discs.step(until)
+
+
+def loop_with_forces(discs, until):
+    forces, positions = discs.forces, discs.positions
+    while discs.time < until * (1 - 1e-9):
+        np.multiply(positions, -1e-30, out=forces)
+        discs.step(until)
+
+
+LOOPS = {"in C++": loop_in_cpp, "in Python": loop_in_python, "with forces": loop_with_forces,
+         "in C++ again": loop_in_cpp}
+
+
+def compare_loops(box, until, rounds):
+    taken = {name: [] for name in LOOPS}
+    for _ in range(rounds):
+        for name, loop in LOOPS.items():
+            discs = viscontact.Particles(box)
+            start = time.process_time()
+            loop(discs, until)
+            taken[name].append(1e3 * (time.process_time() - start) / discs.steps)
+    for name, times in taken.items():
+        ratio = statistics.median(t / cpp for t, cpp in zip(times, taken["in C++"]))
+        print(f"step of {COUNT} discs until t = {until}, {name}: {min(times):.4f} ms CPU, median "
+              f"{statistics.median(times):.4f}; over C++ {min(times) / min(taken['in C++']):.3f}, "
+              f"median of the ratios {ratio:.3f}")
 
 
 def main():
-    rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 9
+    rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 60
     for basis in "lecture", "asymptotic_extended":
         fit = viscontact.fit(SOURCE / "data/tables/lecture.csv", basis)
         gaps = np.geomspace(*fit.interval, 10**6)
@@ -99,17 +114,8 @@ def main():
             what, *milliseconds(lambda: viscontact.simulate(case, fit, models=models), 30)))
     with tempfile.TemporaryDirectory() as folder:
         box = write_box(pathlib.Path(folder))
-        cpp, python, forced = [], [], []
-        for _ in range(rounds):
-            cpp.append(step_in_cpp())
-            python.append(step_in_python(box, False))
-            forced.append(step_in_python(box, True))
-    ratios = [b / a for a, b in zip(cpp, python)]
-    print(f"step, {COUNT} discs: C++ {min(cpp):.4f} ms CPU, median {statistics.median(cpp):.4f}; "
-          f"Python {min(python):.4f}, median {statistics.median(python):.4f}; ratio of the least "
-          f"{min(python) / min(cpp):.3f}, median of ratios {statistics.median(ratios):.3f}")
-    print(f"the same with a force of NumPy in each step: {min(forced):.4f} ms CPU, median "
-          f"{statistics.median(forced):.4f}")
+        compare_loops(box, 2.5, rounds)
+        compare_loops(box, 10, max(rounds // 10, 1))
 
 
 if __name__ == "__main__":

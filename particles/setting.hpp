@@ -59,10 +59,10 @@ struct Setting {
   /// driven particle has no entry in `forces`, and gravity does not change its motion.
   std::map<std::int32_t, GivenMotion> given_motions;
   /// Forces [M L/T^2] and torques [M L^2/T^2] on all particles in addition to those above, in the
-  /// order of Particles::velocities and Particles::angular_velocities; empty: none. They are 0 for
-  /// driven particles. The caller of a simulation may change them between two steps
+  /// order of Particles::velocities and Particles::angular_velocities; empty: none. Those of driven
+  /// particles have no effect. The caller of a simulation may change them between two steps
   /// (Simulation::added_forces). Torques need particles that turn.
-  std::vector<double> added_forces{}, added_torques{};
+  std::vector<double> added_forces{}, added_torques{};  ///< the torques, as above
 };
 
 /// The cell of the domain with the mean velocity gradient of the fluid, 0 without a fluid.

@@ -20,13 +20,6 @@ struct sigaction handler_before = {};
 
 void remember_interrupt(int) { interrupted = true; }
 
-/// Whether Python, or the user, has a handler of SIGINT that could act after the call.
-bool has_handler() {
-  struct sigaction action = {};
-  sigaction(SIGINT, nullptr, &action);
-  return action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN;
-}
-
 /// The classes of exceptions. They live as long as the process.
 struct Exceptions {
   PyObject *error, *input, *not_converged, *external_program;
@@ -75,7 +68,8 @@ InterruptGuard::InterruptGuard() {
   if (guards++ > 0) return;
   interrupted = false;
   sigaction(SIGINT, nullptr, &handler_before);
-  if (!has_handler()) return;
+  // Without a handler of Python, or of the user, nothing could act after the call.
+  if (handler_before.sa_handler == SIG_DFL || handler_before.sa_handler == SIG_IGN) return;
   struct sigaction action = {};
   action.sa_handler = remember_interrupt;  // no SA_RESTART: a system call that waits returns
   sigemptyset(&action.sa_mask);

@@ -40,6 +40,18 @@ class PythonParticles {
                   "another thread computes steps of these particles; wait for it");
   }
 
+  /// Calls `step` while other threads of Python run, and refuses other calls meanwhile. Without a
+  /// fluid a step cannot be stopped, so that Python's own handler acts on Ctrl-C after it. To
+  /// replace this handler for each step takes five microseconds, 2 % of a short step of 1000 discs.
+  template <class Step>
+  particles::StepReport compute_step(const Step& step) {
+    if (simulation_.has_fluid()) return compute([&](const StopToken&) { return step(); });
+    check_idle();
+    const Computing computing(is_computing_);
+    const py::gil_scoped_release released;
+    return step();
+  }
+
   /// Calls `compute` as long_call() does, and refuses other calls meanwhile.
   template <class Compute>
   auto compute(const Compute& compute) {
@@ -103,9 +115,8 @@ auto view_of(Member particles::Particles::*member, bool is_flat = false) {
 }
 
 particles::StepReport step(PythonParticles& self, const std::optional<double>& until) {
-  return self.compute([&](const StopToken&) {
-    return self.simulation().step(until.value_or(std::numeric_limits<double>::infinity()));
-  });
+  const double end = until.value_or(std::numeric_limits<double>::infinity());
+  return self.compute_step([&] { return self.simulation().step(end); });
 }
 
 /// Steps until a time, by default that of the case. Returns their number.

@@ -8,12 +8,13 @@ import sys
 import tempfile
 import threading
 import time
+import tomllib
 import unittest
 
 import numpy as np
 
 import viscontact
-from cases import DATA
+from cases import DATA, SOURCE
 
 PROGRAM = os.environ["VISCONTACT_PROGRAM"]
 
@@ -156,7 +157,8 @@ class CallsTest(unittest.TestCase):
         np.testing.assert_allclose(table.force, shipped.force(table.gap, -1.0), rtol=6e-3)
 
     def test_the_module_says_what_it_is(self):
-        self.assertRegex(viscontact.__version__, r"^\d+\.\d+\.\d+$")
+        with open(SOURCE / "pyproject.toml", "rb") as file:
+            self.assertEqual(viscontact.__version__, tomllib.load(file)["project"]["version"])
         for name in viscontact.__all__:
             self.assertTrue(getattr(viscontact, name).__doc__, name)
         printed = subprocess.run([sys.executable, "-c", "import viscontact; help(viscontact.Fit)"],
