@@ -3,12 +3,14 @@
 // FreeFEM have no effect on a script.
 #include "viscontact/freefem/freefem_command.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cstdlib>
 #include <sstream>
 #include <system_error>
+#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/process.hpp"
@@ -110,10 +112,20 @@ std::optional<Package> package_of(const std::string& executable, const StopToken
 }
 
 std::filesystem::path find_script_folder(std::string_view part, std::string_view script) {
-  const auto program_folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  for (const auto* up : {".", ".."}) {
-    auto folder = (program_folder / up / "share/viscontact" / part).lexically_normal();
-    if (std::filesystem::exists(folder / script)) return folder;
+  namespace fs = std::filesystem;
+  const auto program_folder = fs::read_symlink("/proc/self/exe").parent_path();
+  std::vector<fs::path> beside = {program_folder, program_folder.parent_path()};
+  // Of a program, dladdr gives the name by which it was called, which may be no path.
+  if (Dl_info info; dladdr(reinterpret_cast<const void*>(&find_script_folder), &info) != 0 &&
+                    fs::path(info.dli_fname).filename().string().find(".so") != std::string::npos)
+    for (auto folder = fs::canonical(info.dli_fname).parent_path();;
+         folder = folder.parent_path()) {
+      beside.push_back(folder);
+      if (folder == folder.root_path()) break;
+    }
+  for (const auto& one : beside) {
+    auto folder = (one / "share/viscontact" / part).lexically_normal();
+    if (fs::exists(folder / script)) return folder;
   }
   throw Error(ErrorKind::kExternalProgram,
               fmt::format("the FreeFEM scripts are not in share/viscontact/{} beside {}; build or "

@@ -27,7 +27,9 @@ std::optional<std::chrono::seconds> time_limit_of_user();
 
 /// The folder share/viscontact/PART that contains the file `script`, where PART is the name of a
 /// source folder, such as freefem_axi. It is looked for beside this program (build tree), then one
-/// folder above (installed). Throws Error(kExternalProgram) if there is no such folder.
+/// folder above (installed); then, if this code is in a shared library such as the Python module,
+/// beside the library and in all folders above. Throws Error(kExternalProgram) if there is no such
+/// folder.
 std::filesystem::path find_script_folder(std::string_view part, std::string_view script);
 
 /// How a process of FreeFEM is started.

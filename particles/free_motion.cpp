@@ -26,6 +26,11 @@ void Simulation::move_freely(double h, double next) {
     for (std::size_t d = 0; d < D; ++d)
       displacements_[k * D + d] += kick * mobilities_[k] * mean[d];
   }
+  if (const auto& added = setting_.added_forces; !added.empty())
+    pool_->for_blocks(added.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        displacements_[i] += kick * mobilities_[i / D] * added[i];
+    });
   if (p.turn()) turn_freely(h, next);
   if (!p.bodies.empty()) move_bodies_freely(h, next);
   link_forces_ = state_.link_forces;
@@ -55,6 +60,10 @@ std::vector<BodyLoad> Simulation::loads_of_bodies(
       }
       if (const auto torque = setting_.torques.find(member); torque != setting_.torques.end())
         loads[b].torque = loads[b].torque + mean(torque->second);
+      const Vector added = added_force(setting_, index_of(member), p.dimension);
+      loads[b].force = loads[b].force + added;
+      loads[b].torque = loads[b].torque + cross(present_offset(body, m, p.dimension), added) +
+                        added_torque(setting_, index_of(member), p.dimension);
     }
   }
   return loads;
@@ -137,6 +146,13 @@ Particles Simulation::reported_particles() const {
   for (const auto& [particle, torque] : setting_.torques)
     add(reported.angular_velocities, index_of(particle), turns,
         lag / reported.inertias[index_of(particle)], torque.mean(from, state_.time), 3 - turns);
+  for (std::size_t k = 0; k < reported.count(); ++k) {
+    add(reported.velocities, k, numbers, lag / reported.masses[k],
+        added_force(setting_, k, reported.dimension), 0);
+    if (reported.turn())
+      add(reported.angular_velocities, k, turns, lag / reported.inertias[k],
+          added_torque(setting_, k, reported.dimension), 3 - turns);
+  }
   const auto loads = loads_of_bodies(
       [&](const PiecewiseConstant& function) { return function.mean(from, state_.time); });
   for (std::size_t b = 0; b < loads.size(); ++b) {
@@ -165,6 +181,8 @@ void Simulation::turn_freely(double h, double next) {
       turns_[k * components + i] +=
           kick_length(h) * turn_mobilities_[k] * mean[p.dimension == 3 ? i : 2];
   }
+  for (std::size_t i = 0; i < setting_.added_torques.size(); ++i)
+    turns_[i] += kick_length(h) * turn_mobilities_[i / components] * setting_.added_torques[i];
 }
 
 template void Simulation::move_freely<2>(double, double);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "viscontact/particles/contact/contact_laws.hpp"
@@ -14,6 +15,7 @@
 #include "viscontact/particles/domain/plane.hpp"
 #include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/links/links.hpp"
+#include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
 #include "viscontact/particles/solver_settings.hpp"
 
@@ -56,10 +58,41 @@ struct Setting {
   /// Motions of the particles that are driven through the fluid, by the number of the particle. A
   /// driven particle has no entry in `forces`, and gravity does not change its motion.
   std::map<std::int32_t, GivenMotion> given_motions;
+  /// Forces [M L/T^2] and torques [M L^2/T^2] on all particles in addition to those above, in the
+  /// order of Particles::velocities and Particles::angular_velocities; empty: none. Those of driven
+  /// particles have no effect. The caller of a simulation may change them between two steps
+  /// (Simulation::added_forces). Torques need particles that turn.
+  std::vector<double> added_forces{}, added_torques{};  ///< the torques, as above
 };
 
 /// The cell of the domain with the mean velocity gradient of the fluid, 0 without a fluid.
 PeriodicCell cell_of(const Setting& setting);
+
+/// The force of Setting::added_forces on particle k [M L/T^2]; 0 if there are none.
+inline Vector added_force(const Setting& setting, std::size_t k, int dimension) {
+  if (setting.added_forces.empty()) return {};
+  return point_of(setting.added_forces.data(), k, dimension);
+}
+
+/// The torque of Setting::added_torques on particle k [M L^2/T^2], of a disc in component 2; 0 if
+/// there are none.
+inline Vector added_torque(const Setting& setting, std::size_t k, int dimension) {
+  if (setting.added_torques.empty()) return {};
+  if (dimension == 3) return point_of(setting.added_torques.data(), k, 3);
+  return {0, 0, setting.added_torques[k]};
+}
+
+/// Setting::added_forces for these particles, with zeros at first.
+inline std::span<double> added_forces_for(const Particles& particles, Setting& setting) {
+  setting.added_forces.resize(particles.velocities.size());
+  return setting.added_forces;
+}
+
+/// Setting::added_torques for these particles, with zeros at first; empty if they do not turn.
+inline std::span<double> added_torques_for(const Particles& particles, Setting& setting) {
+  setting.added_torques.resize(particles.angular_velocities.size());
+  return setting.added_torques;
+}
 
 /// All obstacles of a case: the walls of its domain, then its planes. Files number them -1, -2, ...
 std::vector<Plane> obstacles_of(const Setting& setting);

@@ -356,7 +356,7 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
     rebounds_.clear();
     undo_impacts();
     if (before_division_) {
-      state_ = std::move(*before_division_);
+      state_ = *before_division_;  // copied, so that the arrays stay where callers may view them
     } else if (!saved_impulses_.empty()) {
       for_pairs([&](Pair& pair) {
         const auto saved = saved_impulses_.find(key_of(pair));

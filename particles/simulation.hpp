@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
@@ -67,8 +68,18 @@ class Simulation {
   /// equal particles that move past each other by up to 256 radii in a step.
   static constexpr int kMostHalvings = 8;
 
+  /// Forces of the caller on the particles [M L/T^2], in addition to those of the setting: as many
+  /// numbers for each particle as there are dimensions, 0 at first. They act in each of the next
+  /// steps with the values that they have when the step begins. No step changes them, and the state
+  /// does not contain them. With kLeapfrog they act from the middle of the last step to the middle
+  /// of the next one, so that forces which depend on positions keep the second order.
+  std::span<double> added_forces() { return added_forces_for(state_.particles, setting_); }
+  /// Torques of the caller [M L^2/T^2], likewise: one for each disc, three for each sphere; empty
+  /// if the particles do not turn.
+  std::span<double> added_torques() { return added_torques_for(state_.particles, setting_); }
+
   const State& state() const { return state_; }        ///< after the last step
-  const Setting& setting() const { return setting_; }  ///< as the constructor was given it
+  const Setting& setting() const { return setting_; }  ///< with the added forces and torques
 
   /// The blows of solids in the last step, in order of time; empty without restitution.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }

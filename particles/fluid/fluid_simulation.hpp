@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
@@ -70,10 +71,16 @@ class FluidSimulation {
   /// a double; and the errors of FluidSolver. The state is then that before the step.
   StepReport step(double end);
 
+  /// Forces of the caller on the particles [M L/T^2]; see Simulation::added_forces. Those of driven
+  /// particles have no effect.
+  std::span<double> added_forces() { return added_forces_for(state_.particles, setting_); }
+  /// Torques of the caller [M L^2/T^2]; see Simulation::added_torques.
+  std::span<double> added_torques() { return added_torques_for(state_.particles, setting_); }
+
   const State& state() const { return state_; }  ///< after the last step
   /// The state with the flow of a fluid with inertia, to be written.
   State state_to_save();
-  const Setting& setting() const { return setting_; }  ///< as the constructor was given it
+  const Setting& setting() const { return setting_; }  ///< with the added forces and torques
 
   /// The flow of the last step: where the particles were at the beginning of the step.
   FlowField flow() { return solver_->flow(); }

@@ -62,6 +62,13 @@ std::vector<double> mean_forces(const Setting& setting, const Particles& p,
   if (layout.components == 3)
     for (const auto& [particle, torque] : setting.torques)
       forces[layout.at(particle, 2)] += torque.mean(from, to)[2];
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    if (setting.given_motions.contains(static_cast<std::int32_t>(k))) continue;
+    const Vector force = added_force(setting, k, p.dimension);
+    for (std::size_t d = 0; d < layout.directions(); ++d)
+      forces[k * layout.components + d] += force[d];
+    if (layout.components == 3) forces[k * 3 + 2] += added_torque(setting, k, p.dimension)[2];
+  }
   return forces;
 }
 

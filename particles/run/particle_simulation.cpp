@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "viscontact/common/error.hpp"
+
 namespace viscontact::particles {
 
 ParticleSimulation::ParticleSimulation(const Setting& setting, State state, int threads,
@@ -26,6 +28,22 @@ ParticleSimulation::ParticleSimulation(const Setting& setting, State state, int 
 StepReport ParticleSimulation::step(double end) {
   if (membranes_) return membranes_->step(end);
   return in_fluid_ ? in_fluid_->step(end) : dry_->step(end);
+}
+
+std::span<double> ParticleSimulation::added_forces() {
+  refuse_membranes();
+  return in_fluid_ ? in_fluid_->added_forces() : dry_->added_forces();
+}
+
+std::span<double> ParticleSimulation::added_torques() {
+  refuse_membranes();
+  return in_fluid_ ? in_fluid_->added_torques() : dry_->added_torques();
+}
+
+void ParticleSimulation::refuse_membranes() const {
+  if (membranes_)
+    throw Error(ErrorKind::kWrongUsage,
+                "membranes in a fluid take no forces of the caller; give forces in the case");
 }
 
 const State& ParticleSimulation::state() const {

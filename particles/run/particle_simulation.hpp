@@ -27,6 +27,10 @@ class ParticleSimulation {
   /// FluidSimulation::step, which say what is thrown.
   StepReport step(double end);
   const State& state() const;  ///< after the last step
+  /// Forces and torques of the caller; see Simulation::added_forces. Throws Error(kWrongUsage) if
+  /// there is a fluid with membranes.
+  std::span<double> added_forces();
+  std::span<double> added_torques();  ///< likewise
   /// The particles with their velocities at the present time; see Simulation::reported_particles
   /// and FluidSimulation::reported_particles.
   Particles reported_particles() const {
@@ -62,6 +66,8 @@ class ParticleSimulation {
   }
 
  private:
+  void refuse_membranes() const;
+
   std::unique_ptr<Simulation> dry_;
   std::unique_ptr<FluidSimulation> in_fluid_;
   std::unique_ptr<MembraneSimulation> membranes_;

@@ -1,0 +1,93 @@
+// What all files of the Python module use: calls that take long, and arrays of NumPy. While a long
+// call runs, other Python threads run, too, and Ctrl-C (SIGINT) stops it. A change must keep that
+// no object of Python is used while the interpreter is released.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <vector>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/stop_token.hpp"
+
+namespace viscontact::python {
+
+namespace py = pybind11;
+
+/// While an object of this class exists, SIGINT sets a flag instead of calling the handler of
+/// Python, which could not run before the call returns. The handler of Python runs afterwards. If
+/// SIGINT is ignored or ends the process, this stays so. The interpreter must be held when an object
+/// is made and when it ends.
+class InterruptGuard {
+ public:
+  InterruptGuard();
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+  /// Lets the handler of Python act on a signal that came. Throws what this handler raises, which
+  /// is KeyboardInterrupt unless the user has set another one.
+  void raise_if_interrupted();
+};
+
+/// The token that requests a stop after SIGINT has come during a call.
+StopToken interrupt_token();
+
+/// Calls `compute` with a token that requests a stop at Ctrl-C, and returns what it returns. Other
+/// Python threads can run meanwhile. Throws what `compute` throws, and KeyboardInterrupt in place
+/// of Error(kInterrupted).
+template <class Compute>
+auto long_call(const Compute& compute) {
+  InterruptGuard guard;
+  try {
+    const py::gil_scoped_release released;
+    return compute(interrupt_token());
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kInterrupted) guard.raise_if_interrupted();
+    throw;
+  }
+}
+
+/// An argument that is an array of doubles, or is converted to one: a number, a list, an array of
+/// another type or with gaps in memory.
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// The values of `function` at all elements of an array, in an array of the same shape; for a number
+/// (an array without dimensions) a float.
+template <class Function>
+py::object mapped(const Doubles& x, const Function& function) {
+  if (x.ndim() == 0) return py::float_(function(*x.data()));
+  Doubles y(std::vector<py::ssize_t>(x.shape(), x.shape() + x.ndim()));
+  const double* from = x.data();
+  double* to = y.mutable_data();
+  const auto count = x.size();
+  const py::gil_scoped_release released;
+  for (py::ssize_t i = 0; i < count; ++i) to[i] = function(from[i]);
+  return y;
+}
+
+/// A new array with one value for each of `rows`, which `value` gives.
+template <class Rows, class Value>
+py::array column(const Rows& rows, const Value& value) {
+  using Element = std::decay_t<decltype(value(*std::begin(rows)))>;
+  py::array_t<Element> array(static_cast<py::ssize_t>(std::size(rows)));
+  Element* to = array.mutable_data();
+  for (const auto& row : rows) *to++ = value(row);
+  return array;
+}
+
+/// The columns as viscontact.Columns, a dictionary whose entries are attributes, too. `about` has
+/// further values.
+inline py::object as_columns(const py::dict& columns, const py::dict& about = py::dict()) {
+  return py::module_::import("viscontact.columns").attr("Columns")(columns, about);
+}
+
+// Each of these adds its classes and functions to the module.
+void add_fits(py::module_& module);       ///< Fit, PairFit, tabulate, fit, fit_pair
+void add_particles(py::module_& module);  ///< Particles
+void add_spheres(py::module_& module);    ///< simulate, rolling, swimmer
+
+}  // namespace viscontact::python

@@ -1,0 +1,304 @@
+// Many particles in Python: the class Particles, whose caller makes the steps and sets forces
+// between them. Arrays are views of the state of the simulation, without copies. Numbers are in the
+// units of the case; errors are those of particles/run/particle_simulation.hpp. A change must keep
+// that views stay valid: no step may move an array of the state to another place in memory.
+#include <fmt/format.h>
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "viscontact/freefem_flow/freefem_solver.hpp"
+#include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/run/particle_simulation.hpp"
+#include "viscontact/particles/run/particles_earlier_run.hpp"
+#include "viscontact/python/call.hpp"
+
+namespace viscontact::python {
+namespace {
+
+namespace fs = std::filesystem;
+using particles::State;
+
+/// A case and its simulation.
+class PythonParticles {
+ public:
+  PythonParticles(const fs::path& path, int threads, const std::optional<fs::path>& restart)
+      : case_(particles::read_particles_case(path)),
+        simulation_(case_.setting, particles::first_state(case_, restart ? restart->string() : ""),
+                    threads, freefem_flow::start_fluid_solver, interrupt_token()) {}
+
+  const particles::ParticlesCase& case_file() const { return case_; }
+  particles::ParticleSimulation& simulation() { return simulation_; }
+
+  /// Throws Error(kWrongUsage) while another thread computes steps.
+  void check_idle() const {
+    if (is_computing_)
+      throw Error(ErrorKind::kWrongUsage,
+                  "another thread computes steps of these particles; wait for it");
+  }
+
+  /// Calls `step` while other threads of Python run, and refuses other calls meanwhile. Without a
+  /// fluid a step cannot be stopped, so that Python's own handler acts on Ctrl-C after it. To
+  /// replace this handler for each step takes five microseconds, 2 % of a short step of 1000 discs.
+  template <class Step>
+  particles::StepReport compute_step(const Step& step) {
+    if (simulation_.has_fluid()) return compute([&](const StopToken&) { return step(); });
+    check_idle();
+    const Computing computing(is_computing_);
+    const py::gil_scoped_release released;
+    return step();
+  }
+
+  /// Calls `compute` as long_call() does, and refuses other calls meanwhile.
+  template <class Compute>
+  auto compute(const Compute& compute) {
+    check_idle();
+    const Computing computing(is_computing_);
+    return long_call(compute);
+  }
+
+  const State& state() const { return simulation_.state(); }
+  bool is_finished() const {
+    return state().time >= case_.end_time - 1e-6 * case_.setting.time_step;
+  }
+
+ private:
+  /// Sets a flag as long as it exists.
+  class Computing {
+   public:
+    explicit Computing(bool& flag) : flag_(flag) { flag_ = true; }
+    ~Computing() { flag_ = false; }
+    Computing(const Computing&) = delete;
+    Computing& operator=(const Computing&) = delete;
+
+   private:
+    bool& flag_;
+  };
+
+  particles::ParticlesCase case_;
+  particles::ParticleSimulation simulation_;
+  bool is_computing_ = false;  // the interpreter's lock protects it
+};
+
+std::unique_ptr<PythonParticles> open_case(const fs::path& path, int threads,
+                                           const std::optional<fs::path>& restart) {
+  if (threads < 1)
+    throw Error(ErrorKind::kWrongUsage, fmt::format("threads is {}; it must be > 0", threads));
+  return long_call(
+      [&](const StopToken&) { return std::make_unique<PythonParticles>(path, threads, restart); });
+}
+
+/// A view of numbers of the simulation that `owner` contains and which it keeps alive. The numbers
+/// are `rows` rows of equal length; the view has one dimension if this length is 1 and `is_flat`.
+template <class Number>
+py::array view(const py::object& owner, const Number* numbers, std::size_t size, std::size_t rows,
+               bool is_flat, bool is_writeable) {
+  const auto columns = rows == 0 ? 0 : size / rows;
+  std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(columns == 0 ? 0 : rows)};
+  if (!is_flat || columns > 1) shape.push_back(static_cast<py::ssize_t>(columns));
+  py::array_t<Number> array(shape, numbers, owner);
+  if (!is_writeable) array.attr("flags").attr("writeable") = false;
+  return array;
+}
+
+/// A property that views an array of the particles.
+template <class Member>
+auto view_of(Member particles::Particles::*member, bool is_flat = false) {
+  return [member, is_flat](const py::object& self) {
+    const auto& p = self.cast<const PythonParticles&>().state().particles;
+    const auto& numbers = p.*member;
+    return view(self, numbers.data(), numbers.size(), p.count(), is_flat, false);
+  };
+}
+
+particles::StepReport step(PythonParticles& self, const std::optional<double>& until) {
+  const double end = until.value_or(std::numeric_limits<double>::infinity());
+  return self.compute_step([&] { return self.simulation().step(end); });
+}
+
+/// Steps until a time, by default that of the case. Returns their number.
+std::int64_t run(PythonParticles& self, const std::optional<double>& until) {
+  const double end = until.value_or(self.case_file().end_time);
+  const double tiny = 1e-6 * self.case_file().setting.time_step;
+  return self.compute([&](const StopToken& stop) {
+    const auto before = self.state().steps;
+    while (self.state().time < end - tiny) {
+      stop.throw_if_stop_requested();
+      (void)self.simulation().step(end);
+    }
+    return self.state().steps - before;
+  });
+}
+
+/// An array of the vectors of contacts, with as many components as the space has.
+template <class Value>
+py::array vectors(const std::vector<particles::CurrentContact>& contacts, int dimension,
+                  const Value& value) {
+  py::array_t<double> array(
+      {static_cast<py::ssize_t>(contacts.size()), static_cast<py::ssize_t>(dimension)});
+  double* to = array.mutable_data();
+  for (const auto& contact : contacts) {
+    const particles::Vector v = value(contact);
+    for (int d = 0; d < dimension; ++d) *to++ = v[static_cast<std::size_t>(d)];
+  }
+  return array;
+}
+
+py::object contacts(const PythonParticles& self) {
+  self.check_idle();
+  const auto& p = self.state().particles;
+  const auto all = particles::contacts_of(self.case_file().setting, self.state());
+  using Contact = particles::CurrentContact;
+  py::dict columns;
+  const auto id_of = [&](std::int32_t number) {
+    return number < 0 ? number : p.id(particles::index_of(number));
+  };
+  columns["first"] = column(all, [&](const Contact& c) { return id_of(c.first); });
+  columns["second"] = column(all, [&](const Contact& c) { return id_of(c.second); });
+  columns["gap"] = column(all, [](const Contact& c) { return c.gap; });
+  columns["gamma"] = column(all, [](const Contact& c) { return c.gamma; });
+  columns["normal_force"] = column(all, [](const Contact& c) { return c.normal_force; });
+  columns["normal"] = vectors(all, p.dimension, [](const Contact& c) { return c.normal; });
+  columns["tangential_force"] =
+      vectors(all, p.dimension, [](const Contact& c) { return c.tangential_force; });
+  columns["branch"] = vectors(all, p.dimension, [](const Contact& c) { return c.branch; });
+  return as_columns(columns);
+}
+
+void add_step_report(py::module_& module) {
+  using particles::StepReport;
+  py::class_<StepReport>(module, "StepReport", "What a step did; see Particles.step.")
+      .def_readonly("time", &StepReport::time, "at the end of the step [T]")
+      .def_readonly("contacts", &StepReport::contacts, "number of close pairs")
+      .def_readonly("glued", &StepReport::glued, "number of contacts with gamma < 0")
+      .def_readonly("iterations", &StepReport::iterations, "of the projection")
+      .def_readonly("converged", &StepReport::converged,
+                    "whether all residuals are within the tolerances of the case")
+      .def_readonly("residual", &StepReport::residual, "of the gaps, over the mean radius")
+      .def_readonly("impulse_residual", &StepReport::impulse_residual,
+                    "of the impulses, over those at work")
+      .def_readonly("largest_overlap", &StepReport::largest_overlap, "over the mean radius")
+      .def_readonly("parts", &StepReport::parts, "number of parts that the step was divided into")
+      .def("__repr__", [](const StepReport& report) {
+        return fmt::format("<viscontact.StepReport time {}, {} contacts, {} iterations, {}>",
+                           report.time, report.contacts, report.iterations,
+                           report.converged ? "converged" : "not converged");
+      });
+}
+
+}  // namespace
+
+void add_particles(py::module_& module) {
+  using particles::Particles;
+  add_step_report(module);
+  py::class_<PythonParticles>(module, "Particles", R"(Many discs or spheres with viscous contact.
+
+Particles(case, threads=1, restart=None)
+
+case       case file of many particles (TOML)
+threads    number of threads; the results do not depend on it
+restart    restart.bin of an earlier run, whose state is the start; None: that of the case
+
+N is the number of particles and D the number of dimensions: 2 for discs, 3 for spheres, 1 for
+spheres on an axis. Arrays are views: they show the present state after each step, cannot be written
+(but forces and torques), and keep the object alive. No file is written.)")
+      .def(py::init(&open_case), py::arg("case"), py::kw_only(), py::arg("threads") = 1,
+           py::arg("restart") = py::none())
+      .def("step", &step, R"(Computes one step and returns its StepReport.
+
+until      the step ends at this time [T] if it would end later; if the time is reached, no step is
+           made. None: a whole step of the case.
+
+Raises NotConvergedError if the step cannot be computed; the state is then that before the step.)",
+           py::arg("until") = py::none())
+      .def("run", &run, R"(Computes steps until a time and returns their number.
+
+until      the time [T]; None: end_time of the case)",
+           py::arg("until") = py::none())
+      .def_property_readonly(
+          "forces",
+          [](const py::object& self) {
+            auto& simulation = self.cast<PythonParticles&>().simulation();
+            const auto forces = simulation.added_forces();
+            return view(self, forces.data(), forces.size(), simulation.state().particles.count(),
+                        false, true);
+          },
+          "Forces of the caller (N, D) [M L/T^2], 0 at first, in addition to those of the case.\n\n"
+          "They act in each of the next steps with the values that they have when it begins.")
+      .def_property_readonly(
+          "torques",
+          [](const py::object& self) {
+            auto& simulation = self.cast<PythonParticles&>().simulation();
+            const auto torques = simulation.added_torques();
+            return view(self, torques.data(), torques.size(), simulation.state().particles.count(),
+                        simulation.state().particles.dimension != 3, true);
+          },
+          "Torques of the caller [M L^2/T^2]: (N,) of discs, (N, 3) of spheres, likewise; empty "
+          "if\n"
+          "the particles do not turn.")
+      .def_property_readonly("positions", view_of(&Particles::positions),
+                             "of the centres (N, D) [L]")
+      .def_property_readonly("velocities", view_of(&Particles::velocities),
+                             "(N, D) [L/T]; with scheme = \"leapfrog\" half a step before the time")
+      .def_property_readonly("angles", view_of(&Particles::angles, true),
+                             "of discs, counter-clockwise (N,) [rad]; empty if they do not turn")
+      .def_property_readonly("orientations", view_of(&Particles::orientations),
+                             "of spheres: unit quaternions w, x, y, z (N, 4); empty for discs")
+      .def_property_readonly("angular_velocities", view_of(&Particles::angular_velocities, true),
+                             "(N,) of discs, (N, 3) of spheres [1/T]; empty if they do not turn")
+      .def_property_readonly("radii", view_of(&Particles::radii, true), "(N,) [L]")
+      .def_property_readonly("masses", view_of(&Particles::masses, true), "(N,) [M]")
+      .def_property_readonly(
+          "ids",
+          [](const PythonParticles& self) {
+            const auto& p = self.state().particles;
+            std::vector<std::int32_t> ids(p.count());
+            for (std::size_t k = 0; k < ids.size(); ++k) ids[k] = p.id(k);
+            return column(ids, [](std::int32_t id) { return id; });
+          },
+          "Names of the particles in files (N,), a copy.")
+      .def(
+          "reported_velocities",
+          [](PythonParticles& self) {
+            self.check_idle();
+            const auto p = self.simulation().reported_particles();
+            Doubles array(
+                {static_cast<py::ssize_t>(p.count()), static_cast<py::ssize_t>(p.dimension)});
+            std::ranges::copy(p.velocities, array.mutable_data());
+            return array;
+          },
+          "The velocities at the present time (N, D) [L/T], as in final_particles.csv: a copy.")
+      .def("contacts", &contacts, R"(The present contacts, an array for each column (C contacts):
+
+first, second      (C,) ids of both particles; at a wall or plane `first` is -1, -2, ...
+gap, gamma         (C,) [L], [M L/T]
+normal_force       (C,) mean of the last step [M L/T^2], > 0 where it pushes both apart
+normal             (C, D) unit vector from `first` to `second`
+tangential_force   (C, D) mean friction on `second` in the last step [M L/T^2]
+branch             (C, D) from the centre of `first`, or the nearest point of a wall, to that of
+                   `second` [L])")
+      .def_property_readonly(
+          "time", [](const PythonParticles& self) { return self.state().time; }, "[T]")
+      .def_property_readonly(
+          "steps", [](const PythonParticles& self) { return self.state().steps; },
+          "number of steps that were made")
+      .def_property_readonly(
+          "time_step",
+          [](const PythonParticles& self) { return self.case_file().setting.time_step; }, "[T]")
+      .def_property_readonly(
+          "end_time", [](const PythonParticles& self) { return self.case_file().end_time; },
+          "of the case [T]")
+      .def_property_readonly("finished", &PythonParticles::is_finished,
+                             "whether the time is end_time")
+      .def("__len__", [](const PythonParticles& self) { return self.state().particles.count(); })
+      .def("__repr__", [](const PythonParticles& self) {
+        return fmt::format("<viscontact.Particles {} particles, {} dimensions, time {} of {}>",
+                           self.state().particles.count(), self.state().particles.dimension,
+                           self.state().time, self.case_file().end_time);
+      });
+}
+
+}  // namespace viscontact::python

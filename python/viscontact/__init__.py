@@ -1,0 +1,41 @@
+"""Spheres and discs in a viscous fluid: lubrication forces and viscous contact.
+
+Fit, PairFit                      fitted lubrication forces, on arrays
+tabulate, fit, fit_pair           tables by FreeFEM, and fits of tables
+simulate, rolling, swimmer        motions of single spheres, as arrays
+Particles                         many discs or spheres, step by step
+read                              files and folders that Viscontact wrote, as arrays
+
+Lengths, masses and times are in any consistent units: those of the case, table or fit. Nothing is
+converted. [L], [M] and [T] are the dimensions. Errors are exceptions with the message of the
+program: InputError (also a ValueError), NotConvergedError (also an ArithmeticError),
+ExternalProgramError, all of them Error. Ctrl-C stops every call; other threads of Python run during
+long ones. docs/python.md shows how to use the module, and docs/physics.md has the equations.
+"""
+
+from ._core import (Error, ExternalProgramError, Fit, InputError, NotConvergedError, PairFit,
+                    Particles, StepReport, __version__, _tabulate, fit, fit_pair, rolling, simulate,
+                    swimmer)
+from .columns import Columns
+from .results import Folder, Frames, read
+
+__all__ = ["Columns", "Error", "ExternalProgramError", "Fit", "Folder", "Frames", "InputError",
+           "NotConvergedError", "PairFit", "Particles", "StepReport", "fit", "fit_pair", "read",
+           "rolling", "simulate", "swimmer", "tabulate", "__version__"]
+
+
+def tabulate(case, output, *, jobs=0, motions=()):
+    """Tabulates the forces on a sphere with FreeFEM, as `viscontact tabulate`.
+
+    case       case file with the section [tabulation] or [swimmer] (TOML)
+    output     the table to be written (CSV); for several motions a folder, in which each gets
+               MOTION.csv
+    jobs       number of processes of FreeFEM at once; 0: one for each core
+    motions    "approach", "slide", "roll", "spin", or "all": in place of those of the case
+
+    Finished rows are kept if the call is interrupted; the same call goes on. Returns the table as
+    read() does, or for several motions a dictionary of tables by their motions.
+    """
+    files = _tabulate(case, output, jobs, [motions] if isinstance(motions, str) else list(motions))
+    tables = {file.stem: read(file) for file in files}
+    return tables if len(tables) > 1 else next(iter(tables.values()))

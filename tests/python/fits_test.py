@@ -1,0 +1,137 @@
+"""Fit, PairFit, fit and fit_pair of the Python module."""
+
+import pathlib
+import tempfile
+import unittest
+
+import numpy as np
+
+import viscontact
+from cases import DATA, spread, values
+
+LECTURE = DATA / "fits/lecture.json"
+
+
+class FitTest(unittest.TestCase):
+    def test_has_the_bits_of_the_library(self):
+        fit = viscontact.Fit(LECTURE)
+        gaps = spread(fit.interval)
+        expected = values("fit", LECTURE, *map(float.hex, gaps))
+        np.testing.assert_array_equal(fit.resistance(gaps), expected[:, 0])
+        np.testing.assert_array_equal(fit.impulse(gaps), expected[:, 1])
+        np.testing.assert_array_equal(fit.force(gaps, -2.5), -expected[:, 0] * -2.5)
+
+    def test_takes_numbers_lists_and_arrays_of_any_shape_and_type(self):
+        fit = viscontact.Fit(str(LECTURE))
+        one = fit.resistance(0.25)
+        self.assertIsInstance(one, float)
+        self.assertEqual(fit.resistance([0.25, 0.5])[0], one)
+        gaps = np.full((2, 3, 4), 0.25, dtype=np.float32)[:, ::2]
+        np.testing.assert_array_equal(fit.resistance(gaps), np.full((2, 2, 4), one))
+        self.assertEqual(fit.resistance(np.zeros((0, 3))).shape, (0, 3))
+        self.assertIsInstance(fit.force(0.25, 1), float)
+        forces = fit.force([[0.25], [0.5]], [1, 2, 3])
+        self.assertEqual(forces.shape, (2, 3))
+        self.assertEqual(forces[0, 2], -3 * one)
+
+    def test_impulse_and_its_inverse(self):
+        fit = viscontact.Fit(LECTURE)
+        gaps = spread(fit.interval)
+        # The inverse is exact to round-off of ln(gap), some units in the last place of the gap.
+        np.testing.assert_allclose(fit.gap_of_impulse(fit.impulse(gaps)), gaps, rtol=1e-13)
+
+    def test_says_what_the_file_says(self):
+        fit = viscontact.Fit(LECTURE)
+        self.assertEqual(fit.basis, "lecture")
+        self.assertEqual(list(fit.terms), ["1/q", "1", "q", "q^2", "q^3"])
+        self.assertEqual((fit.radius, fit.viscosity), (1, 3))
+        self.assertLess(fit.largest_relative_residual, 0.01)
+        by_hand = sum(c * 0.01 ** p for c, p in zip(fit.terms.values(), (-1, 0, 1, 2, 3)))
+        # The sum is rounded in another order.
+        self.assertAlmostEqual(fit.resistance(0.01) * -fit.reference_velocity / by_hand, 1,
+                               delta=1e-14)
+
+    def test_is_scaled_to_another_sphere_and_fluid(self):
+        fit = viscontact.Fit(LECTURE)
+        scaled = viscontact.Fit(LECTURE, radius=2, viscosity=6)
+        # R is proportional to viscosity and radius at equal gap/radius; sums are rounded anew.
+        np.testing.assert_allclose(scaled.resistance(2 * 0.3), 4 * fit.resistance(0.3), rtol=1e-13)
+
+    def test_outside_the_interval(self):
+        fit = viscontact.Fit(LECTURE)
+        low, high = fit.interval
+        with self.assertRaisesRegex(viscontact.InputError, "outside the fitted interval"):
+            fit.resistance([high, low / 2])
+        with self.assertRaises(ValueError):
+            fit.resistance(float("nan"))
+        limits = viscontact.Fit(LECTURE, below="lubrication_limit", above="stokes_limit")
+        self.assertEqual(limits.interval, (0, float("inf")))
+        self.assertGreater(limits.resistance(low / 1000), 900 * fit.resistance(low))
+        stokes = 6 * np.pi * fit.viscosity * fit.radius
+        # Stokes' drag is met but for the term c/q of the first reflection, c about the radius.
+        self.assertAlmostEqual(limits.resistance(1e6) / stokes, 1, delta=1e-5)
+
+    def test_refusals_have_the_words_of_the_program(self):
+        with self.assertRaisesRegex(viscontact.InputError, "no_such_fit.json"):
+            viscontact.Fit("no_such_fit.json")
+        with self.assertRaisesRegex(viscontact.InputError, "below is 'x'; it must be"):
+            viscontact.Fit(LECTURE, below="x")
+        with self.assertRaisesRegex(viscontact.InputError, "radius is -1.*must be"):
+            viscontact.Fit(LECTURE, radius=-1)
+        self.assertTrue(issubclass(viscontact.InputError, viscontact.Error))
+        self.assertTrue(issubclass(viscontact.Error, RuntimeError))
+
+    def test_exact_plane(self):
+        fit = viscontact.Fit.exact_plane(viscosity=3, radius=1)
+        # Leading order of Brenner's drag, which has a relative error of q ln(1/q)/5.
+        self.assertAlmostEqual(fit.resistance(1e-9) * 1e-9 / (18 * np.pi), 1, delta=1e-7)
+
+    def test_of_a_table_and_back_from_its_file(self):
+        table = DATA / "tables/lecture.csv"
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "fit.json"
+            fit = viscontact.fit(table, "asymptotic", output=file)
+            again = viscontact.Fit(file)
+        self.assertEqual(fit.terms, again.terms)
+        self.assertEqual(list(fit.terms), ["1/q", "ln q", "1", "q ln q", "q"])
+        theory = viscontact.fit(table, terms="1/q, 1, q", fix="theory")
+        self.assertAlmostEqual(theory.terms["1/q"] / -theory.reference_velocity, 18 * np.pi)
+        self.assertEqual(viscontact.fit(table, terms="1/q, 1", fix=50.0).terms["1/q"], 50)
+        with self.assertRaisesRegex(viscontact.InputError, "basis"):
+            viscontact.fit(table, "no such basis")
+        with self.assertRaisesRegex(viscontact.InputError, "basis and terms"):
+            viscontact.fit(table, "lecture", terms="1/q")
+
+    def test_the_default_fit_is_the_shipped_one(self):
+        fit, shipped = viscontact.fit(DATA / "tables/lecture.csv"), viscontact.Fit(LECTURE)
+        # Another version of the libraries of linear algebra may round otherwise; the condition
+        # number of the lecture's basis is below 1e3.
+        for name, coefficient in shipped.terms.items():
+            self.assertAlmostEqual(fit.terms[name] / coefficient, 1, delta=1e-11)
+
+
+class PairFitTest(unittest.TestCase):
+    FILE = DATA / "fits/pairs/plane.json"
+    ENTRIES = ("squeeze", "slide", "roll", "slide_roll", "spin")
+
+    def test_has_the_bits_of_the_library(self):
+        fit = viscontact.PairFit(self.FILE)
+        gaps = spread(fit.interval)
+        expected = values("pair", self.FILE, *map(float.hex, gaps))
+        for entry, column in zip(self.ENTRIES, expected.T):
+            np.testing.assert_array_equal(getattr(fit, entry)(gaps), column)
+
+    def test_of_the_tables(self):
+        fit = viscontact.fit_pair([DATA / "tables/pairs/plane"])
+        shipped = viscontact.PairFit(self.FILE)
+        self.assertEqual(fit.interval, shipped.interval)
+        self.assertEqual(set(fit.terms), set(self.ENTRIES))
+        gaps = spread(fit.interval)
+        # The same tables, fitted again: rounding of an ill-conditioned basis.
+        np.testing.assert_allclose(fit.slide(gaps), shipped.slide(gaps), rtol=1e-9)
+        with self.assertRaisesRegex(viscontact.InputError, "no table"):
+            viscontact.fit_pair([])
+
+
+if __name__ == "__main__":
+    unittest.main()

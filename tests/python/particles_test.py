@@ -1,0 +1,226 @@
+"""Particles of the Python module: the same bits as C++, views without copies, forces, contacts."""
+
+import gc
+import pathlib
+import tempfile
+import unittest
+
+import numpy as np
+
+import viscontact
+from cases import DATA, SOURCE, values
+
+RAFT = DATA / "cases/particles/raft.toml"
+
+# A disc and a sphere that fall on a plane, with friction, so that they turn.
+FALLING = """
+title = "Falling"
+[space]
+dimension = {dimension}
+gravity = [{zeros}-1.0]
+[viscous_contact]
+end_time = 3.0
+time_step = 0.01
+gamma_min = -0.5
+{scheme}
+[friction]
+coefficient = 0.5
+[[plane]]
+point = [{zeros}0.0]
+normal = [{zeros}1.0]
+[[particle]]
+centre = [{zeros}2.0]
+velocity = [{velocity}]
+radius = 1.0
+mass = 2.0
+{force}
+[[particle]]
+centre = [4.0, {more_zeros}1.5]
+radius = 0.5
+mass = 1.0
+"""
+
+
+def falling(dimension=2, force="", scheme=""):
+    return FALLING.format(dimension=dimension, zeros="0.0, " * (dimension - 1),
+                          more_zeros="0.0, " * (dimension - 2),
+                          velocity=", ".join(["1.0"] + ["0.0"] * (dimension - 1)), force=force,
+                          scheme=scheme)
+
+
+class ParticlesTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def open(self, text, **options):
+        case = self.folder / "case.toml"
+        case.write_text(text)
+        return viscontact.Particles(case, **options)
+
+    def test_has_the_bits_of_the_library(self):
+        for case in RAFT, DATA / "cases/particles/lottery_friction.toml":
+            p = viscontact.Particles(case)
+            for _ in range(60):
+                p.step()
+            expected = values("particles", case, 60)
+            np.testing.assert_array_equal(np.column_stack([p.positions, p.velocities]), expected)
+
+    def test_threads_change_no_bit(self):
+        one, two = viscontact.Particles(RAFT), viscontact.Particles(RAFT, threads=2)
+        self.assertEqual(one.run(0.5), two.run(0.5))
+        np.testing.assert_array_equal(one.positions, two.positions)
+
+    def test_arrays_are_views_that_cannot_be_written(self):
+        p = self.open(falling())
+        x = p.positions
+        self.assertEqual((x.shape, x.dtype), ((2, 2), np.float64))
+        before = x.copy()
+        p.step()
+        self.assertTrue(np.any(x != before))
+        self.assertEqual(x.__array_interface__["data"], p.positions.__array_interface__["data"])
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            x[0] = 1
+        for name, shape in dict(velocities=(2, 2), angles=(2,), angular_velocities=(2,), radii=(2,),
+                                masses=(2,), orientations=(0, 0), forces=(2, 2), torques=(2,),
+                                ids=(2,)).items():
+            self.assertEqual(getattr(p, name).shape, shape, name)
+        self.assertEqual((len(p), p.time_step, p.end_time), (2, 0.01, 3))
+        del p
+        gc.collect()
+        self.assertTrue(np.all(np.isfinite(x)))  # the view keeps the simulation alive
+
+    def test_spheres(self):
+        p = self.open(falling(3))
+        for name, shape in dict(positions=(2, 3), velocities=(2, 3), angles=(0,),
+                                orientations=(2, 4), angular_velocities=(2, 3),
+                                torques=(2, 3)).items():
+            self.assertEqual(getattr(p, name).shape, shape, name)
+
+    def test_set_forces_act_as_constant_forces_of_the_case(self):
+        for dimension in 2, 3:
+            for scheme in "", 'scheme = "leapfrog"':
+                push = [0.7] + [0.0] * (dimension - 2) + [0.3]
+                of_case = self.open(falling(dimension, f"force = {push}", scheme))
+                own = self.open(falling(dimension, "", scheme))
+                own.forces[0] = push
+                for _ in range(200):
+                    of_case.step()
+                    own.step()
+                np.testing.assert_array_equal(own.positions, of_case.positions)
+                np.testing.assert_array_equal(own.velocities, of_case.velocities)
+                np.testing.assert_array_equal(own.reported_velocities(),
+                                              of_case.reported_velocities())
+                free = self.open(falling(dimension, "", scheme))
+                free.run(2.0)
+                self.assertGreater(np.abs(free.positions - own.positions).max(), 0.1)
+
+    def test_a_spring_keeps_its_energy(self):
+        p = self.open("""
+title = "A spring"
+[space]
+dimension = 2
+[viscous_contact]
+end_time = 20.0
+time_step = 0.01
+scheme = "leapfrog"
+[[particle]]
+centre = [1.0, 0.0]
+radius = 0.1
+mass = 2.0
+""")
+        energies = []
+        while not p.finished:
+            p.forces[:] = -8 * p.positions
+            p.step()
+            energies.append(4 * np.sum(p.positions ** 2) + np.sum(p.velocities ** 2))
+        # Leapfrog keeps the energy but for oscillations of the order omega h = 0.02, because the
+        # velocities are those of half a step earlier; a scheme of first order gains exp(0.8).
+        self.assertLess(np.ptp(energies) / 4, 0.021)
+        omega = 2 / 0.01 * np.arcsin(2 * 0.01 / 2)  # of the discrete oscillator
+        self.assertAlmostEqual(p.positions[0, 0], np.cos(omega * 20), delta=1e-3)
+
+    def test_torque(self):
+        p = self.open(falling())
+        p.torques[1] = 0.25
+        p.step()
+        # Before it touches: h T / I with I = m r^2/2 = 0.125.
+        self.assertAlmostEqual(p.angular_velocities[1], 0.01 * 0.25 / 0.125, delta=1e-15)
+        self.assertEqual(p.angular_velocities[0], 0)
+
+    def test_contacts_bear_the_weight(self):
+        p = self.open(falling())
+        p.run()
+        c = p.contacts()
+        self.assertEqual(list(c.first), [-1, -1])
+        self.assertEqual(list(c.second), [0, 1])
+        np.testing.assert_allclose(c.normal, [[0, 1], [0, 1]])
+        # At rest on the film or the solids the contact carries the weight; the tolerance is that of
+        # the impulses of a step.
+        np.testing.assert_allclose(c.normal_force, [2, 1], rtol=1e-6)
+        self.assertEqual(c.tangential_force.shape, (2, 2))
+        self.assertTrue(np.all(c.gamma <= 0))
+        np.testing.assert_allclose(c.branch, [[0, 1], [0, 0.5]], atol=1e-5)
+
+    def test_steps_and_times(self):
+        p = self.open(falling())
+        report = p.step(until=0.004)
+        self.assertEqual((report.time, p.time, p.steps), (0.004, 0.004, 1))
+        self.assertTrue(report.converged)
+        self.assertEqual(p.step(until=0.004).time, 0.004)  # there is no time left for a step
+        self.assertEqual(p.steps, 1)
+        p.run(0.1)
+        self.assertAlmostEqual(p.time, 0.1, delta=1e-12)
+        self.assertFalse(p.finished)
+        p.run()
+        self.assertTrue(p.finished)
+        self.assertEqual(p.run(), 0)
+
+    def test_errors_leave_the_state(self):
+        p = self.open(falling())
+        p.step()
+        before = p.positions.copy()
+        p.forces[0] = 1e300
+        with self.assertRaisesRegex(viscontact.NotConvergedError, "too far for the precision"):
+            p.step()
+        np.testing.assert_array_equal(p.positions, before)
+        p.forces[0] = 0
+        p.step()
+        self.assertEqual(p.steps, 2)
+
+    def test_refusals(self):
+        with self.assertRaisesRegex(viscontact.InputError, "case.toml:.*time_step"):
+            self.open(falling().replace("time_step = 0.01", "time_step = -1.0"))
+        with self.assertRaisesRegex(viscontact.InputError, "threads is 0"):
+            self.open(falling(), threads=0)
+
+    def test_forces_in_a_fluid(self):
+        # A solver without FreeFEM, by which a disc alone moves with F/(4 pi mu).
+        text = f"""
+title = "A disc in a fluid"
+[space]
+dimension = 2
+[viscous_contact]
+end_time = 1.0
+time_step = 0.125
+[domain]
+box = {{ from = [-10.0, -10.0], to = [10.0, 10.0] }}
+[fluid]
+viscosity = 2.0
+solver = ["python3", "{SOURCE}/examples/stokes_drag.py"]
+[[particle]]
+centre = [0.0, 0.0]
+radius = 1.0
+"""
+        of_case = self.open(text + "force = [3.0, 1.0]\n")
+        own = self.open(text)
+        own.forces[0] = [3, 1]
+        of_case.run()
+        own.run()
+        np.testing.assert_array_equal(own.positions, of_case.positions)
+        self.assertAlmostEqual(own.positions[0, 0], 3 / (8 * np.pi), delta=1e-12)
+
+
+if __name__ == "__main__":
+    unittest.main()
