@@ -59,6 +59,17 @@ std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
 }
 
 template <int D>
+void give_loads(ConstraintProblem<D>& problem) {
+  problem.is_convex = problem.keeps_loads = true;
+  problem.is_rough = false;
+  for (auto& block : problem.blocks) {
+    if (!block.is_contact || block.rows == 1) continue;
+    block.friction_bound = FrictionBound::kGiven;
+    block.given_load = FrictionLaw::carried(problem.impulses[block.row], block.capacity);
+  }
+}
+
+template <int D>
 std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
   std::vector<double> w;
   w.reserve(problem.rows.size());
@@ -113,6 +124,8 @@ template RigidUnit<2> unit_of_body<2>(const BodyStep&);
 template RigidUnit<3> unit_of_body<3>(const BodyStep&);
 template std::vector<Motion<2>> motions<2>(const ConstraintProblem<2>&, std::span<const double>);
 template std::vector<Motion<3>> motions<3>(const ConstraintProblem<3>&, std::span<const double>);
+template void give_loads<2>(ConstraintProblem<2>&);
+template void give_loads<3>(ConstraintProblem<3>&);
 template std::vector<double> row_mobilities<2>(const ConstraintProblem<2>&);
 template std::vector<double> row_mobilities<3>(const ConstraintProblem<3>&);
 

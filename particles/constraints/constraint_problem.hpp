@@ -151,6 +151,8 @@ struct ConstraintProblem {
   /// Whether a rough solution of a convex problem is enough, which shows about how units move and
   /// which contacts carry load.
   bool is_rough = false;
+  /// Whether given loads (ConstraintBlock::given_load) stay those that are given.
+  bool keeps_loads = false;
   /// Whether bilateral rows hold long chains of units together, as those of a membrane, through
   /// which sweeps would carry impulses too slowly.
   bool has_long_chains = false;
@@ -187,6 +189,13 @@ struct ConstraintProblem {
 template <int D>
 std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
                                std::span<const double> impulses);
+
+/// Gives each contact with friction the load that its solids have with problem.impulses, (5.17), in
+/// place of Coulomb's law, which makes the problem convex. Its solution has exact gaps, films and
+/// bilateral rows, and friction that takes energy; what it lacks of Coulomb's law is the difference
+/// between the loads of the solution and those that are given.
+template <int D>
+void give_loads(ConstraintProblem<D>& problem);
 
 /// w of each row: what a unit impulse on the row changes in it, J h M^-1 J^T [T/M].
 template <int D>

@@ -36,7 +36,7 @@ enum class ConstraintStart {
 /// after one that was not solved. A convex problem is solved by interior points
 /// (interior_points.hpp), and proximal steps make the solution accurate. Given loads
 /// (ConstraintBlock::given_load) are replaced by those of the solution, and another solution
-/// follows. The solution returned is the best that was found.
+/// follows, unless problem.keeps_loads. The solution returned is the best that was found.
 template <int D>
 ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations,
                                         ConstraintStart start = ConstraintStart::kSweeps);

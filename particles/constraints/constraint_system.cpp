@@ -4,6 +4,7 @@
 #include "viscontact/particles/constraints/constraint_system.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -218,7 +219,7 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
     for (std::size_t k = 1; k < block.rows; ++k)
       frictions_[c] =
           frictions_[c] + problem_.impulses[block.row + k] * tangents_[c].directions[k - 1];
-    residuals_[c] = solution.residuals[c];
+    residuals_[c] = residual_of_contact(c, solution);
     residuals_[c].normal += shifts_[c];
   }
   std::ranges::fill(link_forces_, 0.0);
@@ -244,6 +245,66 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
   }
 }
 
+/// The residual of a contact [L]; that of Coulomb's law if its load was given for lack of a
+/// solution.
+template <int D>
+BlockResidual ConstraintSystem<D>::residual_of_contact(
+    std::size_t c, const ConstraintSolution<D>& solution) const {
+  auto block = problem_.blocks[c];
+  if (!has_given_up_ || block.rows == 1) return solution.residuals[c];
+  block.friction_bound = FrictionBound::kCoulomb;
+  std::array<double, kMostRows> v{}, w{};
+  for (std::size_t k = 0; k < block.rows; ++k) {
+    const auto r = block.row + k;
+    v[k] = problem_.rows[r].offset + problem_.product(r, solution.motions);
+    for (const auto& [unit, coefficients] : problem_.parts_of(r)) {
+      const auto moved = problem_.units[static_cast<std::size_t>(unit)].moved_by(coefficients);
+      for (std::size_t i = 0; i < moved.size(); ++i) w[k] += coefficients[i] * moved[i];
+    }
+  }
+  for (std::size_t k = 2; k < block.rows; ++k) w[1] = w[k] = std::max(w[1], w[k]);
+  return residual_of(block, v.data(), &problem_.impulses[block.row], w.data());
+}
+
+/// Gives the contacts the loads that they had when Coulomb's law was given up, and contacts that
+/// came later those of the step before.
+template <int D>
+void ConstraintSystem<D>::give_loads_of_step() {
+  for (std::size_t c = given_loads_.size(); c < carried_.size(); ++c)
+    given_loads_.push_back(carried_[c]);
+  give_loads(problem_);
+  for (std::size_t c = 0; c < given_loads_.size(); ++c)
+    problem_.blocks[c].given_load = given_loads_[c];
+}
+
+/// Solves the problem; by given loads if Coulomb's law is not solved.
+template <int D>
+ConstraintSolution<D> ConstraintSystem<D>::solve_problem(int max_iterations) {
+  // Solutions with given loads take 100 to 200 iterations, and some of them a thousand.
+  constexpr int kMostOfGivenLoads = 3000;
+  if (has_given_up_) return solve_constraints(problem_, kMostOfGivenLoads);
+  auto solution = solve_constraints(problem_, std::max(1, max_iterations));
+  const bool has_friction = std::ranges::any_of(problem_.blocks, [](const ConstraintBlock& block) {
+    return block.is_contact && block.rows > 1;
+  });
+  if (solution.result.residual <= 1 || problem_.is_rough || problem_.is_convex || !has_friction ||
+      !can_give_up_)
+    return solution;
+  const auto of_coulomb = problem_;
+  give_loads(problem_);
+  auto with_given_loads = solve_constraints(problem_, kMostOfGivenLoads);
+  with_given_loads.result.iterations += solution.result.iterations;
+  // Bilateral rows that contradict each other have no solution, whatever the friction is.
+  can_give_up_ = has_given_up_ = with_given_loads.result.residual <= 1;
+  if (!has_given_up_) {
+    problem_ = of_coulomb;
+    return solution;
+  }
+  for (std::size_t c = 0; c < carried_.size(); ++c)
+    given_loads_.push_back(problem_.blocks[c].given_load);
+  return with_given_loads;
+}
+
 template <int D>
 SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
                                         double allowed_slip, int max_iterations) {
@@ -259,6 +320,7 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   // Before the impulses are roughly known, nothing is known about the impulses at work.
   if (is_rough)
     for (auto& block : problem_.blocks) block.allowed = allowed_slip;
+  if (has_given_up_) give_loads_of_step();
   // A correction gains about a factor of the turn in the step. With turns of a radian, these many
   // gain little, and the step does not converge.
   constexpr int kMostCorrections = 40;
@@ -267,7 +329,7 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   double last_change = std::numeric_limits<double>::infinity();
   int growing = 0;
   for (int n = 0;; ++n) {
-    solution = solve_constraints(problem_, std::max(1, max_iterations - result.iterations));
+    solution = solve_problem(max_iterations - result.iterations);
     result.iterations += solution.result.iterations;
     result.residual = solution.result.residual;
     move_particles(system, solution.motions);
@@ -280,7 +342,7 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     last_change = change;
     // Half of what is allowed leaves room for the residual of the solution itself.
     if (change <= 0.5 || growing == kPatience || is_rough || n == kMostCorrections ||
-        result.iterations >= max_iterations || !(solution.result.residual <= 1))
+        (result.iterations >= max_iterations && !has_given_up_) || !(solution.result.residual <= 1))
       break;
   }
   take_over(system, solution);

@@ -70,8 +70,15 @@ class ConstraintSystem {
   /// Rows are linear in the turns of rigid bodies. A solution is followed by others, whose offsets
   /// are corrected by the difference between the linear values and those of the finite turns, until
   /// hinges, arms and the contacts of rigid bodies hold with these.
+  ///
+  /// If Coulomb's law is not solved in `max_iterations`, give_loads() takes its place with the loads
+  /// of the best iterate, in this and all later solutions of the step, so that gaps, films and links
+  /// are exact. The residuals remain those of Coulomb's law.
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double allowed_slip,
                      int max_iterations);
+
+  /// Whether loads of the friction are given because Coulomb's law was not solved.
+  bool has_given_up() const { return has_given_up_; }
 
   /// Writes the friction of contact number `c` and what its solids carry into its memory.
   void remember(std::size_t c, PairMemory& memory) const {
@@ -94,6 +101,9 @@ class ConstraintSystem {
   UnitMotion motion_of(std::int32_t unit, std::span<const Motion<D>> motions) const;
   void move_particles(const ContactSystem<D>& system, std::span<const Motion<D>> motions);
   double correct(ContactSystem<D>& system, const ConstraintSolution<D>& solution);
+  void give_loads_of_step();
+  ConstraintSolution<D> solve_problem(int max_iterations);
+  BlockResidual residual_of_contact(std::size_t c, const ConstraintSolution<D>& solution) const;
   void take_over(ContactSystem<D>& system, const ConstraintSolution<D>& solution);
 
   const ConstraintStep& step_;
@@ -115,6 +125,8 @@ class ConstraintSystem {
   std::vector<Vector> offsets_;  // of all members of bodies, from the centres, by particle
   ConstraintProblem<D> problem_;
   std::vector<double> shifts_;  // last corrections of the blocks [L]
+  bool has_given_up_ = false, can_give_up_ = true;
+  std::vector<double> given_loads_;  // of the contacts, if has_given_up_ [M L/T]
 };
 
 }  // namespace viscontact::particles

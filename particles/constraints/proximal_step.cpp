@@ -22,8 +22,12 @@ ProximalStep<D>::ProximalStep(const ConstraintProblem<D>& problem, const std::ve
       matrix_(problem) {}
 
 template <int D>
-void ProximalStep<D>::set_epsilon(double epsilon) {
-  for (std::size_t r = 0; r < rho_.size(); ++r) rho_[r] = 1 / (epsilon * w_[r]);
+void ProximalStep<D>::set_epsilon(double of_gaps, double of_slips) {
+  for (const auto& block : problem_.blocks)
+    for (std::size_t k = 0; k < block.rows; ++k) {
+      const std::size_t r = block.row + k;
+      rho_[r] = 1 / ((block.is_contact && k > 0 ? of_slips : of_gaps) * w_[r]);
+    }
   has_factor_ = false;
 }
 

@@ -45,7 +45,10 @@ class ProximalStep {
   /// `problem` must outlive this object; `w` are its row_mobilities(), W_rr.
   ProximalStep(const ConstraintProblem<D>& problem, const std::vector<double>& w);
 
-  void set_epsilon(double epsilon);  ///< > 0; must be called before solve()
+  /// Sets the numbers epsilon of the gaps and bilateral rows, and of the slips, > 0. One of these
+  /// functions must be called before solve().
+  void set_epsilon(double of_gaps, double of_slips);
+  void set_epsilon(double epsilon) { set_epsilon(epsilon, epsilon); }  ///< the same for all rows
 
   /// Solves from the impulses P^k = `center` and the motions `start`. Returns the number of
   /// factorisations and solutions with factors. Sets failed() if it found no solution.

@@ -190,15 +190,26 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   bool is_rough = settings.tolerance < kRoughLength && settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;
   int waited = 0;
+  int rounds_with_given_loads = 0;
   double least_excess = std::numeric_limits<double>::infinity();
   while (!system_.bodies().empty()) {
     const double length = (is_rough ? kRoughLength : settings.tolerance / 2) * mean_radius;
     allow(length, is_rough ? kRoughImpulse : settings.impulse_tolerance);
-    result.iterations +=
-        solve_contacts(is_rough, length, settings.max_iterations - result.iterations).iterations;
+    // A rough solution of Coulomb's law leaves half of the iterations to the accurate one.
+    const int most =
+        is_rough && constraints_ ? settings.max_iterations / 2 : settings.max_iterations;
+    result.iterations += solve_contacts(is_rough, length, most - result.iterations).iterations;
     const bool is_last = result.iterations >= settings.max_iterations;
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
-    if (result.residuals.converged || is_last) break;
+    if (result.residuals.converged) break;
+    if (constraints_ && constraints_->has_given_up()) {
+      // Loads are given, and only pairs that closed since then are left to be added.
+      constexpr int kMostRounds = 20;
+      if (more.empty() || ++rounds_with_given_loads > kMostRounds) break;
+      choose(more);
+      continue;
+    }
+    if (is_last) break;
     // A solution that does not improve in several rounds has reached its rounding errors.
     constexpr int kPatience = 10;
     waited = more.empty() && !is_rough && result.residuals.excess >= least_excess ? waited + 1 : 0;

@@ -1,0 +1,52 @@
+// A packing that comes to rest with friction: what a step leaves that does not reach the tolerances.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "tests/particles/box2d/box2d_case.hpp"
+#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/simulation.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+/// Runs 100 discs in the box of the benchmark with mu_s = 0.3 until they lie on each other.
+template <class Visit>
+void run_box(double gamma_min, int max_iterations, const Visit& visit) {
+  constexpr int kCount = 100;
+  constexpr double kEnd = 8;
+  auto setting = box(kCount);
+  setting.solver = {1e-6, 1e-10, max_iterations};
+  setting.laws.film.gamma_min = gamma_min;
+  setting.laws.friction = FrictionLaw{0.3, FrictionMethod::kFixedPoint};
+  auto discs = box_of_discs(kCount);
+  add_rotation(discs.particles);
+  Simulation simulation(setting, std::move(discs), 1);
+  while (simulation.state().time < kEnd * (1 - 1e-9)) visit(simulation.step(kEnd));
+}
+
+TEST(JammedFriction, AStepThatDoesNotReachTheTolerancesHasNoOverlap) {
+  for (const double gamma_min : {0.0, -2.0}) {
+    SCOPED_TRACE(gamma_min);
+    int unsolved = 0, contacts = 0;
+    // 300 iterations are too few for Coulomb's law in this packing.
+    run_box(gamma_min, 300, [&](const StepReport& report) {
+      unsolved += report.converged ? 0 : 1;
+      contacts = std::max(contacts, static_cast<int>(report.contacts));
+      // solver.tolerance, in mean radii
+      EXPECT_LE(report.largest_overlap, 1e-6) << report.time;
+    });
+    EXPECT_GT(unsolved, 5);
+    EXPECT_GT(contacts, 130);  // the discs lie on each other
+  }
+}
+
+TEST(JammedFriction, CoulombsLawConvergesInEveryStep) {
+  for (const double gamma_min : {0.0, -2.0})
+    run_box(gamma_min, 10000,
+            [&](const StepReport& report) { EXPECT_TRUE(report.converged) << report.time; });
+}
+
+}  // namespace
+}  // namespace viscontact::particles
