@@ -20,7 +20,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-AreaMoments moments_of(const Eigen::VectorXd& necklace) {
+AreaMoments moments_of_polygon(const Eigen::VectorXd& necklace) {
   const auto n = necklace.size() / 2;
   const Eigen::Vector2d mean(necklace.head(n).mean(), necklace.tail(n).mean());
   double area = 0, mx = 0, my = 0;
@@ -157,7 +157,7 @@ MembraneMeasures measure_necklace(const Membrane& membrane, const Particles& par
   };
   return measure({.area = area_of(necklace),
                   .perimeter = distances_of(necklace).sum(),
-                  .moments = moments_of,
+                  .moments = moments_of_polygon,
                   .circulation = circulation},
                  necklace, velocities);
 }
