@@ -390,9 +390,11 @@ TEST(RefusedFluidTest, ImageOfAParticleOverlapsAnother) {
 /// A fluid with three discs of the radius 1 that are one body, with centres at these x, y.
 std::string with_body(const std::vector<std::array<double, 2>>& centres,
                       const std::string& constraint = "rigid") {
-  std::string text = "title = \"Body\"\n[fluid]\nviscosity = 1.0\nconstraint = \"" + constraint +
-                     "\"\n[domain]\ndisc = { centre = [0.0, 0.0], radius = 9.0 }\n"
-                     "[viscous_contact]\ntime_step = 0.1\nend_time = 1.0\n";
+  std::string text =
+      "title = \"Body\"\n[space]\ndimension = 2\n[fluid]\nviscosity = 1.0\nconstraint = \"" +
+      constraint +
+      "\"\n[domain]\ndisc = { centre = [0.0, 0.0], radius = 9.0 }\n"
+      "[viscous_contact]\ntime_step = 0.1\nend_time = 1.0\n";
   for (const auto& [x, y] : centres)
     text += fmt::format("[[particle]]\ncentre = [{}, {}]\nradius = 1.0\n", x, y);
   return text + "[[body]]\nparticles = [0, 1, 2]\n";
