@@ -17,12 +17,13 @@ namespace viscontact::particles {
 /// How a disc is cut by one that overlaps it.
 struct Chord {
   std::size_t other = 0;  ///< number of the disc that overlaps it
-  /// The ends of the chord, at which the circles meet [L]; the arc from `from` to `to`,
-  /// counter-clockwise, is inside the other disc.
-  std::array<double, 2> from{}, to{};
-  double middle = 0;  ///< angle of the middle of this arc with the x axis [rad]
-  double half = 0;    ///< half of the angle of this arc [rad], > 0 and < pi
-  double area = 0;    ///< of the disc beyond the chord [L^2]
+  // The ends of the chord, at which the circles meet. The arc from `from` to `to`, counter-clockwise,
+  // is inside the other disc.
+  std::array<double, 2> from{},  ///< first end [L]
+      to{};                      ///< last end [L]
+  double middle = 0;             ///< angle of the middle of this arc with the x axis [rad]
+  double half = 0;               ///< half of the angle of this arc [rad], > 0 and < pi
+  double area = 0;               ///< of the disc beyond the chord [L^2]
   /// Angle of the wedge of fluid where the circles meet [rad], > 0 and < pi: the smaller, the more
   /// shallow the overlap.
   double wedge = 0;
