@@ -50,8 +50,8 @@ class ShippedFluidCase : public ParticlesCommand {
 TEST_F(ShippedFluidCase, EachHasATest) {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(kCases)) names.insert(entry.path().stem());
-  EXPECT_EQ(names, (std::set<std::string>{"lecture", "one_disc", "seven_discs", "shear", "sieve",
-                                          "viscosity_channel", "viscosity_contact",
+  EXPECT_EQ(names, (std::set<std::string>{"friction", "lecture", "one_disc", "seven_discs", "shear",
+                                          "sieve", "viscosity_channel", "viscosity_contact",
                                           "viscosity_lattice_axes", "viscosity_lattice_diagonals",
                                           "viscosity_random_cell", "viscosity_random_walls"}));
 }
@@ -68,6 +68,42 @@ TEST_F(ShippedFluidCase, SevenDiscsFallTogether) {
   EXPECT_LT(record["velocity_error_estimate"]["first_step"], 1e-3);
   for (std::size_t disc = 0; disc < 7; ++disc)
     EXPECT_LT(last("motion.csv", 6, disc), 0) << disc;  // vy
+}
+
+TEST_F(ShippedFluidCase, ShearedDiscsRubEachOther) {
+  const auto record = last_of(cut("friction", 0.1, 2));
+  EXPECT_EQ(record["failed_steps"], 0);
+  // i,j,gap,gamma,gamma_error,normal_force,tangential_force_x,tangential_force_y
+  const auto rows = matches_in(content(out() / "final_contacts.csv"), "\n(-?\\d[^\n]+)", 1);
+  int sliding = 0;
+  for (const auto& row : rows) {
+    const auto fields = matches_in(row + ",", "([^,]*),", 1);
+    const double normal = std::stod(fields.at(5));
+    const double friction = std::hypot(std::stod(fields.at(6)), std::stod(fields.at(7)));
+    EXPECT_LE(friction, normal * (1 + 1e-12));  // the coefficient is 1
+    if (friction > 0.999 * normal && normal > 0) ++sliding;
+  }
+  EXPECT_GT(sliding, 0);
+}
+
+// The wall of a shear flow drags a disc that is pressed on it. In the fluid alone, the force and the
+// torque of Coulomb's friction move it in the same way.
+TEST_F(ShippedFluidCase, FrictionIsAForceAndATorque) {
+  const auto text = [](const std::string& friction, const std::string& force) {
+    return "[space]\ndimension = 2\n[fluid]\nviscosity = 1.0\nthreshold_gap = 0.05\n"
+           "velocity = { left = [0.0, 2.0] }\n"
+           "[domain]\nbox = { from = [0.0, 0.0], to = [8.0, 8.0] }\n"
+           "[viscous_contact]\ngamma_min = 0.0\ntime_step = 0.01\nend_time = 0.02\n" +
+           friction + "[[particle]]\ncentre = [1.05, 4.0]\nradius = 1.0\n" + force;
+  };
+  last_of(text("[friction]\ncoefficient = 0.3\n", "force = [-20.0, 0.0]\n"));
+  const double v = last("motion.csv", 5), omega = last("motion.csv", 6);
+  EXPECT_NEAR(last("final_contacts.csv", 5), 20, 1e-6);  // normal_force
+  EXPECT_NEAR(last("final_contacts.csv", 7), 6, 1e-6);   // tangential_force_y
+  // Friction acts at the leftmost point, and turns the disc clockwise.
+  last_of(text("", "force = [-20.0, 6.0]\ntorque = -6.0\n"));
+  EXPECT_NEAR(v, last("motion.csv", 5), 1e-8);
+  EXPECT_NEAR(omega, last("motion.csv", 6), 1e-8);
 }
 
 TEST_F(ShippedFluidCase, ShearedDiscsRaiseTheViscosity) {
