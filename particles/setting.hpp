@@ -44,7 +44,7 @@ struct Setting {
   Vector gravity{};  ///< acceleration, on all particles [L/T^2]
   /// Forces on single particles, by the number of the particle, in addition to gravity [M L/T^2].
   std::map<std::int32_t, PiecewiseConstant> forces;
-  /// The laws of each pair. Friction needs particles that turn (add_rotation), and no fluid.
+  /// The laws of each pair. Friction needs particles that turn (add_rotation).
   ContactLaws laws;
   Links links;           ///< hinges, springs and arms; need particles that turn, except on an axis
   double time_step = 0;  ///< h [T], > 0

@@ -111,21 +111,37 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
 void friction_keys(case_file::Keys& keys, FrictionLaw& law) {
   keys.required("coefficient", case_file::number(law.coefficient, kModeratelyPositiveOr0),
                 {"mu_s of [solid contact](particles.md#friction)"});
-  keys.optional(
-      "method",
-      case_file::one_of(law.method, {{"fixed_point", FrictionMethod::kFixedPoint},
-                                     {"convex", FrictionMethod::kConvex}}),
-      {"Coulomb's law, or a convex problem, in which dry contacts that slide open by h mu_s "
-       "abs(v_t)"});
+  keys.optional("method",
+                case_file::one_of(law.method, {{"fixed_point", FrictionMethod::kFixedPoint},
+                                               {"convex", FrictionMethod::kConvex}}),
+                {"Coulomb's law, or, without a fluid, a convex problem, in which dry contacts that "
+                 "slide open "
+                 "by h mu_s abs(v_t)"});
 }
 
-void read_friction(const case_file::TomlSection& section, Setting& setting) {
-  section.require(!setting.fluid, "coefficient",
-                  "belongs to particles without a fluid; a case with [fluid] must have no section "
-                  "[friction]");
+void read_friction(const case_file::TomlSection& section, int dimension, Setting& setting) {
+  section.require(!setting.fluid || dimension == 2, "coefficient",
+                  "belongs to particles that turn; spheres on the axis of a fluid do not slide on "
+                  "each other, and the case must have no section [friction]");
   section.require(setting.laws.film.gamma_min || setting.laws.film.viscosity, "coefficient", "{}",
                   kNoSolidContact);
   case_file::read_keys(section, friction_keys, setting.laws.friction.emplace());
+  section.require(!setting.fluid || setting.laws.friction->method == FrictionMethod::kFixedPoint,
+                  "method",
+                  "is 'convex', which is for particles without a fluid; in a fluid it must be "
+                  "\"fixed_point\", or the key must be left out");
+}
+
+/// Friction in a fluid is that of particles that do not rebound, and not of membranes.
+void check_friction_in_fluid(const case_file::TomlSection& section, const Setting& setting) {
+  if (!setting.fluid) return;
+  section.require(!setting.laws.restitution.is_on(), "coefficient",
+                  "must be left out, because the case has a fluid and "
+                  "viscous_contact.restitution > 0; in a fluid solids either rub or rebound");
+  section.require(
+      setting.fluid->membranes.empty(), "coefficient",
+      "must be left out, because the case has membranes in a fluid, whose contacts have "
+      "no friction");
 }
 
 /// Reads the key `method`. Earlier versions offered three methods that solve the same problem. A
@@ -249,7 +265,8 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
   read_domain_and_fluid(root, c);
   read_probes(root, c.setting.domain, c.setting.fluid);
   case_file::read_keys(root.section("viscous_contact"), contact_keys, c);
-  if (root.has("friction")) read_friction(root.section("friction"), c.setting);
+  if (root.has("friction"))
+    read_friction(root.section("friction"), c.particles.dimension, c.setting);
   if (root.has("solver"))
     case_file::read_keys(root.section("solver"), solver_keys, c.setting.solver);
   c.frame_interval = c.end_time / 100;
@@ -269,6 +286,7 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
   if (c.setting.fluid && c.particles.dimension == 2)
     c.setting.fluid->cut_areas = cut_areas_of(*c.setting.fluid, c.particles);
   read_links(root, c);
+  if (root.has("friction")) check_friction_in_fluid(root.section("friction"), c.setting);
   root.section("viscous_contact")
       .require(
           !c.setting.laws.restitution.is_on() || !c.setting.fluid ||

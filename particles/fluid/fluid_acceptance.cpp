@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/particles/fluid/fluid_friction.hpp"
 #include "viscontact/particles/fluid/fluid_motion.hpp"
 #include "viscontact/particles/fluid/held_rows.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
@@ -26,8 +27,11 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
   const auto& blow = motion.blow;
   if (blow)  // no contact takes part in the displacement
     for (auto& contact : motion.contact.contacts) contact.w = std::min(contact.w, 0.0);
-  auto residuals =
-      measure_residuals(motion.contact.contacts, motion.moved, contact_conditions(motion.free, h));
+  const auto conditions = contact_conditions(motion.free, h);
+  auto residuals = measure_residuals(motion.contact.contacts, motion.moved, conditions);
+  if (setting_.laws.friction)
+    take_residuals_of_friction(motion.contact, setting_.laws.friction->coefficient, motion.moved,
+                               conditions, residuals);
   refuse_deep_overlap(residuals, state_.particles, setting_, mean_radius_, report.time, [] {
     return "is the time step too long for the forces, or do particles with given motions leave the "
            "others too little room?";
@@ -43,6 +47,27 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
     report_residuals(residuals, mean_radius_, report);
   }
   motion.impulse_errors = std::move(residuals.impulse_errors);
+}
+
+/// Remembers the friction of each contact and the load of its solids. The impulses of a step are
+/// `share` times those of its contacts. The friction of a contact that slides is set to its bound,
+/// from which it differs by its residual.
+void FluidSimulation::remember_friction(const StepContacts& step, double share) {
+  if (is_computed_twice()) return;
+  const auto pairs = state_.pairs.size();
+  for (const auto& friction : step.frictions) {
+    const auto& contact = step.contacts[friction.contact];
+    auto& pair = friction.contact < pairs ? state_.pairs[friction.contact]
+                                          : state_.walls[friction.contact - pairs];
+    auto memory = state_.memories.of(pair.memory);
+    const double carried = contact.w > 0 ? share * friction.carried(contact) : 0;
+    double impulse = contact.w > 0 ? share * friction.impulse : 0;
+    if (friction.slides)
+      impulse = std::copysign(setting_.laws.friction->coefficient * carried, impulse);
+    memory.set_friction({impulse * friction.tangent[0], impulse * friction.tangent[1], 0});
+    memory[Remembered::kCarried] = carried;
+    state_.memories.set(pair.memory, memory);
+  }
 }
 
 /// Changes the state by a step.
@@ -69,6 +94,7 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
       if (pair.gamma < 0) ++report.glued;
       ++c;
     }
+  remember_friction(motion.contact, kick_length(h) / h);
   state_.memories.keep_only(state_.pairs, state_.walls);
   rebounds_ = motion.blow ? std::move(motion.blow->rebounds) : std::vector<Rebound>{};
   move_bodies(motion, h, next);

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/particles/fluid/fluid_friction.hpp"
 #include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 #include "viscontact/particles/outline.hpp"
@@ -119,12 +120,21 @@ double cross(const std::array<double, 2>& arm, const std::array<double, 2>& forc
   return arm[0] * force[1] - arm[1] * force[0];
 }
 
+double along(const std::array<double, 2>& arm, const std::array<double, 2>& normal) {
+  return arm[0] * normal[0] + arm[1] * normal[1];
+}
+
+/// Distances, along the normal, of a contact from the centres of the first and the second particle
+/// [L].
+using ContactArms = std::array<double, 2>;
+
 /// Contact of a pair of which one is a plate, the other a plate, a disc or an obstacle: that of the
 /// discs about the nearest points of their spines. At an obstacle each end of the plate has a
 /// contact of its own, and two plates may have two, with the number Pair::place. `start` are the
-/// particles where the step begins, which say which places belong to which contact.
+/// particles where the step begins, which say which places belong to which contact. Sets `arms`.
 Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const Particles& p,
-                             const Pair& pair, std::span<const PlanePosition> obstacles) {
+                             const Pair& pair, std::span<const PlanePosition> obstacles,
+                             ContactArms& arms) {
   const auto j = index_of(pair.second);
   Contact<2> contact{std::max(pair.first, -1), pair.second, {}, 0, pair.gamma, pair.impulse};
   const Vector shift = pair.first < 0 ? Vector{} : shift_of(p.cell, pair.image);
@@ -137,8 +147,9 @@ Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const P
     contact.normal = {normal[0], normal[1]};
     contact.gap = gap(place, Vector{end[0], end[1], 0}, second.end_radius());
     contact.obstacle = -1 - pair.first;
-    contact.levers[1] =
-        cross({end[0] - second.centre[0], end[1] - second.centre[1]}, contact.normal);
+    const std::array arm = {end[0] - second.centre[0], end[1] - second.centre[1]};
+    contact.levers[1] = cross(arm, contact.normal);
+    arms[1] = second.end_radius() - along(arm, contact.normal);
     return contact;
   }
   contact.image = pair.image;
@@ -154,20 +165,26 @@ Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const P
   else
     contact.normal = {1, 0};
   contact.gap = (near.cross ? 0 : distance) - first.end_radius() - second.end_radius();
-  const auto lever = [&](const std::array<double, 2>& at, const Outline& of) {
-    return cross({at[0] - of.centre[0], at[1] - of.centre[1]}, contact.normal);
+  const auto arm = [](const std::array<double, 2>& at, const Outline& of) {
+    return std::array{at[0] - of.centre[0], at[1] - of.centre[1]};
   };
-  contact.levers = {-lever(near.first, first), lever(near.second, second)};
+  const auto of_first = arm(near.first, first), of_second = arm(near.second, second);
+  contact.levers = {-cross(of_first, contact.normal), cross(of_second, contact.normal)};
+  // Both arms end at one point, so that friction keeps the angular momentum.
+  const double share = distance / (first.end_radius() + second.end_radius());
+  arms = {along(of_first, contact.normal) + share * first.end_radius(),
+          share * second.end_radius() - along(of_second, contact.normal)};
   return contact;
 }
 
 /// contact_of() a pair. On an axis the normal has one component. A round wall is taken as its
-/// tangent where the particle is after it moved with the velocities without contact.
+/// tangent where the particle is after it moved with the velocities without contact. Sets `arms` in
+/// the plane.
 Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& pair,
                             std::span<const PlanePosition> obstacles,
-                            const ContactConditions& conditions) {
+                            const ContactConditions& conditions, ContactArms& arms) {
   if (has_plate(fluid, pair.first, pair.second))
-    return contact_of_plates(fluid, p, p, pair, obstacles);
+    return contact_of_plates(fluid, p, p, pair, obstacles, arms);
   if (p.dimension == 1) {
     const auto on_axis = contact_of<1>(p, pair, obstacles);
     Contact<2> contact{on_axis.first, on_axis.second, {on_axis.normal[0], 0}};
@@ -177,20 +194,32 @@ Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& 
     contact.impulse = on_axis.impulse;
     return contact;
   }
-  if (pair.first >= 0 || !obstacles[pair.plane()].is_curved())
-    return contact_of<2>(p, pair, obstacles);
   const auto k = index_of(pair.second);
+  arms = {0, p.radii[k]};
+  if (pair.first >= 0) {
+    const auto contact = contact_of<2>(p, pair, obstacles);
+    const double first = p.radii[index_of(pair.first)];
+    const double share = 1 + contact.gap / (first + p.radii[k]);
+    arms = {share * first, share * p.radii[k]};
+    return contact;
+  }
+  if (!obstacles[pair.plane()].is_curved()) return contact_of<2>(p, pair, obstacles);
   const double* velocity = &conditions.free_velocities[conditions.layout.at(pair.second, 0)];
   const Vector moved{conditions.h * velocity[0], conditions.h * velocity[1], 0};
   return contact_of<2>(p, pair, tangent_at(obstacles[pair.plane()], p.position(k) + moved));
 }
 
-/// Makes the contacts of the listed pairs.
+/// Makes the contacts of the listed pairs, and their friction unless `friction` is null.
 void make_contacts(StepContacts& step, const Particles& p, const Fluid& fluid,
-                   std::span<const PlanePosition> obstacles, const ContactConditions& conditions) {
+                   std::span<const PlanePosition> obstacles, const ContactConditions& conditions,
+                   const FrictionOfStep* friction) {
   for (const auto* list : {&step.pairs, &step.walls})
     for (const auto& pair : *list) {
-      auto contact = contact_in_fluid(fluid, p, pair, obstacles, conditions);
+      ContactArms arms{};
+      auto contact = contact_in_fluid(fluid, p, pair, obstacles, conditions, arms);
+      if (friction != nullptr)
+        step.frictions.push_back(friction_of_contact(*friction, p, pair, contact,
+                                                     step.contacts.size(), arms, conditions));
       contact.gap -= fluid.threshold_gap;
       contact.lowest /= conditions.share_of_impulse;
       contact.impulse /= conditions.share_of_impulse;
@@ -234,7 +263,8 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
     if (!has_plate(fluid, pair.first, pair.second)) continue;
     // A gap within the tolerance counts as closed at the beginning, and so it does at the end.
     const auto gap_at = [&](const Particles& at) {
-      return contact_of_plates(fluid, p, at, pair, obstacles).gap - fluid.threshold_gap;
+      ContactArms arms{};
+      return contact_of_plates(fluid, p, at, pair, obstacles, arms).gap - fluid.threshold_gap;
     };
     double gap = gap_at(after);
     const double before = gap_at(p);
@@ -370,7 +400,7 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,
                             const Mobility& mobility, const ContactConditions& conditions,
-                            ThreadPool& pool) {
+                            ThreadPool& pool, const FrictionOfStep* friction) {
   const auto& p = state.particles;
   const auto& free = conditions.free_velocities;
   const auto stops = contacts_of_stops(links, p);
@@ -379,6 +409,12 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
       std::max(conditions.least_reach, reach_of(state, fluid, free, conditions) +
                                            2 * conditions.h * fastest(free, conditions.layout) +
                                            1e-3 * conditions.mean_radius);
+  const auto solve = [&](StepContacts& step) {
+    if (friction != nullptr)
+      solve_with_friction(step, friction->setting.laws.friction->coefficient, mobility, conditions);
+    else
+      solve_listed(step, mobility, conditions);
+  };
   int iterations = 0;
   for (;;) {
     StepContacts step;
@@ -386,14 +422,14 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
     list_pairs(step, state, fluid, obstacles, reach, pool);
     std::erase_if(step.pairs, is_left_out);
     std::erase_if(step.walls, is_left_out);
-    make_contacts(step, p, fluid, obstacles, conditions);
+    make_contacts(step, p, fluid, obstacles, conditions, friction);
     step.contacts.insert(step.contacts.end(), stops.begin(), stops.end());
-    solve_listed(step, mobility, conditions);
+    solve(step);
     // Each correction gains about a factor of the angle by which plates turn in the step.
     constexpr int kMostCorrections = 20;
     for (int n = 0; n < kMostCorrections && !fluid.plates.empty(); ++n) {
       if (!correct_turns(step, p, fluid, obstacles, conditions)) break;
-      solve_listed(step, mobility, conditions);
+      solve(step);
       if (n + 1 == kMostCorrections) step.is_solved = false;
     }
     step.reach = reach;

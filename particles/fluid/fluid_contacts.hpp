@@ -164,6 +164,58 @@ class ContactProblem {
   bool is_rough_ = false;
 };
 
+/// The friction of a contact whose solids may touch, docs/physics.md (6.14).
+struct ContactFrictionInFluid {
+  std::size_t contact = 0;          ///< number in StepContacts::contacts
+  std::array<double, 2> tangent{};  ///< unit vector, the normal turned by 90 degrees to the left
+  /// Change of the slip per turn of the first and of the second particle, counter-clockwise [L].
+  std::array<double, 2> levers{};
+  /// Way of the obstacle, or of the image of the second particle, along the tangent in the step; that
+  /// of the obstacle counts as negative [L].
+  double way = 0;
+  double capacity =
+      0;  ///< gamma - gamma_min: what the film takes up before its solids touch [M L/T]
+  /// Impulse of friction on the second particle along the tangent [M L/T].
+  double impulse = 0;
+  /// Change of the slip per impulse of friction [T/M]; 0 until the contact takes part.
+  double w = 0;
+  bool slides = false;  ///< whether the solution has the friction at its bound
+
+  /// Velocity of the surface of the second particle relative to that of the first along the tangent
+  /// [L/T], for the velocities of all particles.
+  double change_of_slip(const Contact<2>& of, const double* velocities,
+                        const MotionLayout& layout) const {
+    double sum = 0;
+    for (std::size_t d = 0; d < 2; ++d) {
+      sum += tangent[d] * velocities[layout.at(of.second, d)];
+      if (of.first >= 0) sum -= tangent[d] * velocities[layout.at(of.first, d)];
+    }
+    sum += levers[1] * velocities[layout.at(of.second, 2)];
+    if (of.first >= 0) sum += levers[0] * velocities[layout.at(of.first, 2)];
+    return sum;
+  }
+  /// The slip of a step of length h: displacement of the surface of the second particle relative to
+  /// that of the first or of the obstacle, along the tangent [L].
+  double slip(const Contact<2>& of, const double* velocities, double h,
+              const MotionLayout& layout) const {
+    return way + h * change_of_slip(of, velocities, layout);
+  }
+  /// Adds a force of friction, and its torques, to the forces of all particles [M L/T^2].
+  void add_force(const Contact<2>& of, double force, std::span<double> forces,
+                 const MotionLayout& layout) const {
+    for (std::size_t d = 0; d < 2; ++d) {
+      forces[layout.at(of.second, d)] += tangent[d] * force;
+      if (of.first >= 0) forces[layout.at(of.first, d)] -= tangent[d] * force;
+    }
+    forces[layout.at(of.second, 2)] += levers[1] * force;
+    if (of.first >= 0) forces[layout.at(of.first, 2)] += levers[0] * force;
+  }
+  /// Part of the normal impulse that the solids carry, p_s of (5.7) [M L/T].
+  double carried(const Contact<2>& of) const { return FrictionLaw::carried(of.impulse, capacity); }
+};
+
+struct FrictionOfStep;
+
 /// The contacts of a step, solved.
 struct StepContacts {
   std::vector<Pair> pairs,  ///< of particles in reach of each other in this step, with their memory
@@ -171,6 +223,8 @@ struct StepContacts {
   /// Of all `pairs`, then of all `walls`, then of the stops of hinges, which remember nothing.
   /// Contacts that take no part have the impulse 0 and w = 0.
   std::vector<Contact<2>> contacts;
+  /// Of the contacts whose solids may touch, in the order of `contacts`; empty without friction.
+  std::vector<ContactFrictionInFluid> frictions;
   std::vector<double> loads;       ///< sums of contact forces on each particle [M L/T^2]
   std::vector<double> velocities;  ///< with the contact forces [L/T, 1/T]
   int iterations = 0;     ///< products with the mobility, and iterations of a dense problem
@@ -206,12 +260,13 @@ void add_torques_of_stops(const Links& links, const Particles& particles,
 /// either. `state` is that before the step, `obstacles` are positions at the end of the step.
 /// Plates that turn by finite angles keep their gaps, but for a quarter of the tolerance. Pairs for
 /// which `is_left_out` is true are no contacts, because no contact force changes their distance.
+/// `friction` is null if there is none.
 /// Throws what `mobility` throws, and Error(kNotConverged) if two plates turn so far that they
 /// overlap at a place that was no contact of theirs.
 StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links& links,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,
                             const Mobility& mobility, const ContactConditions& conditions,
-                            ThreadPool& pool);
+                            ThreadPool& pool, const FrictionOfStep* friction = nullptr);
 
 }  // namespace viscontact::particles

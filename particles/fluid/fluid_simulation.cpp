@@ -16,6 +16,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid/flow_estimate.hpp"
+#include "viscontact/particles/fluid/fluid_friction.hpp"
 #include "viscontact/particles/fluid/fluid_motion.hpp"
 #include "viscontact/particles/fluid/held_rows.hpp"
 #include "viscontact/particles/fluid/held_solver.hpp"
@@ -228,6 +229,7 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
            });
   };
   auto conditions = contact_conditions(free, h);
+  const FrictionOfStep friction{setting_, obstacles_, state_.memories, state_.time, next};
   const bool has_inertia = fluid.has_inertia();
   const auto before = has_inertia ? state_.earlier_velocities : equation.velocities();
   // BlowStep::loaded: what is left of the velocities without contact if no particle had a momentum.
@@ -240,8 +242,9 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
     return velocities;
   };
   for (;;) {
-    contacts = solve_contacts(state_, fluid, setting_.links, positions_of(obstacles_, next),
-                              is_left_out, mobility, conditions, pool_);
+    contacts =
+        solve_contacts(state_, fluid, setting_.links, positions_of(obstacles_, next), is_left_out,
+                       mobility, conditions, pool_, setting_.laws.friction ? &friction : nullptr);
     if (!setting_.laws.restitution.is_on() || is_computed_twice()) return std::nullopt;
     const BlowStep step{setting_, state_, obstacles_, next, kick_length(h), before, loaded};
     auto blow = solve_blow(contacts, step, mobility, conditions);

@@ -127,6 +127,7 @@ class FluidSimulation {
   double kick_length(double h) const;
   bool is_computed_twice() const;
   void examine(Motion& motion, double h, StepReport& report) const;
+  void remember_friction(const StepContacts& step, double share);
   void accept(Motion motion, double h, double next, StepReport& report);
   std::vector<double> hold_after_step(const StepEquation& equation, const HeldMotion& held,
                                       std::span<const double> flow, std::vector<double>& velocities,

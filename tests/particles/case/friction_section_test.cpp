@@ -63,6 +63,20 @@ TEST_F(FrictionSection, WithoutItParticlesTurnOnlyIfAKeyAsksForIt) {
   EXPECT_THAT(sphere.setting.torques.at(1).mean(0, 1), ElementsAre(0, 4, 0));
 }
 
+TEST_F(FrictionSection, InAFluidIsThatOfDiscsThatDoNotRebound) {
+  const std::string fluid =
+      "[fluid]\nviscosity = 1.0\nthreshold_gap = 0.02\n"
+      "[domain]\nbox = { from = [-3.0, -3.0], to = [6.0, 3.0] }\n";
+  const std::string friction = "[friction]\ncoefficient = 0.3\n";
+  EXPECT_EQ(read("gamma_min = 0.0", fluid + friction, "").setting.laws.friction->coefficient, 0.3);
+  EXPECT_THAT(refused("gamma_min = 0.0", fluid + friction + "method = \"convex\"\n", ""),
+              HasSubstr("friction.method is 'convex', which is for particles without a fluid; in a "
+                        "fluid it must be \"fixed_point\""));
+  EXPECT_THAT(refused("gamma_min = 0.0\nrestitution = 0.5", fluid + friction, ""),
+              HasSubstr("friction.coefficient must be left out, because the case has a fluid and "
+                        "viscous_contact.restitution > 0"));
+}
+
 TEST_F(FrictionSection, WrongValuesAreRefusedWithTheirLines) {
   EXPECT_THAT(
       refused("gamma_min = 0", "[friction]\ncoefficient = -0.1", ""),

@@ -41,10 +41,10 @@ Eigen::MatrixXd resistance_in_cell(const Particles& p) {
 }
 
 /// What a case has besides discs that are pushed.
-enum class Kind { kBody, kTorsion, kArm, kSpring, kArmOfBodies, kSpringOfBody, kContact };
-constexpr std::array kKinds = {Kind::kBody,   Kind::kTorsion,     Kind::kArm,
-                               Kind::kSpring, Kind::kArmOfBodies, Kind::kSpringOfBody,
-                               Kind::kContact};
+enum class Kind { kBody, kTorsion, kArm, kSpring, kArmOfBodies, kSpringOfBody, kContact, kSliding };
+constexpr std::array kKinds = {Kind::kBody,    Kind::kTorsion,     Kind::kArm,
+                               Kind::kSpring,  Kind::kArmOfBodies, Kind::kSpringOfBody,
+                               Kind::kContact, Kind::kSliding};
 
 struct CellCase {
   Kind kind = Kind::kBody;
@@ -112,7 +112,12 @@ InFluid system_of(const CellCase& c) {
     }
   }
   // Discs 0 and 1 overlap the threshold gap at once.
-  if (c.kind == Kind::kContact) system.setting.forces[0] = constant({20, 20, 0});
+  if (c.kind == Kind::kContact || c.kind == Kind::kSliding)
+    system.setting.forces[0] = constant({20, 20, 0});
+  if (c.kind == Kind::kSliding) {
+    system.setting.laws.film.gamma_min = 0;
+    system.setting.laws.friction = FrictionLaw{0.4};
+  }
   return system;
 }
 
@@ -139,7 +144,8 @@ std::vector<double> result_of(const CellCase& c) {
     numbers.insert(numbers.end(), {v[0], v[1], body.angular_velocity[2], body.angular_momentum[2]});
   }
   for (const auto& contact : contacts_of(simulation.setting(), state))
-    numbers.insert(numbers.end(), {contact.gap / c.h, contact.gamma / c.h});
+    numbers.insert(numbers.end(), {contact.gap / c.h, contact.gamma / c.h, contact.normal_force,
+                                   norm(contact.tangential_force)});
   numbers.push_back(simulation.fluid_forces()[0]);
   return numbers;
 }

@@ -1,5 +1,6 @@
 // The shipped cases of particles in a fluid run with FreeFEM, and show what docs/fluid.md,
 // docs/viscosity.md and docs/direct-simulation.md say of them. Each is cut to a few steps.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,8 +51,8 @@ class ShippedFluidCase : public ParticlesCommand {
 TEST_F(ShippedFluidCase, EachHasATest) {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(kCases)) names.insert(entry.path().stem());
-  EXPECT_EQ(names, (std::set<std::string>{"lecture", "one_disc", "seven_discs", "shear", "sieve",
-                                          "viscosity_channel", "viscosity_contact",
+  EXPECT_EQ(names, (std::set<std::string>{"friction", "lecture", "one_disc", "seven_discs", "shear",
+                                          "sieve", "viscosity_channel", "viscosity_contact",
                                           "viscosity_lattice_axes", "viscosity_lattice_diagonals",
                                           "viscosity_random_cell", "viscosity_random_walls"}));
 }
@@ -68,6 +69,47 @@ TEST_F(ShippedFluidCase, SevenDiscsFallTogether) {
   EXPECT_LT(record["velocity_error_estimate"]["first_step"], 1e-3);
   for (std::size_t disc = 0; disc < 7; ++disc)
     EXPECT_LT(last("motion.csv", 6, disc), 0) << disc;  // vy
+}
+
+TEST_F(ShippedFluidCase, ShearedDiscsRubEachOther) {
+  auto text = cut("friction", 0.2, 2);
+  text = replaced_matches(text, "edges_per_particle = 12", "edges_per_particle = 8");
+  const auto record = last_of(text);
+  EXPECT_EQ(record["failed_steps"], 0);
+  // i,j,gap,gamma,gamma_error,normal_force,tangential_force_x,tangential_force_y
+  const auto rows = matches_in(content(out() / "final_contacts.csv"), "\n(-?\\d[^\n]+)", 1);
+  int rubbing = 0;
+  for (const auto& row : rows) {
+    const auto fields = matches_in(row + ",", "([^,]*),", 1);
+    const double normal = std::stod(fields.at(5));
+    const double friction = std::hypot(std::stod(fields.at(6)), std::stod(fields.at(7)));
+    EXPECT_LE(friction, normal * (1 + 1e-12));  // the coefficient is 1
+    if (friction > 0.1 * normal && normal > 0) ++rubbing;
+  }
+  EXPECT_GT(rubbing, 0);
+}
+
+// The wall of a shear flow drags a disc that is pressed on it. In the fluid alone, the force and the
+// torque of Coulomb's friction move it in the same way.
+TEST_F(ShippedFluidCase, FrictionIsAForceAndATorque) {
+  const auto text = [](const std::string& friction, const std::string& force) {
+    return "title = \"A disc at a wall\"\n[space]\ndimension = 2\n"
+           "[fluid]\nviscosity = 1.0\nthreshold_gap = 0.05\n"
+           "velocity = { left = [0.0, 2.0] }\n"
+           "[domain]\nbox = { from = [0.0, 0.0], to = [8.0, 8.0] }\n"
+           "[viscous_contact]\ngamma_min = 0.0\ntime_step = 0.01\nend_time = 0.01\n" +
+           friction + "[[particle]]\ncentre = [1.05, 4.0]\nradius = 1.0\n" + force;
+  };
+  last_of(text("[friction]\ncoefficient = 0.3\n", "force = [-20.0, 0.0]\n"));
+  const double v = last("motion.csv", 5), omega = last("motion.csv", 6);
+  const double load = last("final_contacts.csv", 5), friction = last("final_contacts.csv", 7);
+  // The corners of the box push the disc a little, too.
+  EXPECT_NEAR(load, 20, 0.1);
+  EXPECT_NEAR(friction, 0.3 * load, 1e-8);
+  // Friction acts at the leftmost point, and turns the disc clockwise.
+  last_of(text("", fmt::format("force = [-20.0, {0}]\ntorque = {1}\n", friction, -friction)));
+  EXPECT_NEAR(v, last("motion.csv", 5), 1e-7);
+  EXPECT_NEAR(omega, last("motion.csv", 6), 1e-7);
 }
 
 TEST_F(ShippedFluidCase, ShearedDiscsRaiseTheViscosity) {
