@@ -115,8 +115,7 @@ void friction_keys(case_file::Keys& keys, FrictionLaw& law) {
                 case_file::one_of(law.method, {{"fixed_point", FrictionMethod::kFixedPoint},
                                                {"convex", FrictionMethod::kConvex}}),
                 {"Coulomb's law, or, without a fluid, a convex problem, in which dry contacts that "
-                 "slide open "
-                 "by h mu_s abs(v_t)"});
+                 "slide open by h mu_s abs(v_t)"});
 }
 
 void read_friction(const case_file::TomlSection& section, int dimension, Setting& setting) {
@@ -135,13 +134,15 @@ void read_friction(const case_file::TomlSection& section, int dimension, Setting
 /// Friction in a fluid is that of particles that do not rebound, and not of membranes.
 void check_friction_in_fluid(const case_file::TomlSection& section, const Setting& setting) {
   if (!setting.fluid) return;
-  section.require(!setting.laws.restitution.is_on(), "coefficient",
-                  "must be left out, because the case has a fluid and "
-                  "viscous_contact.restitution > 0; in a fluid solids either rub or rebound");
+  section.require(
+      !setting.laws.restitution.is_on(), "coefficient",
+      "must not be there, because the case has a fluid and "
+      "viscous_contact.restitution > 0; in a fluid solids either rub or rebound, and the "
+      "section [friction] or the key restitution must be left out");
   section.require(
       setting.fluid->membranes.empty(), "coefficient",
-      "must be left out, because the case has membranes in a fluid, whose contacts have "
-      "no friction");
+      "must not be there, because the case has membranes in a fluid, whose contacts have no "
+      "friction; the section [friction] must be left out");
 }
 
 /// Reads the key `method`. Earlier versions offered three methods that solve the same problem. A

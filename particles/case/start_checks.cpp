@@ -346,6 +346,16 @@ void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
                       "projected in the norm of the masses, but the mass of {} is 0; it must be "
                       "\"constrained\", or the particle must have a mass",
                       names(k)));
+  // Forces turn particles by their moments of inertia alone.
+  for (std::size_t k = 0; k < c.particles.count() && c.setting.laws.friction; ++k)
+    if (c.particles.inertias[k] == 0 && !is_driven(c, static_cast<std::int32_t>(k)))
+      root.section("fluid").fail(
+          "coupling",
+          fmt::format(
+              "is 'splitting', with which friction turns particles by their moments of "
+              "inertia alone, but that of {} is 0; it must be \"constrained\", or the moment "
+              "of inertia must be > 0",
+              names(k)));
 }
 
 /// Checks that nothing in the case is known of discs only if there are ellipses.

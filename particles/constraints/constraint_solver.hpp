@@ -1,5 +1,6 @@
 // Solves the constraints of a step with friction (constraint_problem.hpp). Lengths, masses and
-// times are in the units of the case. constraint_system.hpp and impacts/ call it; nothing is
+// times are in the units of the case. constraint_system.hpp, impacts/ and
+// fluid_friction.cpp call it; nothing is
 // thrown. The results do not depend on the number of threads, because one thread computes them.
 #pragma once
 

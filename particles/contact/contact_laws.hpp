@@ -41,7 +41,8 @@ inline PairRadii radii_of(const Pair& pair, const Particles& particles,
 /// The laws of a case.
 struct ContactLaws {
   FilmLaw film;                         ///< how strong the film may pull
-  std::optional<FrictionLaw> friction;  ///< of the solids; needs particles that turn
+  std::optional<FrictionLaw> friction;  ///< of the solids; needs particles that turn. In a fluid
+                                        ///< kFixedPoint, without restitution and membranes
   RestitutionLaw restitution;           ///< of the solids; needs a film law with solid contact
 
   /// gamma_min of a pair in the unit of gamma, <= 0; minus infinity if its solids never touch.

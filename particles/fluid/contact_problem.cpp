@@ -300,6 +300,10 @@ bool ContactProblem::solve(bool is_rough) {
   };
   // The relative error of velocities that are sums of responses to forces.
   constexpr double kErrorOfSums = 2e-11;
+  if (conditions.keeps_solution && is_dense) {
+    take_velocities();
+    if (is_solved()) return true;
+  }
   conditions.velocity_error = kErrorOfSums;
   // The allowed residuals follow from the impulses, which the first solution tells. Each round also
   // divides the error that the skew part of W makes by about the symmetric part over the skew one.
@@ -330,12 +334,15 @@ void ContactProblem::solve_dense() {
   if (!(solved.residual <= 1))
     solved.iterations += solve_by_gradients(problem, most - solved.iterations);
   iterations_ += solved.iterations;
+  for (std::size_t c = 0; c < contacts_.size(); ++c) contacts_[c].impulse = problem.impulse(c);
+  take_velocities();
+}
+
+void ContactProblem::take_velocities() {
   std::ranges::copy(conditions_.free_velocities, velocities_.begin());
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    contacts_[c].impulse = problem.impulse(c);
+  for (std::size_t c = 0; c < contacts_.size(); ++c)
     for (std::size_t i = 0; i < velocities_.size(); ++i)
       velocities_[i] += responses_[c][i] * (contacts_[c].impulse / conditions_.h);
-  }
 }
 
 void ContactProblem::solve_by_products() {

@@ -53,17 +53,24 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
 /// `share` times those of its contacts. The friction of a contact that slides is set to its bound,
 /// from which it differs by its residual.
 void FluidSimulation::remember_friction(const StepContacts& step, double share) {
-  if (is_computed_twice()) return;
   const auto pairs = state_.pairs.size();
+  for (auto* list : {&state_.pairs, &state_.walls})
+    for (auto& pair : *list) {
+      auto memory = state_.memories.of(pair.memory);
+      memory.set_friction({});
+      memory[Remembered::kCarried] = 0;
+      state_.memories.set(pair.memory, memory);
+    }
   for (const auto& friction : step.frictions) {
     const auto& contact = step.contacts[friction.contact];
+    if (!(contact.w > 0)) continue;
     auto& pair = friction.contact < pairs ? state_.pairs[friction.contact]
                                           : state_.walls[friction.contact - pairs];
+    const double carried = share * friction.carried(contact);
+    double impulse = share * friction.impulse;
+    if (step.is_solved && friction.slides != 0)
+      impulse = friction.slides * setting_.laws.friction->coefficient * carried;
     auto memory = state_.memories.of(pair.memory);
-    const double carried = contact.w > 0 ? share * friction.carried(contact) : 0;
-    double impulse = contact.w > 0 ? share * friction.impulse : 0;
-    if (friction.slides)
-      impulse = std::copysign(setting_.laws.friction->coefficient * carried, impulse);
     memory.set_friction({impulse * friction.tangent[0], impulse * friction.tangent[1], 0});
     memory[Remembered::kCarried] = carried;
     state_.memories.set(pair.memory, memory);
@@ -94,7 +101,7 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
       if (pair.gamma < 0) ++report.glued;
       ++c;
     }
-  remember_friction(motion.contact, kick_length(h) / h);
+  if (setting_.laws.friction) remember_friction(motion.contact, kick_length(h) / h);
   state_.memories.keep_only(state_.pairs, state_.walls);
   rebounds_ = motion.blow ? std::move(motion.blow->rebounds) : std::vector<Rebound>{};
   move_bodies(motion, h, next);

@@ -7,6 +7,8 @@
 
 #include <iterator>
 #include <limits>
+#include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
 
@@ -124,32 +126,30 @@ double along(const std::array<double, 2>& arm, const std::array<double, 2>& norm
   return arm[0] * normal[0] + arm[1] * normal[1];
 }
 
-/// Distances, along the normal, of a contact from the centres of the first and the second particle
-/// [L].
-using ContactArms = std::array<double, 2>;
-
 /// Contact of a pair of which one is a plate, the other a plate, a disc or an obstacle: that of the
 /// discs about the nearest points of their spines. At an obstacle each end of the plate has a
 /// contact of its own, and two plates may have two, with the number Pair::place. `start` are the
-/// particles where the step begins, which say which places belong to which contact. Sets `arms`.
+/// particles where the step begins, which say which places belong to which contact. Sets
+/// `place`.
 Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const Particles& p,
                              const Pair& pair, std::span<const PlanePosition> obstacles,
-                             ContactArms& arms) {
+                             FrictionPlace& place) {
   const auto j = index_of(pair.second);
   Contact<2> contact{std::max(pair.first, -1), pair.second, {}, 0, pair.gamma, pair.impulse};
   const Vector shift = pair.first < 0 ? Vector{} : shift_of(p.cell, pair.image);
   const auto second = outline_of(fluid, p, p.angles, j, shift);
   if (pair.first < 0) {
-    const auto& place = obstacles[pair.plane()];
+    const auto& obstacle = obstacles[pair.plane()];
     const auto ends = second.spine();
-    const auto& end = ends[index_of(pair.place)];
-    const Vector normal = normal_at(place, {end[0], end[1], 0});
+    const Vector end{ends[index_of(pair.place)][0], ends[index_of(pair.place)][1], 0};
+    const Vector normal = normal_at(obstacle, end);
     contact.normal = {normal[0], normal[1]};
-    contact.gap = gap(place, Vector{end[0], end[1], 0}, second.end_radius());
+    contact.gap = gap(obstacle, end, second.end_radius());
     contact.obstacle = -1 - pair.first;
     const std::array arm = {end[0] - second.centre[0], end[1] - second.centre[1]};
     contact.levers[1] = cross(arm, contact.normal);
-    arms[1] = second.end_radius() - along(arm, contact.normal);
+    place.arms[1] = second.end_radius() - along(arm, contact.normal);
+    place.on_obstacle = end - (second.end_radius() + contact.gap) * normal;
     return contact;
   }
   contact.image = pair.image;
@@ -172,19 +172,19 @@ Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const P
   contact.levers = {-cross(of_first, contact.normal), cross(of_second, contact.normal)};
   // Both arms end at one point, so that friction keeps the angular momentum.
   const double share = distance / (first.end_radius() + second.end_radius());
-  arms = {along(of_first, contact.normal) + share * first.end_radius(),
-          share * second.end_radius() - along(of_second, contact.normal)};
+  place.arms = {along(of_first, contact.normal) + share * first.end_radius(),
+                share * second.end_radius() - along(of_second, contact.normal)};
   return contact;
 }
 
 /// contact_of() a pair. On an axis the normal has one component. A round wall is taken as its
-/// tangent where the particle is after it moved with the velocities without contact. Sets `arms` in
-/// the plane.
+/// tangent where the particle is after it moved with the velocities without contact. Sets `place`
+/// in the plane.
 Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& pair,
                             std::span<const PlanePosition> obstacles,
-                            const ContactConditions& conditions, ContactArms& arms) {
+                            const ContactConditions& conditions, FrictionPlace& place) {
   if (has_plate(fluid, pair.first, pair.second))
-    return contact_of_plates(fluid, p, p, pair, obstacles, arms);
+    return contact_of_plates(fluid, p, p, pair, obstacles, place);
   if (p.dimension == 1) {
     const auto on_axis = contact_of<1>(p, pair, obstacles);
     Contact<2> contact{on_axis.first, on_axis.second, {on_axis.normal[0], 0}};
@@ -195,18 +195,24 @@ Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& 
     return contact;
   }
   const auto k = index_of(pair.second);
-  arms = {0, p.radii[k]};
   if (pair.first >= 0) {
     const auto contact = contact_of<2>(p, pair, obstacles);
     const double first = p.radii[index_of(pair.first)];
     const double share = 1 + contact.gap / (first + p.radii[k]);
-    arms = {share * first, share * p.radii[k]};
+    place.arms = {share * first, share * p.radii[k]};
     return contact;
   }
-  if (!obstacles[pair.plane()].is_curved()) return contact_of<2>(p, pair, obstacles);
-  const double* velocity = &conditions.free_velocities[conditions.layout.at(pair.second, 0)];
-  const Vector moved{conditions.h * velocity[0], conditions.h * velocity[1], 0};
-  return contact_of<2>(p, pair, tangent_at(obstacles[pair.plane()], p.position(k) + moved));
+  auto obstacle = obstacles[pair.plane()];
+  if (obstacle.is_curved()) {
+    const double* velocity = &conditions.free_velocities[conditions.layout.at(pair.second, 0)];
+    const Vector moved{conditions.h * velocity[0], conditions.h * velocity[1], 0};
+    obstacle = tangent_at(obstacle, p.position(k) + moved);
+  }
+  const auto contact = contact_of<2>(p, pair, obstacle);
+  place.arms = {0, p.radii[k]};
+  place.on_obstacle =
+      p.position(k) - (p.radii[k] + contact.gap) * Vector{contact.normal[0], contact.normal[1], 0};
+  return contact;
 }
 
 /// Makes the contacts of the listed pairs, and their friction unless `friction` is null.
@@ -215,11 +221,13 @@ void make_contacts(StepContacts& step, const Particles& p, const Fluid& fluid,
                    const FrictionOfStep* friction) {
   for (const auto* list : {&step.pairs, &step.walls})
     for (const auto& pair : *list) {
-      ContactArms arms{};
-      auto contact = contact_in_fluid(fluid, p, pair, obstacles, conditions, arms);
-      if (friction != nullptr)
-        step.frictions.push_back(friction_of_contact(*friction, p, pair, contact,
-                                                     step.contacts.size(), arms, conditions));
+      FrictionPlace place;
+      auto contact = contact_in_fluid(fluid, p, pair, obstacles, conditions, place);
+      if (friction != nullptr) {
+        auto one = friction_of_contact(*friction, p, pair, contact, place, conditions);
+        one.contact = step.contacts.size();
+        if (std::isfinite(one.capacity)) step.frictions.push_back(one);
+      }
       contact.gap -= fluid.threshold_gap;
       contact.lowest /= conditions.share_of_impulse;
       contact.impulse /= conditions.share_of_impulse;
@@ -263,8 +271,8 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
     if (!has_plate(fluid, pair.first, pair.second)) continue;
     // A gap within the tolerance counts as closed at the beginning, and so it does at the end.
     const auto gap_at = [&](const Particles& at) {
-      ContactArms arms{};
-      return contact_of_plates(fluid, p, at, pair, obstacles, arms).gap - fluid.threshold_gap;
+      FrictionPlace place;
+      return contact_of_plates(fluid, p, at, pair, obstacles, place).gap - fluid.threshold_gap;
     };
     double gap = gap_at(after);
     const double before = gap_at(p);
@@ -350,11 +358,33 @@ bool moves(const Contact<2>& contact, const Mobility& mobility,
 
 }  // namespace
 
+namespace {
+
+/// A mobility that asks the same question once: problems with friction ask for the response to the
+/// unit force of a contact again and again.
+Mobility remembered(const Mobility& mobility) {
+  return
+      [&mobility, answers = std::make_shared<std::map<std::vector<double>, std::vector<double>>>()](
+          std::span<const double> forces) {
+        // A contact acts on six components. Sums of many forces do not come again.
+        constexpr std::ptrdiff_t kMost = 6;
+        if (std::ranges::count_if(forces, [](double f) { return f != 0; }) > kMost)
+          return mobility(forces);
+        auto [place, is_new] = answers->try_emplace({forces.begin(), forces.end()});
+        if (is_new) place->second = mobility(forces);
+        return place->second;
+      };
+}
+
+}  // namespace
+
 void solve_listed(StepContacts& step, const Mobility& mobility,
                   const ContactConditions& conditions) {
   ContactProblem problem(conditions, mobility);
   std::vector<std::size_t> chosen;
   std::vector<char> is_chosen(step.contacts.size(), 0);
+  for (auto& contact : step.contacts) contact.w = 0;
+  step.is_solved = true;
   for (;;) {
     const auto before = chosen.size();
     for (std::size_t c = 0; c < step.contacts.size(); ++c) {
@@ -409,9 +439,11 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
       std::max(conditions.least_reach, reach_of(state, fluid, free, conditions) +
                                            2 * conditions.h * fastest(free, conditions.layout) +
                                            1e-3 * conditions.mean_radius);
+  const Mobility remembering = remembered(mobility);
   const auto solve = [&](StepContacts& step) {
     if (friction != nullptr)
-      solve_with_friction(step, friction->setting.laws.friction->coefficient, mobility, conditions);
+      solve_with_friction(step, friction->setting.laws.friction->coefficient, remembering,
+                          conditions);
     else
       solve_listed(step, mobility, conditions);
   };

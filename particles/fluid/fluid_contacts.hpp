@@ -1,7 +1,7 @@
 // The contacts of a step in a fluid, docs/physics.md (6.4): which pairs take part, and impulses
 // that keep their gaps open, as forces on particles whose velocities depend linearly on forces. A
 // gap of a contact is D - D_c here, with the threshold gap D_c. Lengths, masses and times are in
-// the units of the case. fluid_simulation.cpp and the blows use it.
+// the units of the case. fluid_simulation.cpp, friction and the blows use it.
 #pragma once
 
 #include <algorithm>
@@ -67,7 +67,8 @@ inline void add_contact_force(const Contact<2>& contact, double force, std::span
 }
 
 /// Velocities [L/T, 1/T] of all particles that forces and torques [M L/T^2, M L^2/T^2] add to those
-/// without contact; linear, symmetric and positive definite on the forces of contacts.
+/// without contact; linear, and positive definite on the forces of contacts, along which it is
+/// symmetric but in a fluid with inertia.
 using Mobility = std::function<std::vector<double>(std::span<const double> forces)>;
 
 /// The step without contact, and how exact its contacts must be.
@@ -90,6 +91,9 @@ struct ContactConditions {
   /// Whether the mobility is symmetric. Moving fluid carries what a contact does to the contacts
   /// behind it, so that the mobility of a fluid with inertia is not.
   bool is_symmetric = true;
+  /// Whether impulses that are a solution within the tolerances already stay as they are. Otherwise
+  /// the solution is made as exact as it can be.
+  bool keeps_solution = false;
 };
 
 /// Contact::w of a contact whose gap a hinge holds, as no force of the contact can change it. It takes
@@ -154,6 +158,8 @@ class ContactProblem {
   /// Both improve the impulses until the residuals are those allowed.
   void solve_dense();
   void solve_by_products();
+  /// Sets the velocities by the responses of all contacts to their impulses.
+  void take_velocities();
 
   ContactConditions conditions_;
   const Mobility& mobility_;
@@ -166,25 +172,31 @@ class ContactProblem {
 
 /// The friction of a contact whose solids may touch, docs/physics.md (6.14).
 struct ContactFrictionInFluid {
-  std::size_t contact = 0;          ///< number in StepContacts::contacts
-  std::array<double, 2> tangent{};  ///< unit vector, the normal turned by 90 degrees to the left
+  std::size_t contact = 0;  ///< number in StepContacts::contacts
+  /// Unit vector along the surfaces: the normal, turned by 90 degrees to the left.
+  std::array<double, 2> tangent{};
   /// Change of the slip per turn of the first and of the second particle, counter-clockwise [L].
   std::array<double, 2> levers{};
-  /// Way of the obstacle, or of the image of the second particle, along the tangent in the step; that
-  /// of the obstacle counts as negative [L].
-  double way = 0;
-  double capacity =
-      0;  ///< gamma - gamma_min: what the film takes up before its solids touch [M L/T]
-  /// Impulse of friction on the second particle along the tangent [M L/T].
+  /// Slip of the step if no particle moved [L]: the displacement of the image of the second particle
+  /// relative to that particle, or minus that of the obstacle.
+  double displacement = 0;
+  /// gamma - gamma_min >= 0: the impulse that the film takes up before the solids touch [M L/T].
+  double capacity = 0;
+  /// Impulse of friction on the second particle along the tangent [M L/T]: a guess, then the
+  /// solution.
   double impulse = 0;
-  /// Change of the slip per impulse of friction [T/M]; 0 until the contact takes part.
+  /// Change of the slip per impulse of friction [T/M]; 0 if none is known, or if a hinge holds the
+  /// place at which the friction acts.
   double w = 0;
-  bool slides = false;  ///< whether the solution has the friction at its bound
+  /// Where the solution slides, the sign of its friction; where it sticks, or the solids do not
+  /// touch, 0.
+  int slides = 0;
 
   /// Velocity of the surface of the second particle relative to that of the first along the tangent
-  /// [L/T], for the velocities of all particles.
-  double change_of_slip(const Contact<2>& of, const double* velocities,
-                        const MotionLayout& layout) const {
+  /// [L/T], for the velocities of all particles. Obstacles are at rest, and images do not move
+  /// relative to their particles.
+  double slip_rate(const Contact<2>& of, const double* velocities,
+                   const MotionLayout& layout) const {
     double sum = 0;
     for (std::size_t d = 0; d < 2; ++d) {
       sum += tangent[d] * velocities[layout.at(of.second, d)];
@@ -198,7 +210,7 @@ struct ContactFrictionInFluid {
   /// that of the first or of the obstacle, along the tangent [L].
   double slip(const Contact<2>& of, const double* velocities, double h,
               const MotionLayout& layout) const {
-    return way + h * change_of_slip(of, velocities, layout);
+    return displacement + h * slip_rate(of, velocities, layout);
   }
   /// Adds a force of friction, and its torques, to the forces of all particles [M L/T^2].
   void add_force(const Contact<2>& of, double force, std::span<double> forces,
@@ -223,7 +235,8 @@ struct StepContacts {
   /// Of all `pairs`, then of all `walls`, then of the stops of hinges, which remember nothing.
   /// Contacts that take no part have the impulse 0 and w = 0.
   std::vector<Contact<2>> contacts;
-  /// Of the contacts whose solids may touch, in the order of `contacts`; empty without friction.
+  /// Of the contacts whose solids may touch, that is with a finite capacity, in the order of
+  /// `contacts`; empty without friction.
   std::vector<ContactFrictionInFluid> frictions;
   std::vector<double> loads;       ///< sums of contact forces on each particle [M L/T^2]
   std::vector<double> velocities;  ///< with the contact forces [L/T, 1/T]

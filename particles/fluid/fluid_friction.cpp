@@ -1,8 +1,8 @@
-// Solves Coulomb's law of contacts in a fluid (fluid_friction.hpp) in turn with their gaps: given
-// friction shifts the velocities without contact, for which solve_listed() keeps gaps open and finds
-// the pairs that take part; then solve_constraints() finds both impulses of all of them together, as
-// for particles without a fluid, with a root of W in place of masses. Numbers are in the units of the case. Errors
-// are those of the mobility. A change must end with gaps that are exact for the friction found.
+// Solves Coulomb's law of contacts in a fluid (fluid_friction.hpp) in rounds. Each round keeps the gaps
+// open with the friction that was found so far, by solve_listed(), which also finds the pairs that
+// take part. Then solve_constraints() finds normal and tangential impulses of all contacts that take
+// part together, as for particles without a fluid. Numbers are in the units of the case. Errors are
+// those of the mobility. A change must end with gaps that are exact for the friction found.
 #include "viscontact/particles/fluid/fluid_friction.hpp"
 
 #include <Eigen/Core>
@@ -73,15 +73,43 @@ struct CoupledRows {
   std::vector<ConstraintBlock> blocks;              ///< one for each contact
 };
 
-/// Adds the rows of the blocks to a problem whose units stand for W = L L^T: each three numbers of a
-/// row of L are the coefficients of a unit that an impulse 1 moves by 1. What is left of W because of
-/// rounding errors, the directions that no impulse moves, is left out.
-void add_rows(const Eigen::MatrixXd& w, std::span<const double> offsets,
+/// What impulses of rows move, for a symmetric W with a positive diagonal that has an error.
+struct MovedDirections {
+  Eigen::MatrixXd root;  ///< L with W = L L^T but for the error
+  /// Columns that no impulse moves but for the error: sums of the rows, each divided by its root of
+  /// W_rr, that stay as they are.
+  Eigen::MatrixXd unmoved;
+  Eigen::VectorXd scales;  ///< roots of W_rr
+
+  MovedDirections(const Eigen::MatrixXd& w, double error) : scales(w.diagonal().cwiseSqrt()) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+        w.cwiseQuotient(scales * scales.transpose()));
+    const double least = error * modes.eigenvalues().maxCoeff();
+    const auto count = (modes.eigenvalues().array() <= least).count();  // they come first
+    unmoved = modes.eigenvectors().leftCols(count);
+    Eigen::VectorXd roots = modes.eigenvalues().cwiseMax(0).cwiseSqrt();
+    roots.head(count).setZero();
+    root = scales.asDiagonal() * modes.eigenvectors() * roots.asDiagonal();
+  }
+
+  /// Takes the sums that no impulse moves from the offsets, where they are as small as `rounding` of
+  /// all of them explains [L]. Otherwise impulses would grow to move what they cannot.
+  Eigen::VectorXd consistent(const Eigen::VectorXd& offsets, double rounding) const {
+    Eigen::VectorXd scaled = offsets.cwiseQuotient(scales);
+    for (Index m = 0; m < unmoved.cols(); ++m) {
+      const auto mode = unmoved.col(m);
+      const double sum = mode.dot(scaled);
+      if (std::abs(sum) <= rounding * mode.cwiseAbs().cwiseQuotient(scales).sum())
+        scaled -= sum * mode;
+    }
+    return scaled.cwiseProduct(scales);
+  }
+};
+
+/// Adds the rows to a problem in which each column of `root` is one degree of freedom that an
+/// impulse 1 moves by 1. Three of them make a unit.
+void add_rows(const Eigen::MatrixXd& root, std::span<const double> offsets,
               std::span<const double> guesses, ConstraintProblem<2>& problem) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(w);
-  const double least = std::numeric_limits<double>::epsilon() * modes.eigenvalues().maxCoeff();
-  const Eigen::VectorXd roots = modes.eigenvalues().cwiseMax(least).cwiseSqrt();
-  const Eigen::MatrixXd root = modes.eigenvectors() * roots.asDiagonal();
   constexpr Index kOfUnit = 3;
   const Index units = (root.cols() + kOfUnit - 1) / kOfUnit;
   RigidUnit<2> unit;
@@ -101,30 +129,39 @@ void add_rows(const Eigen::MatrixXd& w, std::span<const double> offsets,
   }
 }
 
-/// Improves the impulses of the rows with the matrix W, whose skew part, which is not 0 in a fluid
-/// with inertia, acts as an offset. Returns the number of iterations.
-int improve(const Eigen::MatrixXd& w, CoupledRows& rows, int most) {
+/// Improves the impulses of the rows with the matrix W of the relative error `error`, in `most`
+/// iterations; offsets have the error `rounding` [L]. The skew part of W, which is not 0 in a fluid
+/// with inertia, acts as an offset. With `gives_loads` the friction has the bounds of the loads of
+/// the guesses, (5.17). Returns the number of iterations.
+int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_loads, int most,
+            CoupledRows& rows) {
   const Eigen::MatrixXd symmetric = (w + w.transpose()) / 2, skew = w - symmetric;
-  // Each round divides the error of the skew part by about the ratio of both parts.
+  const MovedDirections directions(symmetric, error);
+  const auto n = std::ssize(rows.q);
+  double allowed = std::numeric_limits<double>::infinity();
+  for (const auto& block : rows.blocks) allowed = std::min(allowed, block.allowed);
+  // Each round divides the error of the skew part by about the ratio of both parts; as many as
+  // ContactProblem needs.
   constexpr int kRounds = 40;
   int iterations = 0;
   for (int round = 0; round < kRounds && iterations < most; ++round) {
-    const Eigen::Map<const Eigen::VectorXd> q(rows.q.data(), std::ssize(rows.q));
-    const Eigen::VectorXd before =
-        Eigen::Map<const Eigen::VectorXd>(rows.p.data(), std::ssize(rows.p));
-    const Eigen::VectorXd offsets = q + skew * before;
+    const Eigen::VectorXd before = Eigen::Map<const Eigen::VectorXd>(rows.p.data(), n);
+    const auto offsets = directions.consistent(
+        Eigen::Map<const Eigen::VectorXd>(rows.q.data(), n) + skew * before, rounding);
     ConstraintProblem<2> problem;
     problem.blocks = rows.blocks;
-    add_rows(symmetric, {offsets.data(), rows.q.size()}, rows.p, problem);
+    add_rows(directions.root, {offsets.data(), rows.q.size()}, rows.p, problem);
+    if (gives_loads) {
+      give_loads(problem);
+      problem.keeps_loads = true;
+    }
     const auto solution =
         solve_constraints(problem, most - iterations, ConstraintStart::kLeastImpulses);
     iterations += solution.result.iterations;
     rows.p = problem.impulses;
     const Eigen::VectorXd change =
-        skew * (Eigen::Map<const Eigen::VectorXd>(rows.p.data(), std::ssize(rows.p)) - before);
-    double allowed = std::numeric_limits<double>::infinity();
-    for (const auto& block : rows.blocks) allowed = std::min(allowed, block.allowed);
-    if (change.cwiseAbs().maxCoeff() <= allowed) break;
+        skew * (Eigen::Map<const Eigen::VectorXd>(rows.p.data(), n) - before);
+    if (gives_loads || change.cwiseAbs().maxCoeff() <= allowed) break;
   }
   return iterations;
 }
@@ -142,13 +179,26 @@ class FrictionSolver {
         of_slips_(step.frictions.size()) {}
 
   void solve() {
+    // One round is enough unless other pairs join, which takes a few more in a packing.
     constexpr int kMostRounds = 30;
-    for (int round = 0;; ++round) {
-      solve_gaps();
-      if (obeys_coulomb()) return;
-      if (round == kMostRounds || step_.iterations >= conditions_.solver.max_iterations) break;
-      solve_together();
+    double least = std::numeric_limits<double>::infinity();
+    auto best = impulses();
+    for (int round = 0; round < kMostRounds; ++round) {
+      solve_gaps(round > 0);
+      const double excess = excess_of_coulomb();
+      if (excess <= 1) return;
+      if (excess < least) {
+        least = excess;
+        best = impulses();
+      }
+      if (step_.iterations >= conditions_.solver.max_iterations) break;
+      solve_together(false);
     }
+    // As without a fluid, the loads of the best round take the place of Coulomb's law.
+    take(best);
+    solve_together(true);
+    solve_gaps(true);
+    excess_of_coulomb();
     step_.is_solved = false;
   }
 
@@ -157,8 +207,9 @@ class FrictionSolver {
     return step_.contacts[friction.contact];
   }
 
-  /// The gaps with the present friction.
-  void solve_gaps() {
+  /// The gaps with the present friction. Normal impulses that are a solution may be kept, because
+  /// those of redundant contacts are not unique, and friction is bounded by them.
+  void solve_gaps(bool keeps_solution) {
     std::vector<double> loads(conditions_.free_velocities.size());
     bool is_any = false;
     for (const auto& friction : step_.frictions) {
@@ -175,31 +226,51 @@ class FrictionSolver {
     }
     auto conditions = conditions_;
     conditions.free_velocities = free;
+    conditions.keeps_solution = keeps_solution;
     solve_listed(step_, mobility_, conditions);
     for (std::size_t i = 0; i < loads.size(); ++i) step_.loads[i] += loads[i];
-    set_allowed(step_.contacts, conditions);
+    set_allowed(step_.contacts, conditions_);
   }
 
-  /// Whether the law holds within the tolerances. Asks for the tangential mobility of the contacts
-  /// for which it is needed.
-  bool obeys_coulomb() {
-    bool obeys = true;
+  /// Normal and tangential impulses of all contacts [M L/T].
+  std::pair<std::vector<double>, std::vector<double>> impulses() const {
+    std::pair<std::vector<double>, std::vector<double>> found;
+    for (const auto& contact : step_.contacts) found.first.push_back(contact.impulse);
+    for (const auto& friction : step_.frictions) found.second.push_back(friction.impulse);
+    return found;
+  }
+  void take(const std::pair<std::vector<double>, std::vector<double>>& found) {
+    for (std::size_t c = 0; c < found.first.size(); ++c) step_.contacts[c].impulse = found.first[c];
+    for (std::size_t f = 0; f < found.second.size(); ++f)
+      step_.frictions[f].impulse = found.second[f];
+  }
+
+  /// The largest residual of the law over what is allowed. Asks for the tangential mobility of the
+  /// contacts for which it is needed.
+  double excess_of_coulomb() {
+    double excess = 0;
     for (std::size_t f = 0; f < step_.frictions.size(); ++f) {
       auto& friction = step_.frictions[f];
       const auto& contact = contact_of(friction);
       const double carried = contact.w > 0 ? friction.carried(contact) : 0;
-      friction.slides = false;
+      friction.slides = 0;
       if (!(carried > 0) && friction.impulse == 0) continue;
       respond(f);
+      if (!(friction.w > 0)) {
+        if (friction.impulse != 0) excess = std::numeric_limits<double>::infinity();
+        continue;
+      }
       const double slip =
           friction.slip(contact, step_.velocities.data(), conditions_.h, conditions_.layout);
-      friction.slides = std::abs(friction.impulse - slip / friction.w) > mu_s_ * carried;
+      const double aim = friction.impulse - slip / friction.w;
+      if (std::abs(aim) > mu_s_ * carried) friction.slides = aim > 0 ? 1 : -1;
       // Half of it is left for the difference between this problem and the final velocities.
       const double allowed = allowed_for(friction, contact, conditions_) / 2;
-      obeys = obeys &&
-              residual_of_friction(friction.impulse, mu_s_ * carried, slip, friction.w) <= allowed;
+      const double residual =
+          residual_of_friction(friction.impulse, mu_s_ * carried, slip, friction.w);
+      excess = largest_or_nan(excess, residual / allowed);
     }
-    return obeys;
+    return excess;
   }
 
   /// Asks for the velocities by a unit force of friction, unless it is known.
@@ -211,13 +282,13 @@ class FrictionSolver {
       of_slips_[f] = mobility_(forces);
       ++step_.iterations;
       friction.w =
-          friction.change_of_slip(contact_of(friction), of_slips_[f].data(), conditions_.layout);
+          friction.slip_rate(contact_of(friction), of_slips_[f].data(), conditions_.layout);
     }
     return of_slips_[f];
   }
 
   /// Improves normal and tangential impulses of all contacts that take part together.
-  void solve_together() {
+  void solve_together(bool gives_loads) {
     CoupledRows rows;
     std::vector<std::size_t> contacts, frictions;  // of the blocks; kNone: no friction
     constexpr auto kNone = static_cast<std::size_t>(-1);
@@ -225,12 +296,13 @@ class FrictionSolver {
     std::size_t f = 0;
     for (std::size_t c = 0; c < step_.contacts.size(); ++c) {
       const auto& contact = step_.contacts[c];
-      const bool has_friction = f < step_.frictions.size() && step_.frictions[f].contact == c;
-      const auto number = has_friction ? f++ : kNone;
-      if (!(contact.w > 0)) {
-        if (has_friction) step_.frictions[number].impulse = 0;
-        continue;
+      auto number = f < step_.frictions.size() && step_.frictions[f].contact == c ? f++ : kNone;
+      if (number != kNone && contact.w > 0) respond(number);
+      if (number != kNone && !(contact.w > 0 && step_.frictions[number].w > 0)) {
+        step_.frictions[number].impulse = 0;
+        number = kNone;
       }
+      if (!(contact.w > 0)) continue;
       ConstraintBlock block;
       block.row = rows.q.size();
       block.lowest = contact.lowest;
@@ -238,7 +310,7 @@ class FrictionSolver {
       rows.answers.push_back(&respond_to_gap(c));
       rows.q.push_back(gap_after(contact, free, conditions_.h, conditions_.layout));
       rows.p.push_back(contact.impulse);
-      if (has_friction) {
+      if (number != kNone) {
         const auto& friction = step_.frictions[number];
         rows.answers.push_back(&respond(number));
         block.rows = 2;
@@ -252,8 +324,17 @@ class FrictionSolver {
       contacts.push_back(c);
       frictions.push_back(number);
     }
-    step_.iterations += improve(matrix_of(rows, contacts, frictions), rows,
-                                conditions_.solver.max_iterations - step_.iterations);
+    // Velocities with contact are sums of answers of the fluid, whose error is that of W.
+    const double error =
+        std::max(std::numeric_limits<double>::epsilon(), conditions_.velocity_error);
+    // As in set_allowed().
+    constexpr double kGapError = 1e-14;
+    const double rounding =
+        kGapError * conditions_.mean_radius +
+        error * conditions_.h * fastest(conditions_.free_velocities, conditions_.layout);
+    const int most = conditions_.solver.max_iterations;
+    step_.iterations += improve(matrix_of(rows, contacts, frictions), error, rounding, gives_loads,
+                                gives_loads ? most : most - step_.iterations, rows);
     for (std::size_t b = 0; b < rows.blocks.size(); ++b) {
       const auto row = rows.blocks[b].row;
       step_.contacts[contacts[b]].impulse = rows.p[row];
@@ -274,7 +355,7 @@ class FrictionSolver {
         w(row, column) = opening(contact, answer, conditions_.layout);
         if (rows.blocks[b].rows > 1)
           w(row + 1, column) =
-              step_.frictions[frictions[b]].change_of_slip(contact, answer, conditions_.layout);
+              step_.frictions[frictions[b]].slip_rate(contact, answer, conditions_.layout);
       }
     }
     return w;
@@ -285,7 +366,6 @@ class FrictionSolver {
       std::vector<double> forces(conditions_.free_velocities.size());
       add_contact_force(step_.contacts[c], 1, forces, conditions_.layout);
       of_gaps_[c] = mobility_(forces);
-      ++step_.iterations;
     }
     return of_gaps_[c];
   }
@@ -302,11 +382,11 @@ class FrictionSolver {
 
 ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Particles& particles,
                                            const Pair& pair, const Contact<2>& contact,
-                                           std::size_t number, const std::array<double, 2>& arms,
+                                           const FrictionPlace& place,
                                            const ContactConditions& conditions) {
   const auto& setting = step.setting;
-  ContactFrictionInFluid friction{number, {-contact.normal[1], contact.normal[0]}};
-  friction.levers = {-arms[0], -arms[1]};
+  ContactFrictionInFluid friction{.tangent = {-contact.normal[1], contact.normal[0]}};
+  friction.levers = {pair.first < 0 ? 0 : -place.arms[0], -place.arms[1]};
   const double lowest =
       setting.laws.lowest_gamma(pair, step.memories.of(pair.memory),
                                 radii_in_fluid(*setting.fluid, pair, particles, step.obstacles));
@@ -318,19 +398,18 @@ ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Par
   friction.impulse = along(before) / conditions.share_of_impulse;
   const double h = conditions.h;
   if (pair.first >= 0) {
-    if (pair.image != 0) friction.way = h * along(velocity_of_image(particles.cell, pair.image));
+    if (pair.image != 0)
+      friction.displacement = h * along(velocity_of_image(particles.cell, pair.image));
     return friction;
   }
-  const Vector normal{contact.normal[0], contact.normal[1], 0};
-  const auto j = index_of(pair.second);
-  const Vector centre = particles.position(j);
-  const Vector point = centre - (arms[1] + contact.gap) * normal;
+  const auto& point = place.on_obstacle;
   const auto walls = step.obstacles.size() - setting.planes.size();
   if (pair.plane() < walls) {
     const auto velocity = velocity_of_wall(setting, pair.plane(), point, step.begin, step.end);
-    friction.way = -h * along({velocity[0], velocity[1], 0});
+    friction.displacement = -h * along({velocity[0], velocity[1], 0});
   } else {
-    friction.way = -along(step.obstacles[pair.plane()].displacement(point, step.begin, step.end));
+    friction.displacement =
+        -along(step.obstacles[pair.plane()].displacement(point, step.begin, step.end));
   }
   return friction;
 }
@@ -338,6 +417,15 @@ ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Par
 void solve_with_friction(StepContacts& step, double mu_s, const Mobility& mobility,
                          const ContactConditions& conditions) {
   FrictionSolver(step, mu_s, mobility, conditions).solve();
+}
+
+double heat_of_friction(const StepContacts& step, std::span<const double> velocities,
+                        const ContactConditions& conditions) {
+  double heat = 0;
+  for (const auto& friction : step.frictions)
+    heat -= friction.impulse * friction.slip(step.contacts[friction.contact], velocities.data(),
+                                             conditions.h, conditions.layout);
+  return heat / (conditions.h * conditions.h);
 }
 
 void take_residuals_of_friction(const StepContacts& step, double mu_s,

@@ -242,9 +242,10 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
     return velocities;
   };
   for (;;) {
-    contacts =
-        solve_contacts(state_, fluid, setting_.links, positions_of(obstacles_, next), is_left_out,
-                       mobility, conditions, pool_, setting_.laws.friction ? &friction : nullptr);
+    contacts = solve_contacts(
+        state_, fluid, setting_.links, positions_of(obstacles_, next), is_left_out, mobility,
+        conditions, pool_,
+        setting_.laws.friction && setting_.laws.friction->coefficient > 0 ? &friction : nullptr);
     if (!setting_.laws.restitution.is_on() || is_computed_twice()) return std::nullopt;
     const BlowStep step{setting_, state_, obstacles_, next, kick_length(h), before, loaded};
     auto blow = solve_blow(contacts, step, mobility, conditions);
@@ -420,6 +421,10 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   if (!is_computed_twice()) motion.fluid.probes = motion.quantities.probes;
   motion.fluid.dissipation = motion.quantities.dissipation;
   motion.fluid.apparent_viscosity = motion.quantities.apparent_viscosity;
+  if (setting_.laws.friction && motion.quantities.dissipation > 0)
+    motion.fluid.apparent_viscosity *=
+        1 + heat_of_friction(motion.contact, motion.moved, contact_conditions(motion.free, h)) /
+                motion.quantities.dissipation;
   if (setting_.fluid->has_inertia()) report_inertia(motion);
   motion.fluid.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return motion;

@@ -73,7 +73,7 @@ TEST_F(FrictionSection, InAFluidIsThatOfDiscsThatDoNotRebound) {
               HasSubstr("friction.method is 'convex', which is for particles without a fluid; in a "
                         "fluid it must be \"fixed_point\""));
   EXPECT_THAT(refused("gamma_min = 0.0\nrestitution = 0.5", fluid + friction, ""),
-              HasSubstr("friction.coefficient must be left out, because the case has a fluid and "
+              HasSubstr("friction.coefficient must not be there, because the case has a fluid and "
                         "viscous_contact.restitution > 0"));
 }
 

@@ -10,7 +10,6 @@
 #include "tests/particles/fluid/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/current_contacts.hpp"
-#include "viscontact/particles/io/restart.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -115,7 +114,7 @@ TEST(FrictionInFluid, OfAFilmIsNone) {
   EXPECT_EQ(simulation.state().particles.angular_velocities[0], 0);
 }
 
-/// With a mass: m u' = pull - mu_s load - R u. The error is of second order in the step.
+/// With a mass: m u' = pull - mu_s load - R u.
 TEST(FrictionInFluid, ActsOnMassesToo) {
   const double mu_s = 0.3, load = 7, pull = 20, mass = 4, end = 1;
   const double final_speed = (pull - mu_s * load) / kDrag;
@@ -128,8 +127,8 @@ TEST(FrictionInFluid, ActsOnMassesToo) {
     return std::abs(simulation.state().particles.positions[0] - x);
   };
   // Particles in contact take implicit steps, which are of first order.
-  EXPECT_LT(error(0.01), 0.02);
-  EXPECT_LT(error(0.001), 0.002);
+  EXPECT_NEAR(error(0.01) / error(0.001), 10, 0.5);
+  EXPECT_LT(error(0.001), 1e-3);
 }
 
 TEST(FrictionInFluid, OfAWallThatMovesDragsADisc) {
@@ -209,7 +208,8 @@ struct Heap {
   double mu_s = 0.5, gamma_min = 0;
   bool is_mirrored = false, is_reversed = false;
   double unit_of_length = 1, unit_of_force = 1;
-  Coupling coupling = Coupling::kConstrained;
+  double mass = 0;
+  bool is_split = false, has_inertia = false;
 };
 
 InFluid heap(const Heap& of) {
@@ -311,7 +311,76 @@ TEST(FrictionInFluid, OfAHeapIsCoulombsInEveryContact) {
     SCOPED_TRACE(mu_s);
     expect_coulomb({.mu_s = mu_s}, 20);
     expect_coulomb({.mu_s = mu_s, .gamma_min = -0.4}, 20);
+    expect_coulomb({.mu_s = mu_s, .mass = 0.5, .is_split = true}, 20);
+    expect_coulomb({.mu_s = mu_s, .mass = 0.5, .has_inertia = true}, 20);
   }
+}
+
+TEST(FrictionInFluid, OfAHeapContinuesWithTheSameBits) {
+  const Heap of{.gamma_min = -0.4, .mass = 0.5};
+  const auto run_in_parts = [&](bool is_stopped) {
+    auto system = heap(of);
+    auto simulation = system.simulation(drag_of_discs);
+    for (int step = 0; step < 4; ++step) simulation.step(1e9);
+    if (!is_stopped) {
+      for (int step = 0; step < 4; ++step) simulation.step(1e9);
+      return simulation.state();
+    }
+    system.state = simulation.state();
+    auto again = system.simulation(drag_of_discs);
+    for (int step = 0; step < 4; ++step) again.step(1e9);
+    return again.state();
+  };
+  const auto whole = run_in_parts(false), parts = run_in_parts(true);
+  EXPECT_EQ(whole.particles.positions, parts.particles.positions);
+  EXPECT_EQ(whole.particles.angles, parts.particles.angles);
+  EXPECT_EQ(whole.walls, parts.walls);
+}
+
+/// Three discs of one body on the floor: four normal and tangential impulses more than the body has
+/// motions.
+TEST(FrictionInFluid, OfABodyWithMoreContactsThanMotionsIsThatOfItsLoad) {
+  const double mu_s = 0.3, load = 6, pull = 9, h = 0.1;
+  for (const bool sticks : {false, true}) {
+    auto system = in_fluid(2, 10, h, kThreshold);
+    system.setting.laws.film.gamma_min = 0;
+    system.setting.laws.friction = FrictionLaw{sticks ? 2 : mu_s};
+    for (int k = 0; k < 3; ++k)
+      add_pushed(system, {3.0 + 1.2 * k, kRadius + kThreshold, 0}, kRadius, 0,
+                 {pull / 3, -load / 3, 0});
+    add_rotation(system.state.particles);
+    add_rigid_body(system.state.particles, {{0, 1, 2}});
+    auto simulation = system.simulation(drag_of_discs);
+    EXPECT_TRUE(run(simulation, 2 * h).converged);
+    const auto& p = simulation.state().particles;
+    const double u = sticks ? 0 : (pull - mu_s * load) / (3 * kDrag);
+    EXPECT_NEAR(p.positions[0], 3 + 2 * h * u, kExact);
+    EXPECT_NEAR(p.positions[1], kRadius + kThreshold, kExact);
+  }
+}
+
+/// The walls of a strain flow move with (s x, -s y). A plate whose left end alone touches the floor
+/// sticks to the point there, and not to the one below its centre.
+TEST(FrictionInFluid, OfAPlateIsThatOfTheWallAtItsEnd) {
+  const double strain = 0.4, h = 1e-4, half = 1, end = 0.1, angle = 0.5;
+  auto system = in_fluid(2, 20, h, kThreshold);
+  system.setting.laws.film.gamma_min = 0;
+  system.setting.laws.friction = FrictionLaw{50};
+  system.setting.fluid->boundary = LinearFlow{{strain, 0, 0, -strain}};
+  const double spine = half - end;
+  add_pushed(system, {10, end + kThreshold + spine * std::sin(angle), 0}, half, 0, {0, -3, 0});
+  system.setting.fluid->semi_axes.push_back({half, end});
+  system.setting.fluid->plates.push_back(1);
+  add_rotation(system.state.particles);
+  system.state.particles.angles[0] = angle;
+  auto simulation = system.simulation(drag_of_discs);
+  EXPECT_TRUE(run(simulation, h).converged);
+  const auto& p = simulation.state().particles;
+  const double omega = (p.angles[0] - angle) / h;
+  const double below = -spine * std::sin(angle) - end;
+  // Positions over a step of 1e-4 have rounding errors of 1e-11.
+  EXPECT_NEAR((p.positions[0] - 10) / h - omega * below, strain * (10 - spine * std::cos(angle)),
+              1e-7);
 }
 
 std::vector<double> places_after(const Heap& of, int steps) {

@@ -112,6 +112,50 @@ TEST(PlateContact, TurnAboutAnEndAtTheRateOfTheLever) {
   EXPECT_NEAR(gamma_of_ends(simulation.state()), -1e-4 * 1 / (1 + lever * lever), 1e-9);
 }
 
+// A plate that lies on the floor slides with Coulomb's friction at both ends. Friction acts below the
+// centre, and therefore the end in front has the larger load.
+TEST(PlateContact, SlidesOnBothEnds) {
+  const double drag = 0.5, load = 4, pull = 2, mu_s = 0.3, h = 0.05;
+  auto system = with_plates(h);
+  system.setting.laws.film.gamma_min = 0;
+  system.setting.laws.friction = FrictionLaw{mu_s};
+  add_plate(system, {10, kEnd + kGap, 0}, 0, 0);
+  system.setting.forces[0] = constant({pull, -load, 0});
+  auto simulation = system.simulation(constant_drag(drag));
+  EXPECT_TRUE(run(simulation, 2 * h).converged);
+  const auto& p = simulation.state().particles;
+  // Impulses are exact to 1e-10 of the impulses at work.
+  EXPECT_NEAR(p.positions[0], 10 + 2 * h * (pull - mu_s * load) / drag, 1e-9);
+  EXPECT_NEAR(p.angles[0], 0, 1e-9);
+  const auto contacts = contacts_of(simulation.setting(), simulation.state());
+  ASSERT_EQ(contacts.size(), 2U);
+  EXPECT_NEAR(contacts[0].normal_force + contacts[1].normal_force, load, 1e-9);
+  EXPECT_NEAR(std::abs(contacts[0].normal_force - contacts[1].normal_force),
+              mu_s * load * kEnd / (kHalf - kEnd), 1e-8);
+  for (const auto& contact : contacts)
+    EXPECT_NEAR(contact.tangential_force[0], -mu_s * contact.normal_force, 1e-9);
+}
+
+// With friction enough, the point of the lower end that touches the floor stays where it is while the
+// plate falls over.
+TEST(PlateContact, TurnsAboutAnEndThatSticks) {
+  const double h = 1e-4, angle = 0.7;
+  auto system = with_plates(h);
+  system.setting.laws.film.gamma_min = 0;
+  system.setting.laws.friction = FrictionLaw{5};
+  const double spine = kHalf - kEnd;
+  add_plate(system, {10, kEnd + kGap + spine * std::sin(angle), 0}, angle, 0);
+  system.setting.forces[0] = constant({0, -3, 0});
+  auto simulation = system.simulation(constant_drag(0.5));
+  EXPECT_TRUE(run(simulation, h).converged);
+  const auto& p = simulation.state().particles;
+  const double omega = p.angles[0] / h - angle / h;
+  EXPECT_LT(omega, -1);
+  // The lowest point is at -spine (cos, sin) - (0, kEnd) from the centre.
+  const double below = -spine * std::sin(angle) - kEnd;
+  EXPECT_NEAR((p.positions[0] - 10) / h - omega * below, 0, 1e-7);
+}
+
 // Two plates of the mirrored angle that are pushed against each other meet with their ends, keep
 // their gap while they turn, and are the mirror image of each other.
 TEST_P(Plates, MeetEachOtherWithTheirEnds) {

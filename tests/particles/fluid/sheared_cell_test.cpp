@@ -146,6 +146,10 @@ std::vector<double> result_of(const CellCase& c) {
   for (const auto& contact : contacts_of(simulation.setting(), state))
     numbers.insert(numbers.end(), {contact.gap / c.h, contact.gamma / c.h, contact.normal_force,
                                    norm(contact.tangential_force)});
+  if (c.kind == Kind::kSliding) {
+    const auto contacts = contacts_of(simulation.setting(), state);
+    EXPECT_GT(norm(contacts.at(0).tangential_force), 0.1);
+  }
   numbers.push_back(simulation.fluid_forces()[0]);
   return numbers;
 }
