@@ -59,7 +59,7 @@ class Iteration {
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return finish();
     proximal_.emplace(problem_, w_);
     proximal_->set_epsilon(epsilon_);
-    while (residual_ > 1 && best_.result.iterations < max_iterations)
+    while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant())
       take_proximal_step(max_iterations);
     return finish();
   }
@@ -82,6 +82,18 @@ class Iteration {
       before = residual_;
       sweep();
     }
+  }
+
+  /// Whether the residual has not fallen below half of its least value for a long time. With a
+  /// patience of 2000 iterations three steps more of 200 were given up in bench/box2d.cpp.
+  bool is_stagnant() {
+    constexpr int kPatience = 3000;
+    constexpr double kGain = 0.5;
+    if (residual_ < kGain * gained_residual_) {
+      gained_residual_ = residual_;
+      gained_at_ = best_.result.iterations;
+    }
+    return best_.result.iterations - gained_at_ > kPatience;
   }
 
   /// Takes a proximal step, or goes back and makes the next one easier to solve. Between jammed
@@ -321,6 +333,8 @@ class Iteration {
   std::vector<Motion<D>> motions_;
   std::vector<BlockResidual> residuals_;
   ConstraintSolution<D> best_;
+  double gained_residual_ = std::numeric_limits<double>::infinity();  // see is_stagnant()
+  int gained_at_ = 0;
   bool is_rising_ = false, has_given_loads_ = false, has_cones_ = false;
   int steps_ = 0, next_try_ = 0;  // of the proximal method; the step in which to close the gaps
   double residual_ = 0, epsilon_ = kFirstEpsilon;

@@ -12,6 +12,9 @@ namespace {
 /// times the masses.
 constexpr double kRegularisation = 1e-10;
 
+/// Share of the way to the first boundary at which a step ends.
+constexpr double kInside = 0.995;
+
 }  // namespace
 
 template <int D>
@@ -132,7 +135,7 @@ double InteriorPoints<D>::measure() {
       part.error -= part.u;
       gap_ += part.u * part.r;
     }
-    largest = std::max(largest, std::abs(part.error));
+    largest = largest_or_nan(largest, std::abs(part.error));
   }
   for (auto& part : cones_) {
     add_impulse(part, part.r, error_);
@@ -145,16 +148,16 @@ double InteriorPoints<D>::measure() {
       part.error = Cone::coordinates(components);
     }
     gap_ += inner(part.u, part.r);
-    for (const double e : part.error) largest = std::max(largest, std::abs(e));
+    for (const double e : part.error) largest = largest_or_nan(largest, std::abs(e));
   }
   if (degree_ > 0) gap_ /= degree_;
   for (std::size_t u = 0; u < y_.size(); ++u) {
     const auto moved = problem_.units[u].moved_by(error_[u]);
     double square = 0;
     for (std::size_t k = 0; k < kMotion; ++k) square += moved[k] * error_[u][k];
-    largest = std::max(largest, std::sqrt(std::max(square, 0.0)));
+    largest = largest_or_nan(largest, std::sqrt(std::max(square, 0.0)));
   }
-  return std::max(largest, std::sqrt(std::max(gap_, 0.0)));
+  return largest_or_nan(largest, std::sqrt(gap_));
 }
 
 /// Scales a part at its present point, and sets the predictor's goal.
@@ -268,10 +271,10 @@ void InteriorPoints<D>::find_direction(int solutions) {
   }
 }
 
-/// Longest step, at most 1, with which all points stay in their cones.
+/// Longest step, at most 1/kInside, with which all points stay in their cones.
 template <int D>
 double InteriorPoints<D>::length_to_boundary() const {
-  double length = 1;
+  double length = 1 / kInside;
   for (const auto& part : singles_) {
     if (part.is_equation) continue;
     if (part.u + length * part.change_of_u < 0) length = -part.u / part.change_of_u;
@@ -364,9 +367,8 @@ void InteriorPoints<D>::start(double size) {
 
 template <int D>
 int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
-  // A step ends a little before the first boundary. Below kNear of the size, an iteration gains
-  // much unless rounding errors are what is left.
-  constexpr double kInside = 0.995, kNear = 1e-6, kSlow = 0.5;
+  // Below kNear of the size, an iteration gains much unless rounding errors are what is left.
+  constexpr double kNear = 1e-6, kSlow = 0.5;
   set_parts();
   impulses_ = problem_.impulses;
   for (std::size_t u = 0; u < y_.size(); ++u) y_[u] = problem_.units[u].free;
@@ -384,10 +386,9 @@ int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
     }
     if (left <= accuracy * size || is_at_end || iterations == max_iterations || !factorise()) break;
     find_direction(1);
-    set_corrector(gap_, length_to_boundary());
+    set_corrector(gap_, std::min(1.0, length_to_boundary()));
     find_direction(2);
-    const double length = length_to_boundary();
-    move(length < 1 ? kInside * length : 1);
+    move(kInside * length_to_boundary());
   }
   return iterations;
 }

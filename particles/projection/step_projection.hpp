@@ -126,7 +126,8 @@ class StepProjection {
   // curved. The particle cannot leave a circle in the step, because the circle is convex.
   std::vector<PlanePosition> tangents_;
   double tolerated_ = 0;             // overlap that is left as it is [L]
-  double margin_ = 0;                // gap below which a pair is chosen [L]
+  double margin_ = 0;                // gap below which a pair is nearly closed [L]
+  bool is_convex_ = false;           // whether friction is that of the convex relaxation
   std::vector<std::size_t> chosen_;  // pair of each contact of system_
   std::vector<char> is_chosen_;      // of each pair in the list
   ContactSystem<D> system_;
