@@ -1,13 +1,14 @@
-// Benchmark of many particles: N discs fall into a box. Prints CPU time, iterations, residual and
-// memory for each STRETCH of time.
+// Benchmark of many particles: N discs or spheres fall into a box. Prints CPU time, iterations,
+// residual and memory for each STRETCH of time.
 //
 //   box2d [--count N] [--until T] [--max-iterations K] [--tolerance X] [--impulse-tolerance X]
 //         [--threads N] [--print STRETCH] [--friction MU] [--method fixed_point|convex]
-//         [--gamma-min G]
+//         [--gamma-min G] [--dimension 2|3]
 //
 // The discs start on a lattice of spacing 2.1 with random displacements up to 0.05, in a box of
 // width 2.1 ceil(sqrt N) with a floor and two walls. Radii are 0.8 to 1, m = r^2, gravity is 1, the
-// time step is 0.05; gamma_min is -2 unless --gamma-min gives it.
+// time step is 0.05; gamma_min is -2 unless --gamma-min gives it. Spheres (m = r^3) start in the
+// same way in a cube of width 2.1 (N^(1/3)) with a floor and four walls.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -16,6 +17,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <map>
+#include <random>
 #include <string>
 #include <utility>
 
@@ -31,6 +33,42 @@ double kinetic_energy(const Particles& p) {
   for (std::size_t k = 0; k < p.count(); ++k)
     energy += p.masses[k] * dot(p.velocity(k), p.velocity(k)) / 2;
   return energy;
+}
+
+State box_of_spheres(int count) {
+  State state;
+  auto& p = state.particles;
+  p.dimension = 3;
+  std::mt19937_64 random(12345);  // the same numbers on every machine
+  const auto uniform = [&] { return static_cast<double>(random() >> 11U) * 0x1p-53; };
+  const int n = static_cast<int>(std::ceil(std::cbrt(count)));
+  for (int k = 0; k < count; ++k) {
+    const double radius = 0.8 + 0.2 * uniform();
+    p.radii.push_back(radius);
+    p.masses.push_back(radius * radius * radius);
+    for (const int place : {k % n, k / n % n, k / n / n})
+      p.positions.push_back(1.05 + 2.1 * place + 0.1 * (uniform() - 0.5));
+  }
+  p.velocities.assign(p.positions.size(), 0.0);
+  return state;
+}
+
+Setting box_in_space(int count) {
+  auto setting = box(1);
+  const double width = 2.1 * std::ceil(std::cbrt(count));
+  setting.gravity = {0, 0, -1};
+  setting.planes.clear();
+  const auto plane = [&](Vector point, Vector normal) {
+    Plane p;
+    p.start = {point, normal};
+    setting.planes.push_back(p);
+  };
+  plane({}, {0, 0, 1});
+  plane({}, {1, 0, 0});
+  plane({}, {0, 1, 0});
+  plane({width, 0, 0}, {-1, 0, 0});
+  plane({0, width, 0}, {0, -1, 0});
+  return setting;
 }
 
 double cpu_seconds() {
@@ -51,6 +89,7 @@ int main(int argc, char** argv) {
                                           {"--print", "2.5"},
                                           {"--friction", "0"},
                                           {"--method", "fixed_point"},
+                                          {"--dimension", "2"},
                                           {"--gamma-min", "-2"}};
   for (int i = 1; i < argc; i += 2) {
     if (!o.contains(argv[i]) || i + 1 == argc) {
@@ -60,11 +99,12 @@ int main(int argc, char** argv) {
     o[argv[i]] = argv[i + 1];
   }
   const int count = std::stoi(o["--count"]);
-  auto setting = box(count);
+  const bool is_in_space = o["--dimension"] == "3";
+  auto setting = is_in_space ? box_in_space(count) : box(count);
   setting.solver = {std::stod(o["--tolerance"]), std::stod(o["--impulse-tolerance"]),
                     std::stoi(o["--max-iterations"])};
   setting.laws.film.gamma_min = std::stod(o["--gamma-min"]);
-  auto discs = box_of_discs(count);
+  auto discs = is_in_space ? box_of_spheres(count) : box_of_discs(count);
   if (const double friction = std::stod(o["--friction"]); friction > 0) {
     const bool is_convex = o["--method"] == "convex";
     setting.laws.friction =

@@ -6,6 +6,7 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -23,43 +24,112 @@ inline void subtract_product(const Block& a, const Block& b, Block& c) {
       for (std::size_t j = 0; j < k; ++j) c[i * k + j] -= a[i * k + l] * b[l * k + j];
 }
 
-/// Replaces a block by its inverse (Gauss-Jordan with exchange of rows). Changes `sign` if the
-/// determinant is negative. Returns false if the block is singular.
 template <int K, class Block>
-bool invert(Block& a, int& sign) {
+inline Block transposed(const Block& a) {
   constexpr auto k = static_cast<std::size_t>(K);
-  Block inverse{};
-  for (std::size_t i = 0; i < k; ++i) inverse[i * k + i] = 1;
+  Block result;
+  for (std::size_t i = 0; i < k; ++i)
+    for (std::size_t j = 0; j < k; ++j) result[j * k + i] = a[i * k + j];
+  return result;
+}
+
+// A block on the diagonal can have entries of 1e9 in some directions and of 1 in others. Products
+// with its inverse would lose all digits of the latter, which substitutions with its factors keep.
+
+/// Replaces a symmetric block by its Cholesky factor, with the inverses of the numbers on its
+/// diagonal. Returns false if the block is not positive definite.
+template <int K, class Block>
+inline bool cholesky(Block& a) {
+  constexpr auto k = static_cast<std::size_t>(K);
+  for (std::size_t j = 0; j < k; ++j) {
+    double pivot = a[j * k + j];
+    for (std::size_t l = 0; l < j; ++l) pivot -= a[j * k + l] * a[j * k + l];
+    if (!(pivot > 0) || !std::isfinite(pivot)) return false;
+    const double inverse = 1 / std::sqrt(pivot);
+    a[j * k + j] = inverse;
+    for (std::size_t i = j + 1; i < k; ++i) {
+      double sum = a[i * k + j];
+      for (std::size_t l = 0; l < j; ++l) sum -= a[i * k + l] * a[j * k + l];
+      a[i * k + j] = sum * inverse;
+    }
+  }
+  return true;
+}
+
+/// Replaces x by L^-1 x, for the factor L that cholesky() returns.
+template <int K>
+inline void substitute(const std::array<double, static_cast<std::size_t>(K* K)>& factor,
+                       double* x) {
+  constexpr auto k = static_cast<std::size_t>(K);
+  for (std::size_t i = 0; i < k; ++i) {
+    for (std::size_t l = 0; l < i; ++l) x[i] -= factor[i * k + l] * x[l];
+    x[i] *= factor[i * k + i];
+  }
+}
+
+/// Replaces x by L^-T x.
+template <int K>
+inline void substitute_back(const std::array<double, static_cast<std::size_t>(K* K)>& factor,
+                            double* x) {
+  constexpr auto k = static_cast<std::size_t>(K);
+  for (std::size_t i = k; i-- > 0;) {
+    for (std::size_t l = i + 1; l < k; ++l) x[i] -= factor[l * k + i] * x[l];
+    x[i] *= factor[i * k + i];
+  }
+}
+
+/// Replaces a block by its factors L and U with exchange of rows, with the inverses of the numbers
+/// on the diagonal of U, and sets the row of each pivot. Changes `sign` if the determinant is
+/// negative. Returns false if the block is singular.
+template <int K, class Block, class Pivots>
+bool factorise_block(Block& a, Pivots& pivots, int& sign) {
+  constexpr auto k = static_cast<std::size_t>(K);
   for (std::size_t j = 0; j < k; ++j) {
     std::size_t pivot = j;
     for (std::size_t i = j + 1; i < k; ++i)
       if (std::abs(a[i * k + j]) > std::abs(a[pivot * k + j])) pivot = i;
     if (!(std::abs(a[pivot * k + j]) > 0) || !std::isfinite(a[pivot * k + j])) return false;
-    const double factor = 1 / a[pivot * k + j];
-    if ((factor < 0) != (pivot != j)) sign = -sign;
-    for (std::size_t c = 0; c < k; ++c) {
-      std::swap(a[pivot * k + c], a[j * k + c]);
-      std::swap(inverse[pivot * k + c], inverse[j * k + c]);
-      a[j * k + c] *= factor;
-      inverse[j * k + c] *= factor;
-    }
-    for (std::size_t i = 0; i < k; ++i) {
-      const double by = a[i * k + j];
-      if (i == j || by == 0) continue;
-      for (std::size_t c = 0; c < k; ++c) {
-        a[i * k + c] -= by * a[j * k + c];
-        inverse[i * k + c] -= by * inverse[j * k + c];
-      }
+    pivots[j] = static_cast<unsigned char>(pivot);
+    if (pivot != j)
+      for (std::size_t c = 0; c < k; ++c) std::swap(a[pivot * k + c], a[j * k + c]);
+    const double inverse = 1 / a[j * k + j];
+    if ((inverse < 0) != (pivot != j)) sign = -sign;
+    a[j * k + j] = inverse;
+    for (std::size_t i = j + 1; i < k; ++i) {
+      const double by = a[i * k + j] *= inverse;
+      for (std::size_t c = j + 1; c < k; ++c) a[i * k + c] -= by * a[j * k + c];
     }
   }
-  a = inverse;
   return true;
+}
+
+/// Replaces the rows x, of `columns` numbers each, by the solution of D X = x, for the factors of D
+/// that factorise_block() returns.
+template <int K, std::size_t kColumns, class Block, class Pivots>
+inline void solve_block(const Block& factors, const Pivots& pivots, double* x) {
+  constexpr auto k = static_cast<std::size_t>(K);
+  for (std::size_t j = 0; j < k; ++j) {
+    const std::size_t pivot = pivots[j];
+    if (pivot != j)
+      for (std::size_t c = 0; c < kColumns; ++c)
+        std::swap(x[pivot * kColumns + c], x[j * kColumns + c]);
+  }
+  for (std::size_t i = 0; i < k; ++i)
+    for (std::size_t l = 0; l < i; ++l)
+      for (std::size_t c = 0; c < kColumns; ++c)
+        x[i * kColumns + c] -= factors[i * k + l] * x[l * kColumns + c];
+  for (std::size_t i = k; i-- > 0;) {
+    for (std::size_t l = i + 1; l < k; ++l)
+      for (std::size_t c = 0; c < kColumns; ++c)
+        x[i * kColumns + c] -= factors[i * k + l] * x[l * kColumns + c];
+    for (std::size_t c = 0; c < kColumns; ++c) x[i * kColumns + c] *= factors[i * k + i];
+  }
 }
 
 }  // namespace
 
-template <int K>
-void BlockFactor<K>::analyse(std::size_t bodies, std::span<const Edge> edges) {
+template <int K, bool kIsSymmetric>
+void BlockFactor<K, kIsSymmetric>::analyse(std::size_t bodies, std::span<const Edge> edges) {
   using Matrix = Eigen::SparseMatrix<double>;
   const auto count = static_cast<Eigen::Index>(bodies);
   std::vector<Eigen::Triplet<double>> entries;
@@ -85,17 +155,19 @@ void BlockFactor<K>::analyse(std::size_t bodies, std::span<const Edge> edges) {
   }
   find_pattern(edges);
   diagonal_.resize(bodies);
+  pivots_.resize(kIsSymmetric ? 0 : bodies);
   below_.resize(rows_.size());
-  above_.resize(rows_.size());
+  above_.resize(kIsSymmetric ? 0 : rows_.size());
   first_in_row_.resize(bodies);
+  next_in_row_.resize(bodies);
   next_entry_.resize(bodies);
   entry_in_row_.resize(bodies);
-  permuted_.resize(bodies * static_cast<std::size_t>(K));
+  permuted_.resize(bodies);
 }
 
 /// The rows of a column are those of A, and those of the columns whose first row is this column.
-template <int K>
-void BlockFactor<K>::find_pattern(std::span<const Edge> edges) {
+template <int K, bool kIsSymmetric>
+void BlockFactor<K, kIsSymmetric>::find_pattern(std::span<const Edge> edges) {
   const std::size_t bodies = order_.size();
   std::vector<std::vector<std::int32_t>> columns(bodies), children(bodies);
   for (const auto& edge : edges) {
@@ -129,99 +201,102 @@ void BlockFactor<K>::find_pattern(std::span<const Edge> edges) {
   }
 }
 
-template <int K>
-void BlockFactor<K>::clear() {
+template <int K, bool kIsSymmetric>
+void BlockFactor<K, kIsSymmetric>::clear() {
   std::ranges::fill(diagonal_, Block{});
   std::ranges::fill(below_, Block{});
   std::ranges::fill(above_, Block{});
 }
 
-template <int K>
-bool BlockFactor<K>::factorise() {
-  std::vector<std::int32_t> next_in_row(order_.size(), -1);
+template <int K, bool kIsSymmetric>
+bool BlockFactor<K, kIsSymmetric>::factorise() {
   std::ranges::fill(first_in_row_, -1);
   sign_ = 1;
   for (std::size_t j = 0; j < order_.size(); ++j)
-    if (!factorise_column(j, next_in_row)) return false;
+    if (!factorise_column(j)) return false;
   return true;
 }
 
-template <int K>
-bool BlockFactor<K>::factorise_column(std::size_t j, std::vector<std::int32_t>& next_in_row) {
+template <int K, bool kIsSymmetric>
+bool BlockFactor<K, kIsSymmetric>::factorise_column(std::size_t j) {
+  constexpr auto kSize = static_cast<std::size_t>(K);
   for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e) entry_in_row_[index(rows_[e])] = e;
   for (auto column = first_in_row_[j]; column >= 0;) {
     const auto k = index(column);
-    column = next_in_row[k];
+    column = next_in_row_[k];
     const auto begin = next_entry_[k];
-    const Block left = below_[begin], right = above_[begin];
+    const Block left = below_[begin];
+    Block right;
+    if constexpr (kIsSymmetric)
+      right = transposed<K>(left);
+    else
+      right = above_[begin];
     subtract_product<K>(left, right, diagonal_[j]);
     for (auto e = begin + 1; e < offsets_[k + 1]; ++e) {
       const auto into = entry_in_row_[index(rows_[e])];
       subtract_product<K>(below_[e], right, below_[into]);
-      subtract_product<K>(left, above_[e], above_[into]);
+      if constexpr (!kIsSymmetric) subtract_product<K>(left, above_[e], above_[into]);
     }
-    enlist(k, begin + 1, next_in_row);
+    enlist(k, begin + 1);
   }
-  if (!invert<K>(diagonal_[j], sign_)) return false;
-  for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e) {
-    Block product{};
-    subtract_product<K>(diagonal_[j], above_[e], product);
-    for (std::size_t i = 0; i < product.size(); ++i) above_[e][i] = -product[i];
+  if constexpr (kIsSymmetric) {
+    if (!cholesky<K>(diagonal_[j])) return false;
+    for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e)
+      for (std::size_t i = 0; i < kSize; ++i) substitute<K>(diagonal_[j], &below_[e][i * kSize]);
+  } else {
+    if (!factorise_block<K>(diagonal_[j], pivots_[j], sign_)) return false;
+    for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e)
+      solve_block<K, kSize>(diagonal_[j], pivots_[j], above_[e].data());
   }
-  enlist(j, offsets_[j], next_in_row);
+  enlist(j, offsets_[j]);
   return true;
 }
 
 /// Puts column k into the list of the row of its entry `entry`, its next one.
-template <int K>
-void BlockFactor<K>::enlist(std::size_t k, std::size_t entry,
-                            std::vector<std::int32_t>& next_in_row) {
+template <int K, bool kIsSymmetric>
+void BlockFactor<K, kIsSymmetric>::enlist(std::size_t k, std::size_t entry) {
   next_entry_[k] = entry;
   if (entry == offsets_[k + 1]) return;
   auto& first = first_in_row_[index(rows_[entry])];
-  next_in_row[k] = first;
+  next_in_row_[k] = first;
   first = static_cast<std::int32_t>(k);
 }
 
-template <int K>
-void BlockFactor<K>::solve(std::span<double> values) const {
+template <int K, bool kIsSymmetric>
+void BlockFactor<K, kIsSymmetric>::solve(std::span<Vec> values) const {
   constexpr auto kSize = static_cast<std::size_t>(K);
-  using Vec = std::array<double, kSize>;
-  const auto load = [&](std::size_t j) {
-    Vec v;
-    for (std::size_t i = 0; i < kSize; ++i) v[i] = permuted_[j * kSize + i];
-    return v;
-  };
-  for (std::size_t j = 0; j < order_.size(); ++j)
-    for (std::size_t i = 0; i < kSize; ++i)
-      permuted_[j * kSize + i] = values[index(order_[j]) * kSize + i];
+  for (std::size_t j = 0; j < order_.size(); ++j) permuted_[j] = values[index(order_[j])];
   for (std::size_t j = 0; j < order_.size(); ++j) {
-    const Vec right = load(j);
-    Vec solved{};
-    for (std::size_t i = 0; i < kSize; ++i)
-      for (std::size_t k = 0; k < kSize; ++k) solved[i] += diagonal_[j][i * kSize + k] * right[k];
-    for (std::size_t i = 0; i < kSize; ++i) permuted_[j * kSize + i] = solved[i];
+    if constexpr (kIsSymmetric)
+      substitute<K>(diagonal_[j], permuted_[j].data());
+    else
+      solve_block<K, 1>(diagonal_[j], pivots_[j], permuted_[j].data());
+    const Vec solved = permuted_[j];
     for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e) {
-      double* below = &permuted_[index(rows_[e]) * kSize];
+      Vec& later = permuted_[index(rows_[e])];
+      const Block& below = below_[e];
       for (std::size_t i = 0; i < kSize; ++i)
-        for (std::size_t k = 0; k < kSize; ++k) below[i] -= below_[e][i * kSize + k] * solved[k];
+        for (std::size_t k = 0; k < kSize; ++k) later[i] -= below[i * kSize + k] * solved[k];
     }
   }
   for (std::size_t j = order_.size(); j-- > 0;) {
-    Vec solved = load(j);
+    Vec sum{};
     for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e) {
-      const double* later = &permuted_[index(rows_[e]) * kSize];
+      const Vec& later = permuted_[index(rows_[e])];
+      const Block& block = kIsSymmetric ? below_[e] : above_[e];
       for (std::size_t i = 0; i < kSize; ++i)
-        for (std::size_t k = 0; k < kSize; ++k) solved[i] -= above_[e][i * kSize + k] * later[k];
+        for (std::size_t k = 0; k < kSize; ++k)
+          sum[i] += block[kIsSymmetric ? k * kSize + i : i * kSize + k] * later[k];
     }
-    for (std::size_t i = 0; i < kSize; ++i) permuted_[j * kSize + i] = solved[i];
+    for (std::size_t i = 0; i < kSize; ++i) permuted_[j][i] -= sum[i];
+    if constexpr (kIsSymmetric) substitute_back<K>(diagonal_[j], permuted_[j].data());
   }
-  for (std::size_t j = 0; j < order_.size(); ++j)
-    for (std::size_t i = 0; i < kSize; ++i)
-      values[index(order_[j]) * kSize + i] = permuted_[j * kSize + i];
+  for (std::size_t j = 0; j < order_.size(); ++j) values[index(order_[j])] = permuted_[j];
 }
 
 template class BlockFactor<3>;
 template class BlockFactor<6>;
+template class BlockFactor<3, true>;
+template class BlockFactor<6, true>;
 
 }  // namespace viscontact::particles

@@ -13,13 +13,16 @@ namespace viscontact::particles {
 
 /// Factorises A = (L + D) (I + U) without exchange of rows between bodies, where A has blocks of
 /// K x K numbers (3: a disc, 6: a sphere) and two blocks off the diagonal for each pair of bodies
-/// that constraints connect. Dense blocks make it several
-/// times as fast as a factorisation of single numbers. Bodies are eliminated in the order of
-/// minimum degree (Amestoy, Davis & Duff 1996, "An approximate minimum degree ordering algorithm").
-template <int K>
+/// that constraints connect. Dense blocks make it several times as fast as a factorisation of
+/// single numbers. Bodies are eliminated in the order of minimum degree (Amestoy, Davis & Duff
+/// 1996, "An approximate minimum degree ordering algorithm"). A symmetric A must be positive
+/// definite and becomes L L^T (Cholesky), in half of the time, because only its blocks on and below
+/// the diagonal are stored and computed.
+template <int K, bool kIsSymmetric = false>
 class BlockFactor {
  public:
   using Block = std::array<double, static_cast<std::size_t>(K* K)>;  ///< row by row
+  using Vec = std::array<double, static_cast<std::size_t>(K)>;       ///< numbers of one body
 
   /// Two bodies, first != second, in any order.
   using Edge = std::array<std::int32_t, 2>;
@@ -38,19 +41,22 @@ class BlockFactor {
   /// Block of A on the diagonal, to which the caller adds.
   Block& diagonal(std::size_t body) { return diagonal_[place_[body]]; }
   /// Block of A of edge number `edge` of analyse(), to which the caller adds: its rows belong to
-  /// edge[from], its columns to the other body.
+  /// edge[from], its columns to the other body. Of a symmetric A it must be below the diagonal.
   Block& off_diagonal(std::size_t edge, std::size_t from) {
     const auto& place = edges_[edge];
     return (place.later == from ? below_ : above_)[place.entry];
   }
+  /// Whether that block is below the diagonal in the order of elimination.
+  bool is_below(std::size_t edge, std::size_t from) const { return edges_[edge].later == from; }
 
-  /// Replaces A by its factors. Returns false if a block on the diagonal becomes singular.
+  /// Replaces A by its factors. Returns false if a block on the diagonal becomes singular, or
+  /// is not positive definite where A is symmetric.
   bool factorise();
   /// Sign of the determinant of A, 1 or -1. Needs factorise().
   int sign_of_determinant() const { return sign_; }
 
-  /// Replaces `values`, K numbers for each body, by A^-1 values. Needs factorise().
-  void solve(std::span<double> values) const;
+  /// Replaces the values of the bodies by A^-1 times them. Needs factorise().
+  void solve(std::span<Vec> values) const;
 
  private:
   struct EdgePlace {
@@ -58,22 +64,23 @@ class BlockFactor {
     std::size_t later;  // which of the two bodies is eliminated later
   };
   void find_pattern(std::span<const Edge> edges);
-  bool factorise_column(std::size_t j, std::vector<std::int32_t>& next_in_row);
-  void enlist(std::size_t k, std::size_t entry, std::vector<std::int32_t>& next_in_row);
+  bool factorise_column(std::size_t j);
+  void enlist(std::size_t k, std::size_t entry);
 
   std::vector<std::int32_t> order_;   // body that is eliminated at each place
   std::vector<std::size_t> place_;    // place of each body in the order
   std::vector<std::size_t> offsets_;  // first entry of each column of L
   std::vector<std::int32_t> rows_;    // place of the row of each entry, increasing in a column
   std::vector<EdgePlace> edges_;
-  std::vector<Block> diagonal_;  // of A; then the inverses of the blocks of D
-  std::vector<Block> below_;     // of A below the diagonal; then L
-  std::vector<Block> above_;     // of A above the diagonal, entry by entry as below_; then U
+  std::vector<Block> diagonal_;  // of A; then the factors of the blocks of D
+  std::vector<std::array<unsigned char, static_cast<std::size_t>(K)>> pivots_;  // of these factors
+  std::vector<Block> below_;  // of A below the diagonal; then L
+  std::vector<Block> above_;  // of A above the diagonal, entry by entry as below_; then U
   // For factorise(): the columns whose next entry is in a given row, as linked lists; the next
   // entry of each column; and the entry of the present column in each row.
-  std::vector<std::int32_t> first_in_row_;
+  std::vector<std::int32_t> first_in_row_, next_in_row_;
   std::vector<std::size_t> next_entry_, entry_in_row_;
-  mutable std::vector<double> permuted_;
+  mutable std::vector<Vec> permuted_;
   int sign_ = 1;
 };
 

@@ -143,6 +143,10 @@ struct SecondOrderCone {
   }
   /// Components of the unit of the product.
   static ConePoint unit(std::size_t) { return {1, 0, 0}; }
+  /// r near the solution, where u.r = 0: 0 if u is inside the cone.
+  static ConePoint without_open_part(const ConePoint& u, const ConePoint& r) {
+    return u[0] - beside_axis(u) > r[0] + beside_axis(r) ? ConePoint{} : r;
+  }
   /// The coordinates of a point in which the operations are done, and back.
   static ConePoint coordinates(const ConePoint& x) { return x; }
 };
@@ -209,6 +213,12 @@ struct LinearCones {
   }
   /// Coordinates of the unit of the product.
   static ConePoint unit(std::size_t rows) { return {1, rows > 1 ? 1.0 : 0.0, 0}; }
+  /// r near the solution, where u.r = 0: a coordinate is 0 where that of u is positive.
+  static ConePoint without_open_part(const ConePoint& u, const ConePoint& r) {
+    ConePoint left{};
+    for (std::size_t k = 0; k < 3; ++k) left[k] = u[k] > r[k] ? 0 : r[k];
+    return left;
+  }
   /// The coordinates of a point, and back: the change is its own inverse.
   static ConePoint coordinates(const ConePoint& x) {
     const double half = std::numbers::sqrt2 / 2;

@@ -59,7 +59,7 @@ class Iteration {
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return finish();
     proximal_.emplace(problem_, w_);
     proximal_->set_epsilon(epsilon_);
-    while (residual_ > 1 && best_.result.iterations < max_iterations)
+    while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant())
       take_proximal_step(max_iterations);
     return finish();
   }
@@ -82,6 +82,18 @@ class Iteration {
       before = residual_;
       sweep();
     }
+  }
+
+  /// Whether the residual has not fallen below half of its least value for a long time. With a
+  /// patience of 2000 iterations three steps more of 200 were given up in bench/box2d.cpp.
+  bool is_stagnant() {
+    constexpr int kPatience = 3000;
+    constexpr double kGain = 0.5;
+    if (residual_ < kGain * gained_residual_) {
+      gained_residual_ = residual_;
+      gained_at_ = best_.result.iterations;
+    }
+    return best_.result.iterations - gained_at_ > kPatience;
   }
 
   /// Takes a proximal step, or goes back and makes the next one easier to solve. Between jammed
@@ -162,61 +174,48 @@ class Iteration {
     return false;
   }
 
-  /// Solves a convex problem. Where loads of its contacts are given, solutions follow each other,
-  /// each with the loads that the one before has found, until these are the loads of the contacts
-  /// themselves, at most kMostSolutions times. A rough solution finds loads for the next one.
+  /// Solves a convex problem. Where loads of its contacts are given, interior points first find the
+  /// loads of the solution with these, which are given in the solution that follows. A rough
+  /// solution finds loads for the next one.
   void solve_with_own_loads(int max_iterations) {
-    constexpr int kMostSolutions = 2;
-    solve_convex(max_iterations);
-    const int most = problem_.keeps_loads || problem_.is_rough ? 1 : kMostSolutions;
-    for (int n = 1; n < most && residual_ <= 1; ++n) {
-      const auto blocks = problem_.blocks;
-      if (!take_loads()) break;
-      const auto solved = best_;
-      const auto impulses = best_impulses_;
+    if (has_given_loads_ && !problem_.keeps_loads && !problem_.is_rough) {
+      find_interior_solution(max_iterations);
+      take_loads();
       // What was found with other loads is not a solution.
       best_.result.residual = std::numeric_limits<double>::infinity();
       update();
-      solve_convex(max_iterations);
-      if (best_.result.residual <= 1) continue;
-      problem_.blocks = blocks;
-      const int iterations = best_.result.iterations;
-      best_ = solved;
-      best_.result.iterations = iterations;
-      best_impulses_ = impulses;
-      break;
     }
+    solve_convex(max_iterations);
   }
 
-  /// Gives contacts the loads that they have in the present solution. Returns whether these change
-  /// what friction does.
-  bool take_loads() {
-    bool has_changed = false;
-    for (auto& block : problem_.blocks) {
-      if (block.friction_bound != FrictionBound::kGiven) continue;
-      const double *v = &values_[block.row], *p = &problem_.impulses[block.row];
-      block.given_load = FrictionLaw::carried(p[0], block.capacity);
-      if (residual_of(block, v, p, &w_[block.row]).share(block) > 1) has_changed = true;
-    }
-    return has_changed;
+  /// Gives contacts the loads that they have in the present solution.
+  void take_loads() {
+    for (auto& block : problem_.blocks)
+      if (block.friction_bound == FrictionBound::kGiven)
+        block.given_load = FrictionLaw::carried(problem_.impulses[block.row], block.capacity);
   }
 
-  /// Solves a convex problem by interior points. Proximal steps make the solution accurate, in a
-  /// few iterations, because it shows which contacts stick and slide.
+  /// Solves a convex problem by interior points.
+  void find_interior_solution(int max_iterations) {
+    // In space, points near the boundary of a second-order cone lose digits.
+    constexpr double kRough = 1e-3, kAccurate = D == 2 ? 1e-9 : 1e-6;
+    constexpr int kMostIterations = 60;
+    if (!interior_) interior_.emplace(problem_, w_);
+    const int most = std::clamp(max_iterations - best_.result.iterations, 1, kMostIterations);
+    best_.result.iterations += interior_->solve(problem_.is_rough ? kRough : kAccurate, most);
+    problem_.impulses = interior_->impulses();
+    update();
+  }
+
+  /// Solves a convex problem by interior points. Where these are not accurate enough, proximal
+  /// steps follow, which take a few iterations, because it is known which contacts stick and slide.
   void solve_convex(int max_iterations) {
     // Where rows are redundant, sweeps depend on their order, and so would loads. Interior points
     // do not.
     if (!has_given_loads_ && start_ == ConstraintStart::kSweeps)
       sweep_while_it_gains(max_iterations);
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return;
-    // In space, points near the boundary of a second-order cone lose digits.
-    constexpr double kRough = 1e-3, kAccurate = D == 2 ? 1e-9 : 1e-6;
-    constexpr int kMostIterations = 60;
-    if (!interior_) interior_.emplace(problem_, w_);
-    const int most = std::min(max_iterations - best_.result.iterations, kMostIterations);
-    best_.result.iterations += interior_->solve(problem_.is_rough ? kRough : kAccurate, most);
-    problem_.impulses = interior_->impulses();
-    update();
+    find_interior_solution(max_iterations);
     if (problem_.is_rough) return;
     // With a smaller epsilon the rounding errors of the gaps, divided by epsilon, would be larger.
     constexpr double kFirstEpsilonOfConvex = 1e-5;
@@ -334,6 +333,8 @@ class Iteration {
   std::vector<Motion<D>> motions_;
   std::vector<BlockResidual> residuals_;
   ConstraintSolution<D> best_;
+  double gained_residual_ = std::numeric_limits<double>::infinity();  // see is_stagnant()
+  int gained_at_ = 0;
   bool is_rising_ = false, has_given_loads_ = false, has_cones_ = false;
   int steps_ = 0, next_try_ = 0;  // of the proximal method; the step in which to close the gaps
   double residual_ = 0, epsilon_ = kFirstEpsilon;

@@ -44,48 +44,51 @@ class InteriorPoints {
  private:
   static constexpr std::size_t kMotion = static_cast<std::size_t>(D + kTurns<D>);
   using Cone = std::conditional_t<D == 2, LinearCones, SecondOrderCone>;
-  enum class Role : unsigned char { kEquation, kBound, kCone, kGivenBound };
-  // Rows of a block, whose numbers are scaled so that impulses and displacements have one unit, in
-  // which the mobility of the first row is 1. Those of kGivenBound are the tangential rows, whose
-  // normal row is another part.
-  struct Part {
-    Role role = Role::kBound;
+  // The numbers of parts are scaled so that impulses and displacements have one unit, in which the
+  // mobility of the first row is 1.
+  //
+  // A gap without a cone, or a row of an equation.
+  struct Single {
+    std::size_t block = 0, row = 0;
+    bool is_equation = false;
+    double scale = 1;
+    double base = 0;        // impulse at which r is 0 [M L/T]
+    double compliance = 0;  // of an equation
+    double u = 0, r = 0;    // the present point; an equation has no u
+    double change_of_u = 0, change_of_r = 0;
+    double error = 0;   // value of the row less u; of an equation, what should be 0
+    double goal = 0;    // (u/r) dr + du
+    double weight = 0;  // d(r)/d(goal - error)
+  };
+  // The rows of a contact in a cone of (5.9), or its tangential rows with a given bound.
+  struct Cones {
+    bool is_bound_given = false;
     std::size_t block = 0, row = 0, rows = 1;  // row: the first one
     std::size_t first = 0;                     // component of u and r that is of the first row
-    ConePoint scale{};                         // of its rows
-    double base = 0;                           // impulse at which r is 0 [M L/T]
+    ConePoint scale{};                         // of the components
     ConePoint u{}, r{};                        // the present point
     ConePoint change_of_u{}, change_of_r{};
-    double compliance = 0;    // of an equation
-    double scaled_bound = 0;  // first component of r of kGivenBound
-    // Of a cone, the value of the rows less u; of an equation, what should be 0.
-    ConePoint error{};
-    ConePoint goal{};  // W^2 dr + du
+    double scaled_bound = 0;  // first component of r of a given bound
+    ConePoint error{};        // value of the rows less u
+    ConePoint goal{};         // W^2 dr + du
     typename Cone::Scaling scaling;
     std::array<ConePoint, 3> inverse{};  // d(r)/d(goal - error)
   };
   // Components of u and r.
-  static std::size_t dimension(const Part& part) { return part.first + part.rows; }
-  // Number of linear conditions that a cone is, and the share of a second-order cone in the mean
-  // u.r.
-  static double degree(const Part& part) {
-    return inner(Cone::unit(dimension(part)), Cone::unit(dimension(part)));
-  }
-  // Components of a part in the coordinates of its cone, and back: the change is its own inverse.
-  static ConePoint coordinates(const Part& part, const ConePoint& x) {
-    return part.role == Role::kCone || part.role == Role::kGivenBound ? Cone::coordinates(x) : x;
-  }
+  static std::size_t dimension(const Cones& part) { return part.first + part.rows; }
   void set_parts();
-  ConePoint impulse_of(const Part& part, const ConePoint& r) const;
-  ConePoint values(const Part& part, bool with_offset, const std::vector<Motion<D>>& y) const;
-  void add_impulse(const Part& part, const ConePoint& r, std::vector<Motion<D>>& to) const;
-  void set_scaling(Part& part) const;
-  static std::array<ConePoint, 3> in_other_coordinates(const Part& part,
-                                                       const std::array<ConePoint, 3>& matrix);
   void start(double size);
+  ConePoint impulse_of(const Cones& part, const ConePoint& r) const;
+  ConePoint values(const Cones& part, bool with_offset, const std::vector<Motion<D>>& y) const;
+  void add_impulse(const Cones& part, const ConePoint& r, std::vector<Motion<D>>& to) const;
+  double value(const Single& part, const std::vector<Motion<D>>& y) const;
+  static void set_scaling(Single& part);
+  static void set_scaling(Cones& part);
+  static std::array<ConePoint, 3> in_other_coordinates(const std::array<ConePoint, 3>& matrix);
+  double largest_value() const;
   double measure();
   bool factorise();
-  void find_direction();
+  void find_direction(int solutions);
   double length_to_boundary() const;
   void set_corrector(double gap_before, double length);
   void move(double length);
@@ -93,11 +96,14 @@ class InteriorPoints {
 
   const ConstraintProblem<D>& problem_;
   const std::vector<double>& w_;
-  UnitMatrix<D> matrix_;
-  std::vector<Part> parts_;
+  UnitMatrix<D, true> matrix_;
+  std::vector<Single> singles_;
+  std::vector<Cones> cones_;
   std::vector<Motion<D>> y_, direction_, error_;  // error_: impulses that are missing
+  std::vector<Motion<D>> right_;                  // of a system of equations, then its solution
   std::vector<double> impulses_;
-  double gap_ = 0;  // mean u.r of the cones
+  double gap_ = 0;     // mean u.r of the cones
+  double degree_ = 0;  // sum of the degrees of the cones: how many linear conditions they are
 };
 
 }  // namespace viscontact::particles

@@ -3,9 +3,9 @@
 
 namespace viscontact::particles {
 
-template <int D>
-UnitMatrix<D>::UnitMatrix(const ConstraintProblem<D>& problem) : problem_(problem) {
-  std::vector<typename BlockFactor<kMotion>::Edge> edges;
+template <int D, bool kIsSymmetric>
+UnitMatrix<D, kIsSymmetric>::UnitMatrix(const ConstraintProblem<D>& problem) : problem_(problem) {
+  std::vector<typename BlockFactor<kMotion, kIsSymmetric>::Edge> edges;
   for (const auto& block : problem.blocks) {
     first_edge_.push_back(edges.size());
     const auto parts = problem.parts_of(block.row);
@@ -16,8 +16,8 @@ UnitMatrix<D>::UnitMatrix(const ConstraintProblem<D>& problem) : problem_(proble
   factor_.analyse(problem.units.size(), edges);
 }
 
-template <int D>
-void UnitMatrix<D>::set_to_masses() {
+template <int D, bool kIsSymmetric>
+void UnitMatrix<D, kIsSymmetric>::set_to_masses() {
   constexpr auto k = static_cast<std::size_t>(kMotion), d = static_cast<std::size_t>(D);
   factor_.clear();
   for (std::size_t u = 0; u < problem_.units.size(); ++u) {
@@ -30,8 +30,9 @@ void UnitMatrix<D>::set_to_masses() {
   }
 }
 
-template <int D>
-void UnitMatrix<D>::add_product(std::size_t b, std::size_t row, std::size_t other, double weight) {
+template <int D, bool kIsSymmetric>
+void UnitMatrix<D, kIsSymmetric>::add_product(std::size_t b, std::size_t row, std::size_t other,
+                                              double weight) {
   constexpr auto k = static_cast<std::size_t>(kMotion);
   const auto add = [&](auto& into, const Motion<D>& left, const Motion<D>& right) {
     for (std::size_t i = 0; i < k; ++i)
@@ -43,26 +44,17 @@ void UnitMatrix<D>::add_product(std::size_t b, std::size_t row, std::size_t othe
     add(factor_.diagonal(static_cast<std::size_t>(left[i].unit)), left[i].coefficients,
         right[i].coefficients);
     for (std::size_t j = i + 1; j < left.size(); ++j, ++edge) {
-      add(factor_.off_diagonal(edge, 0), left[i].coefficients, right[j].coefficients);
-      add(factor_.off_diagonal(edge, 1), left[j].coefficients, right[i].coefficients);
+      if (!kIsSymmetric || factor_.is_below(edge, 0))
+        add(factor_.off_diagonal(edge, 0), left[i].coefficients, right[j].coefficients);
+      if (!kIsSymmetric || factor_.is_below(edge, 1))
+        add(factor_.off_diagonal(edge, 1), left[j].coefficients, right[i].coefficients);
     }
   }
 }
 
-template <int D>
-std::vector<Motion<D>> UnitMatrix<D>::solution_of(std::span<const Motion<D>> impulses) const {
-  constexpr auto k = static_cast<std::size_t>(kMotion);
-  std::vector<double> values(impulses.size() * k);
-  for (std::size_t u = 0; u < impulses.size(); ++u)
-    for (std::size_t i = 0; i < k; ++i) values[u * k + i] = impulses[u][i];
-  factor_.solve(values);
-  std::vector<Motion<D>> motions(impulses.size());
-  for (std::size_t u = 0; u < impulses.size(); ++u)
-    for (std::size_t i = 0; i < k; ++i) motions[u][i] = values[u * k + i];
-  return motions;
-}
-
 template class UnitMatrix<2>;
 template class UnitMatrix<3>;
+template class UnitMatrix<2, true>;
+template class UnitMatrix<3, true>;
 
 }  // namespace viscontact::particles

@@ -146,12 +146,14 @@ Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
   return contact;
 }
 
-/// True if two particles are so far from each other that these displacements cannot close their
-/// linearised gap: |x_j - x_i| > r_i + r_j + |w|_1, where w is the relative displacement and |w|_1,
-/// the sum of its components' magnitudes, is at least its length. This test is fast, because it
+/// True if two particles are so far from each other that these displacements cannot make their
+/// linearised gap smaller than `margin` [L], >= 0: |x_j - x_i| > r_i + r_j + |w|_1 + margin, where w
+/// is the relative displacement and |w|_1, the sum of its components' magnitudes, is at least its
+/// length. This test is fast, because it
 /// needs no square root and no division, and it decides for most pairs of a list.
 template <int D>
-bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> displacements) {
+bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> displacements,
+                  double margin = 0) {
   const auto i = index_of(pair.first), j = index_of(pair.second);
   const auto apart = separation<D>(p, pair.first, pair.second, pair.image);
   double square = 0, moved = 0;
@@ -161,7 +163,7 @@ bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> 
   }
   // The margin is larger than the rounding errors that resolved() takes for contact.
   constexpr double kAbove = 1 + 1e-9;
-  const double farthest = kAbove * (p.radii[i] + p.radii[j] + moved);
+  const double farthest = kAbove * (p.radii[i] + p.radii[j] + moved + margin);
   return square > farthest * farthest;
 }
 

@@ -136,7 +136,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   std::vector<std::size_t> closed;
   for (std::size_t k = 0; k < pair_count(); ++k) {
     if (is_chosen_[k] != 0 || !(takes_part(pair(k).second) || takes_part(pair(k).first)) ||
-        !gap_would_close(k))
+        !gap_would_close(k, 0))
       continue;
     const auto here = contact(k);
     const double gap = gap_after(here, displacements_);

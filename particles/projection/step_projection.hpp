@@ -102,7 +102,8 @@ class StepProjection {
   bool takes_part(std::int32_t particle) const {
     return particle >= 0 && system_.body_of(particle) >= 0;
   }
-  bool gap_would_close(std::size_t k);
+  bool gap_would_close(std::size_t k, double margin);
+  std::vector<std::size_t> nearly_closed();
   std::vector<std::size_t> closed_by_free_motion();
   void choose(const std::vector<std::size_t>& pairs);
   SolverResult solve_contacts(bool is_rough, double length, int max_iterations);
@@ -125,6 +126,8 @@ class StepProjection {
   // curved. The particle cannot leave a circle in the step, because the circle is convex.
   std::vector<PlanePosition> tangents_;
   double tolerated_ = 0;             // overlap that is left as it is [L]
+  double margin_ = 0;                // gap below which a pair is nearly closed [L]
+  bool is_convex_ = false;           // whether friction is that of the convex relaxation
   std::vector<std::size_t> chosen_;  // pair of each contact of system_
   std::vector<char> is_chosen_;      // of each pair in the list
   ContactSystem<D> system_;
