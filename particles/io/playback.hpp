@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "viscontact/particles/current_contacts.hpp"
@@ -55,7 +56,8 @@ struct Playback {
   std::vector<std::int32_t> bodies{};
   /// The links; empty if there are none.
   DrawnLinks links{};
-  bool has_friction = false;  ///< whether contacts stick and slide
+  /// mu_s >= 0 of contacts that stick and slide; empty: there is no friction.
+  std::optional<double> friction_coefficient{};
 };
 
 /// Position of particle k in a frame [L].

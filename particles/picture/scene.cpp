@@ -3,9 +3,12 @@
 // Error(kBadInput). A change alters picture and page together.
 #include "viscontact/particles/picture/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -315,12 +318,37 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
       motion.dimension == 2 && scene.is_in_fluid
           ? "gamma: minus the impulse per length that the film has absorbed [mass/time]"
           : "gamma: minus the impulse that the film has absorbed [mass × length/time]";
+  std::vector<double> forces;
   for (const auto f : frames)
     for (const auto& contact : playback.frames[f].contacts) {
+      if (contact.normal_force != 0) forces.push_back(std::abs(contact.normal_force));
       scene.touches = scene.touches || !(contact.gamma < 0);
       scene.slides = scene.slides || contact.friction == ContactFriction::kSlides;
     }
+  const auto& radii = playback.radii;
+  if (!radii.empty())
+    scene.mean_radius =
+        std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
+  if (forces.empty()) return scene;
+  // A few contacts that take a blow have much larger forces than all others.
+  constexpr std::size_t kOneIn = 50;
+  const auto top = forces.end() - 1 - static_cast<std::ptrdiff_t>(forces.size() / kOneIn);
+  std::ranges::nth_element(forces, top);
+  scene.top_force = *top;
+  scene.force_words = fmt::format(
+      "line width: normal force, widest from {:.3g} [{}] on", *top,
+      motion.dimension == 2 && scene.is_in_fluid ? "mass/time²" : "mass × length/time²");
   return scene;
+}
+
+double force_share(const Scene& scene, const CurrentContact& contact) {
+  return scene.top_force > 0 ? std::min(1.0, std::abs(contact.normal_force) / scene.top_force) : 0;
+}
+
+double mobilised_friction(const Playback& playback, const CurrentContact& contact) {
+  if (contact.friction == ContactFriction::kSlides) return 1;
+  const double bound = playback.friction_coefficient.value_or(0) * contact.normal_force;
+  return bound > 0 ? std::min(1.0, norm(contact.tangential_force) / bound) : 0;
 }
 
 Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& normal) {

@@ -33,7 +33,8 @@ Playback without_frames(const ParticlesCase& c) {
   playback.ids = c.particles.ids;
   playback.cell = cell_of(c.setting);
   playback.bodies = c.particles.bodies.of_particle;
-  playback.has_friction = c.setting.laws.friction.has_value();
+  if (const auto& friction = c.setting.laws.friction)
+    playback.friction_coefficient = friction->coefficient;
   for (const auto& hinge : c.setting.links.hinges) playback.links.hinges.push_back(hinge.at);
   for (const auto& spring : c.setting.links.springs)
     playback.links.springs.push_back({spring.first, spring.second});

@@ -59,39 +59,38 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
   }
   using Found = std::pair<std::string, std::string>;
   // These texts are other things of the same name.
-  EXPECT_THAT(found, UnorderedElementsAre(
-                         // sections of a case, and its key sweep.reference
-                         Found("case_file/case_file.cpp", "sphere"),
-                         Found("case_file/case_file.cpp", "reference"),
-                         Found("sweep/sphere_study.cpp", "sphere"),
-                         // sections of a case of particles
-                         Found("particles/case/particles_case.cpp", "viscous_contact"),
-                         Found("particles/case/particles_case.cpp", "plane"),
-                         Found("particles/membranes/membrane_checks.cpp", "viscous_contact"),
-                         Found("particles/membranes/membrane_checks.cpp", "plane"),
-                         Found("particles/case/start_checks.cpp", "viscous_contact"),
-                         // obstacles in words
-                         Found("particles/case/start_checks.cpp", "plane"),
-                         Found("particles/steps/step_residuals.cpp", "plane"),
-                         // a key in the head of a file of a sweep
-                         Found("sweep/sphere_study.cpp", "reference"),
-                         // a part of the boundary, which FreeFEM's scripts print
-                         Found("freefem_axi/row_picture.cpp", "sphere"),
-                         // the body in words
-                         Found("particles/picture/particles_page.cpp", "sphere"),
-                         // what a legend numbers
-                         Found("swimmer/job/swimmer_page.cpp", "sphere"),
-                         // bases of pairs, two of which are named bases
-                         Found("motions/pair_fit.cpp", "asymptotic"),
-                         Found("motions/pair_fit.cpp", "asymptotic_extended"),
-                         // a model of the rolling sphere, and a section of its case
-                         Found("rolling/roll_with_viscous_contact.cpp", "viscous_contact"),
-                         Found("rolling/case/rolling_case.cpp", "sphere"),
-                         // what the texts of Python's help() quote
-                         Found("python/spheres.cpp", "viscous_contact"),
-                         Found("python/fits.cpp", "lecture"),
-                         Found("python/fits.cpp", "asymptotic"),
-                         Found("python/fits.cpp", "asymptotic_extended")));
+  EXPECT_THAT(
+      found,
+      UnorderedElementsAre(
+          // sections of a case, and its key sweep.reference
+          Found("case_file/case_file.cpp", "sphere"), Found("case_file/case_file.cpp", "reference"),
+          Found("sweep/sphere_study.cpp", "sphere"),
+          // sections of a case of particles
+          Found("particles/case/particles_case.cpp", "viscous_contact"),
+          Found("particles/case/particles_case.cpp", "plane"),
+          Found("particles/membranes/membrane_checks.cpp", "viscous_contact"),
+          Found("particles/membranes/membrane_checks.cpp", "plane"),
+          Found("particles/case/start_checks.cpp", "viscous_contact"),
+          // obstacles in words
+          Found("particles/case/start_checks.cpp", "plane"),
+          Found("particles/steps/step_residuals.cpp", "plane"),
+          // a key in the head of a file of a sweep
+          Found("sweep/sphere_study.cpp", "reference"),
+          // a part of the boundary, which FreeFEM's scripts print
+          Found("freefem_axi/row_picture.cpp", "sphere"),
+          // the body in words
+          Found("particles/picture/particles_page.cpp", "sphere"),
+          // what a legend numbers
+          Found("swimmer/job/swimmer_page.cpp", "sphere"),
+          // bases of pairs, two of which are named bases
+          Found("motions/pair_fit.cpp", "asymptotic"),
+          Found("motions/pair_fit.cpp", "asymptotic_extended"),
+          // a model of the rolling sphere, and a section of its case
+          Found("rolling/roll_with_viscous_contact.cpp", "viscous_contact"),
+          Found("rolling/case/rolling_case.cpp", "sphere"),
+          // what the texts of Python's help() quote
+          Found("python/spheres.cpp", "viscous_contact"), Found("python/fits.cpp", "lecture"),
+          Found("python/fits.cpp", "asymptotic"), Found("python/fits.cpp", "asymptotic_extended")));
 }
 
 }  // namespace

@@ -53,7 +53,9 @@ const lines = {
   count: 0,
   pair: new Int32Array(pairs.length / 2),
   level: new Uint8Array(pairs.length / 2),
-  friction: new Uint8Array(pairs.length / 2),  // 0 none, 1 sticks, 2 slides
+  // Friction as a share of Coulomb's bound, 0 to 254, or 255 if the contact slides.
+  friction: new Uint8Array(pairs.length / 2),
+  force: new Uint8Array(pairs.length / 2),  // normal force, 0 to 255 for the widest lines
 };
 
 /** The frame at or before a time, and the share (0 to 1) of the way to the next frame. */
@@ -117,7 +119,8 @@ function setOrientations(frame, next, share) {
 /**
  * Decodes the contacts of a frame. The bytes of a contact are the index of its pair minus that of
  * the contact before (seven bits in each byte, low ones first), the level 0 to 255 of the impulse
- * that its film has taken, and, if there is friction, whether it sticks or slides.
+ * that its film has taken, if there is friction its share of Coulomb's bound, and, if there are
+ * forces, the share of the largest one.
  */
 function readContacts(frame) {
   if (lines.frame === frame) return;
@@ -134,6 +137,7 @@ function readContacts(frame) {
     pair += step;
     lines.pair[lines.count] = pair;
     lines.level[lines.count] = contactBytes[at++];
-    lines.friction[lines.count++] = motion.sliding ? contactBytes[at++] : 0;
+    lines.friction[lines.count] = motion.friction.length ? contactBytes[at++] : 0;
+    lines.force[lines.count++] = motion.hasForces ? contactBytes[at++] : 0;
   }
 }

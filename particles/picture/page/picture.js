@@ -282,13 +282,16 @@ function drawLinks() {
 
 let withContacts = true;  // whether the reader wants to see them
 
-// The colours of contacts: index 0 is for gamma = 0, the others for gamma < 0 from light to dark.
-// The last colour is for contacts that slide.
-const colours = [motion.touching, ...motion.colours, ...(motion.sliding ? [motion.sliding] : [])];
+// The colours of contacts: first for gamma = 0, from no friction to contacts that slide, then for
+// gamma < 0 from light to dark.
+const ofFriction = motion.friction.length ? motion.friction : [motion.touching];
+const colours = [...ofFriction, ...motion.colours];
+const slides = i => lines.friction[i] === 255;
 function colourOf(i) {
-  if (lines.friction[i] === 2) return colours.length - 1;
   const level = lines.level[i];
-  return level === 0 ? 0 : 1 + Math.round(level / 255 * (motion.colours.length - 1));
+  return level === 0 || slides(i)
+    ? Math.round(lines.friction[i] / 255 * (ofFriction.length - 1))
+    : ofFriction.length + Math.round(level / 255 * (motion.colours.length - 1));
 }
 
 /** The ends on the page of the line in the middle of a plate; twice the centre of another disc. */
@@ -351,7 +354,13 @@ function traceContact(i) {
 function widthOf(i) {
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
   const r = first < 0 ? pageRadius[second] : Math.min(pageRadius[first], pageRadius[second]);
-  return lines.level[i] === 0 && lines.friction[i] !== 2
+  if (motion.hasForces) {
+    const scale = pageRadius[second] / radii[second];
+    const widest = Math.min(20 * dots, style.forceLine * scale * motion.meanRadius);
+    const least = lines.level[i] === 0 ? 0.5 : Math.min(3 * dots, Math.max(1, style.filmLine * r));
+    return Math.max(least, widest * lines.force[i] / 255);
+  }
+  return lines.level[i] === 0 && !slides(i)
     ? Math.min(1.5 * dots, Math.max(0.5, 0.08 * r))
     : Math.min(9 * dots, Math.max(1, 0.3 * r));
 }
@@ -362,21 +371,21 @@ const contactSeen = i => {
 };
 
 /**
- * Draws the contacts, one colour after the other; the width is that for a particle of mean size.
+ * Draws the contacts, wide lines over thin ones. All of one width, in quarters of a pixel, and one
+ * colour are drawn at once.
  */
 function drawContacts() {
-  for (let c = 0; c < colours.length; ++c) {
-    let width = 0, drawn = 0;
+  const kinds = new Map();
+  for (let i = 0; i < lines.count; ++i) {
+    if (!contactSeen(i)) continue;
+    const kind = Math.round(4 * widthOf(i)) * 256 + colourOf(i);
+    if (kinds.has(kind)) kinds.get(kind).push(i); else kinds.set(kind, [i]);
+  }
+  for (const kind of [...kinds.keys()].sort((a, b) => a - b)) {
     pen.beginPath();
-    for (let i = 0; i < lines.count; ++i)
-      if (colourOf(i) === c && contactSeen(i)) {
-        traceContact(i);
-        width += widthOf(i);
-        ++drawn;
-      }
-    if (!drawn) continue;
-    pen.strokeStyle = colours[c];
-    pen.lineWidth = width / drawn;
+    kinds.get(kind).forEach(traceContact);
+    pen.strokeStyle = colours[kind % 256];
+    pen.lineWidth = Math.floor(kind / 256) / 4;
     pen.stroke();
   }
 }

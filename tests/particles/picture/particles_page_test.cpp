@@ -8,6 +8,7 @@
 #include "tests/particles/picture/page_reader.hpp"
 #include "tests/particles/picture/playbacks.hpp"
 #include "viscontact/particles/picture/particles_picture.hpp"
+#include "viscontact/report/pictures/colours.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -167,6 +168,26 @@ TEST_P(ParticlesInBrowser, BodiesLinksTurnsAndContactsThatSlideAreDrawn) {
   EXPECT_GT(found["sliding"], 10);
   EXPECT_GT(found["mark"], 10);
   EXPECT_THAT(found["legend"].get<std::string>(), HasSubstr("sliding"));
+}
+
+TEST_P(ParticlesInBrowser, WidthOfAContactIsItsForceAndItsColourTheMobilisedFriction) {
+  const auto found = read_page(particles_page(loaded_row(GetParam()), "Loaded"), R"JS(
+setTimeout(() => {
+  const contacts = window.viscontactPlayer.contacts();
+  tell({widths: contacts.map(({width}) => width / contacts[0].width),
+        colours: contacts.map(({colour}) => colour),
+        legend: document.querySelector('.legend').textContent});
+}, 100);
+)JS",
+                               700);
+  ASSERT_TRUE(found.is_object());
+  // A byte has the force, so that shares are right to half of 1/255.
+  EXPECT_EQ(found["widths"][0], 1);
+  EXPECT_NEAR(found["widths"][1], 0.5, 0.002);
+  EXPECT_NEAR(found["widths"][2], 0.25, 0.002);
+  EXPECT_EQ(found["colours"], (nlohmann::json{report::friction_colour(0.5), report::kSlidingColour,
+                                              report::kTouchingColour}));
+  EXPECT_THAT(found["legend"].get<std::string>(), HasSubstr("widest from 4 [mass × length/time²]"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, ParticlesInBrowser, ::testing::Values(2, 3));
