@@ -18,7 +18,8 @@ namespace viscontact::particles {
 /// Particles, planes and contacts at one time.
 struct Frame {
   double time = 0;  ///< [T]
-  /// Flat array [L], `dimension` numbers for each particle; single precision suffices.
+  /// Flat array [L], `dimension` numbers for each particle; single precision suffices. They are NaN
+  /// for a particle that is not there yet.
   std::vector<float> positions;
   std::vector<PlanePosition> planes;     ///< all obstacles, in the order of domain.hpp
   std::vector<CurrentContact> contacts;  ///< glued (gamma < 0) or touching

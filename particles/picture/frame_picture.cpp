@@ -23,11 +23,9 @@ namespace {
 template <class Visit>
 void for_each_image(const PanelSettings& d, const Frame& frame, const Visit& visit) {
   for (std::size_t k = 0; k < d.scene.playback.radii.size(); k += d.every)
-    for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
-      const auto shift = shift_of(d.scene.playback.cell, image);
-      if (image == 0 || shift[0] != 0 || shift[1] != 0)
-        visit(k, particles::operator+(position(d.scene.playback, frame, k), shift));
-    }
+    for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image)
+      if (const auto& cell = d.scene.playback.cell; has_image(cell, image))
+        visit(k, particles::operator+(position(d.scene.playback, frame, k), shift_of(cell, image)));
 }
 
 /// True if the particle belongs to a rigid body.
@@ -45,7 +43,7 @@ Vector apart(const PanelSettings& panel, const Frame& frame, std::size_t first,
              std::size_t second) {
   Vector w =
       position(panel.scene.playback, frame, second) - position(panel.scene.playback, frame, first);
-  for (std::size_t k = 0; k < 2; ++k)
+  for (std::size_t k = 0; k < 3; ++k)
     if (const double period = panel.scene.playback.cell.lengths[k]; period > 0)
       w[k] -= period * std::round(w[k] / period);
   return w;
@@ -431,7 +429,9 @@ std::string discs(const PanelSettings& d, const Frame& frame, const std::string&
 std::string spheres(const PanelSettings& d, const Frame& frame) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < d.scene.playback.radii.size(); k += d.every)
-    order.emplace_back(dot(d.view.toward, position(d.scene.playback, frame, k)), k);
+    if (const double depth = dot(d.view.toward, position(d.scene.playback, frame, k));
+        !std::isnan(depth))  // the particle is there
+      order.emplace_back(depth, k);
   std::ranges::sort(order);
   std::vector<std::size_t> rank(d.scene.playback.radii.size());
   for (std::size_t i = 0; i < order.size(); ++i) rank[order[i].second] = i;

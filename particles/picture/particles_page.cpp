@@ -48,6 +48,8 @@ struct PageData {
   /// are in [L].
   int position_bytes = 2;
   std::array<double, 3> low{}, step{1, 1, 1};
+  /// For each shown particle, the first of `frames` in which it is there. Empty: all are always there.
+  std::vector<std::int32_t> first_frames{};
   /// Names and contents of the blocks of numbers in the page.
   std::vector<std::pair<const char*, Bytes>> blocks{};
 };
@@ -212,6 +214,21 @@ Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_by
   }
 }
 
+/// Finds out in which frame each particle is there first.
+void find_first_frames(PageData& data, const Playback& playback) {
+  const auto dimension = static_cast<std::size_t>(playback.dimension);
+  bool any = false;
+  for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle) {
+    std::size_t first = 0;
+    while (first + 1 < data.frames.size() &&
+           std::isnan(playback.frames[data.frames[first]].positions[k * dimension]))
+      ++first;
+    any = any || first > 0;
+    data.first_frames.push_back(static_cast<std::int32_t>(first));
+  }
+  if (!any) data.first_frames.clear();
+}
+
 /// Chooses as many frames as fit into a page of 24 MB, of which `other_bytes` are taken, and
 /// encodes them. If even two frames are too large, the contacts are left out.
 PageData page_data(const Scene& scene, std::size_t other_bytes) {
@@ -235,7 +252,8 @@ PageData page_data(const Scene& scene, std::size_t other_bytes) {
     append(times, frame.time);
     for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle)
       for (std::size_t d = 0; d < dimension; ++d) {
-        const float x = frame.positions[k * dimension + d];
+        const float at = frame.positions[k * dimension + d];
+        const float x = std::isnan(at) ? static_cast<float>(data.low[d]) : at;
         const double step = data.step[d];
         if (data.position_bytes == 4)
           append(positions, x);
@@ -255,6 +273,11 @@ PageData page_data(const Scene& scene, std::size_t other_bytes) {
     }
   }
   data.blocks = {{"radii", radii}};
+  if (find_first_frames(data, playback); !data.first_frames.empty()) {
+    Bytes first_frames;
+    for (const auto frame : data.first_frames) append(first_frames, frame);
+    data.blocks.emplace_back("firstFrames", first_frames);
+  }
   if (!semi_axes.empty()) data.blocks.emplace_back("semiAxes", semi_axes);
   if (!plates.empty()) data.blocks.emplace_back("plates", plates);
   if (!ids.empty()) data.blocks.emplace_back("ids", ids);
@@ -435,14 +458,14 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
   auto text = fmt::format(
       "<script type=\"application/json\" id=\"motion\">{{\"dimension\":{},\"every\":{},"
       "\"bytes\":{},\"low\":{},\"step\":{},\"roomLow\":{},\"roomHigh\":{},\"lowest\":{},"
-      "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{},{},{}],\"hasAxis\":{},\"flow\":{},"
+      "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{}],\"hasAxis\":{},\"flow\":{},"
       "\"friction\":[{}],\"hasForces\":{},\"meanRadius\":{},\"hinges\":[{}],\"springs\":[{}],"
       "\"arms\":[{}],\"style\":{}}}"
       "</script>\n",
       playback.dimension, data.every_particle, data.position_bytes, list(data.low), list(data.step),
       list(scene.box.low), list(scene.box.high), scene.lowest_gamma, report::kTouchingColour,
-      listed(films), playback.cell.from[0], playback.cell.from[1], playback.cell.lengths[0],
-      playback.cell.lengths[1], scene.has_axis, flow.settings,
+      listed(films), fmt::join(playback.cell.from, ","), fmt::join(playback.cell.lengths, ","),
+      scene.has_axis, flow.settings,
       playback.friction_coefficient ? listed(report::friction_scale(kFrictionColours, "")) : "",
       scene.top_force > 0, scene.mean_radius, hinges, ends_of(links.springs), ends_of(links.arms),
       style_of_page());

@@ -105,7 +105,7 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
     box.low[axis] -= more;
     box.high[axis] += more;
   }
-  for (std::size_t axis = 0; axis < 2; ++axis)
+  for (std::size_t axis = 0; axis < dimension; ++axis)
     if (const double period = playback.cell.lengths[axis]; period > 0) {
       box.low[axis] = playback.cell.from[axis];
       box.high[axis] = box.low[axis] + period;
@@ -127,8 +127,8 @@ std::vector<char> points_in_bodies(const report::Grid& grid, const Playback& pla
   const auto& window = grid.window;
   for (std::size_t k = 0; k < playback.radii.size(); ++k)
     for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
+      if (!has_image(playback.cell, image)) continue;
       const auto shift = shift_of(playback.cell, image);
-      if (image != 0 && shift[0] == 0 && shift[1] == 0) continue;
       const auto centre = position(playback, frame, k);
       const double x = centre[0] + shift[0], y = centre[1] + shift[1], r = playback.radii[k];
       const auto [left, right] = range(x - r, x + r, window.left, grid.step_x(), grid.columns);
@@ -261,8 +261,9 @@ FlowFrames read_flows(const Playback& in_plane, bool has_axis, const report::Win
     if (frame.flow.empty()) continue;
     const auto field = read_flow(frame.flow);
     if (field.triangles.empty()) continue;
-    const auto flow =
-        report::flow_on_grid(field, flows.grid, {in_plane.cell.lengths, in_plane.cell.gradient});
+    const auto flow = report::flow_on_grid(
+        field, flows.grid,
+        {{in_plane.cell.lengths[0], in_plane.cell.lengths[1]}, in_plane.cell.gradient});
     const auto is_body = points_in_bodies(flows.grid, in_plane, frame);
     FlowFrame found;
     found.frame = f;

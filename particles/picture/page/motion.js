@@ -12,8 +12,9 @@ function bytes(id) {
 const motion = JSON.parse(text('motion'));
 const dim = motion.dimension, flat = dim === 2;
 const style = motion.style;  // SceneStyle of particles/picture/scene.hpp
-// Lower left corner and lengths of the cell; a length is 0 where the motion has no period.
-const [cellX, cellY, periodX, periodY] = motion.cell;
+// Corner with the smallest coordinates and lengths of the cell; a length is 0 where the motion has no
+// period.
+const [cellX, cellY, cellZ, periodX, periodY, periodZ] = motion.cell;
 const radii = new Float32Array(bytes('radii')), times = new Float64Array(bytes('times'));
 // The ids of the particles in the files. Without this block, the id of particle k is k.
 const ids = document.getElementById('ids') ? new Int32Array(bytes('ids')) : null;
@@ -26,11 +27,13 @@ const writtenAngles = optional('angles', Float32Array);
 // none).
 const writtenOrientations = optional('orientations', Float32Array);
 const bodies = optional('bodies', Int32Array);
+// The frame in which each particle is there first, if some are poured in later.
+const firstFrames = optional('firstFrames', Int32Array);
 // Two semi-axes of each particle, the first one along its angle, if there are ellipses.
 const semiAxes = optional('semiAxes', Float32Array);
 // 1 for each plate with round ends: its semi-axes are half of its length and the radius of its ends.
 const plates = optional('plates', Int8Array);
-// Of each pair: x + 3 y, where the second particle is shifted by x and y periods.
+// Of each pair: x + 3 y + 9 z, where the second particle is shifted by x, y and z periods.
 const images = optional('images', Int8Array);
 const pairs = new Int32Array(bytes('pairs')), offsets = new Uint32Array(bytes('offsets'));
 const contactBytes = new Uint8Array(bytes('contacts'));
@@ -48,6 +51,7 @@ const orientations = new Float32Array(writtenOrientations ? 4 * count : 0);
 // The obstacles at the present time: {point, normal, radius}. An obstacle with a radius > 0 is a
 // circle about `point`, and its normal is 0; an obstacle with the radius 0 is a plane.
 let planes = [];
+let presentFrame = 0;  // the last frame that is not after the present time
 const lines = {
   frame: -1,
   count: 0,
@@ -74,7 +78,7 @@ function setTime(time) {
   const {frame, share} = placeOf(time), n = count * dim;
   const from = frame * n, to = Math.min(frame + 1, frames - 1) * n;
   for (let d = 0; d < dim; ++d) {
-    const period = [periodX, periodY, 0][d], begin = [cellX, cellY, 0][d];
+    const period = [periodX, periodY, periodZ][d], begin = [cellX, cellY, cellZ][d];
     for (let i = d; i < n; i += dim) {
       const here = motion.low[d] + motion.step[d] * written[from + i];
       let move = motion.low[d] + motion.step[d] * written[to + i] - here;
@@ -97,6 +101,7 @@ function setTime(time) {
     const normal = x.slice(3).map(v => (radius ? 0 : v / length));
     planes.push({point: x.slice(0, 3), normal, radius});
   }
+  presentFrame = frame + (share === 1 ? 1 : 0);
   readContacts(Math.min(frames - 1, frame + Math.round(share)));
 }
 

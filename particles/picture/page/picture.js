@@ -65,7 +65,8 @@ function placeParticles() {
     const p = project(x, y, z);
     pageX[k] = p.x;
     pageY[k] = p.y;
-    pageRadius[k] = p.near * view.scale * radii[k];
+    const isThere = !firstFrames || presentFrame >= firstFrames[k];
+    pageRadius[k] = isThere ? p.near * view.scale * radii[k] : 0;
     if (!flat) depths[k] = axes[2][0] * x + axes[2][1] * y + axes[2][2] * z;
   }
   if (!flat) sortByDepth();
@@ -138,6 +139,7 @@ function drawDiscs() {
       for (const shiftY of besideY ? [0, besideY] : [0]) {
         const pageAtX = pageX[k] + view.scale * shiftX, pageAtY = pageY[k] - view.scale * shiftY;
         const size = pageRadius[k];
+        if (!size) continue;
         if (pageAtX < -size || pageAtX > canvas.width + size) continue;
         if (pageAtY < -size || pageAtY > canvas.height + size) continue;
         if (semiAxes) drawEllipse(k, pageAtX, pageAtY);
@@ -201,18 +203,24 @@ function drawAxes(k) {
     }
 }
 
+/** The place on the page of an image of a particle; each call overwrites it. */
+const shifted = (k, shift, sign) =>
+  project(...[0, 1, 2].map(d => (d < dim ? positions[k * dim + d] + sign * shift[d] : 0)));
+
 /**
  * Calls line(x1, y1, x2, y2) for the line on the page from one particle to the nearest image of
  * another; twice if it crosses a period.
  */
 function betweenParticles(first, second, line) {
-  const shift = [periodX, periodY].map((period, d) => {
+  const shift = [periodX, periodY, periodZ].map((period, d) => {
     const apart = positions[second * dim + d] - positions[first * dim + d];
     return period ? -period * Math.round(apart / period) : 0;
   });
-  const x = shift[0] * view.scale, y = -shift[1] * view.scale;
-  line(pageX[first], pageY[first], pageX[second] + x, pageY[second] + y);
-  if (x || y) line(pageX[first] - x, pageY[first] - y, pageX[second], pageY[second]);
+  const beyond = shifted(second, shift, 1);
+  line(pageX[first], pageY[first], beyond.x, beyond.y);
+  if (!shift.some(s => s)) return;
+  const before = shifted(first, shift, -1);
+  line(before.x, before.y, pageX[second], pageY[second]);
 }
 const traceLine = (x1, y1, x2, y2) => { pen.moveTo(x1, y1); pen.lineTo(x2, y2); };
 const between = (low, x, high) => Math.min(high, Math.max(low, x));
@@ -337,11 +345,13 @@ function traceContact(i) {
     pen.moveTo(p.x, p.y);
   } else if (image) {
     // Across a period the line is drawn at both sides of the cell.
-    const x = ((image + 4) % 3 - 1) * periodX * view.scale;
-    const y = -(Math.floor((image + 4) / 3) - 1) * periodY * view.scale;
+    const shift = [periodX, periodY, periodZ].map(
+      (period, d) => (Math.floor((image + 13) / 3 ** d) % 3 - 1) * period);
     pen.moveTo(pageX[first], pageY[first]);
-    pen.lineTo(pageX[second] + x, pageY[second] + y);
-    pen.moveTo(pageX[first] - x, pageY[first] - y);
+    const beyond = shifted(second, shift, 1);
+    pen.lineTo(beyond.x, beyond.y);
+    const before = shifted(first, shift, -1);
+    pen.moveTo(before.x, before.y);
   } else if (plates) {
     traceBetweenSpines(first, second);
     return;

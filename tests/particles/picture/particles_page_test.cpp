@@ -207,6 +207,36 @@ TEST(ParticlesPage, OneParticleInOneFrameStands) {
             "particle 1207: radius 0.5, at (3, 4), 0 contacts");
 }
 
+TEST_P(ParticlesInBrowser, ParticlesThatArePouredInAreShownFromTheirFirstFrameOn) {
+  auto playback = falling_row(GetParam(), 4, 5);
+  const auto dimension = static_cast<std::size_t>(GetParam());
+  // The last particle comes in the fourth of five frames.
+  for (std::size_t f = 0; f < 3; ++f) {
+    auto& frame = playback.frames[f];
+    std::fill_n(frame.positions.end() - GetParam(), dimension, std::nanf(""));
+    std::erase_if(frame.contacts, [](const auto& contact) { return contact.second == 3; });
+  }
+  const auto svg = particles_picture(playback, "Poured", 5);
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  std::size_t circles = 0;
+  for (auto at = svg.find("<circle "); at != std::string::npos; at = svg.find("<circle ", at + 1))
+    ++circles;
+  EXPECT_EQ(circles, 3 * 3U + 2 * 4U);
+  const auto found = read_page(particles_page(playback, "Poured"), R"JS(
+(async () => {
+  const player = window.viscontactPlayer, shown = [];
+  for (const time of [0, 1.2, 1.5, 2]) {
+    player.seek(time);
+    await new Promise(done => setTimeout(done, 60));
+    shown.push(player.particles());
+  }
+  tell(shown);
+})();
+)JS",
+                               700);
+  EXPECT_EQ(found, (nlohmann::json{3, 3, 4, 4}));
+}
+
 TEST(ParticlesPage, FetchesNothingAndTakesItsTitleAsText) {
   const auto page =
       particles_page(falling_row(2, 3, 3), "</title><script>alert(1)</script> & \"so\"");
