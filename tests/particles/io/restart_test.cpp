@@ -220,7 +220,7 @@ TEST_F(RestartFile, OfALaterVersionIsRefused) {
   for (const auto* version : {"version 11", "version :", "version 0", "version 6x"}) {
     auto text = write_restart(disc_on_plane(-0.5));
     text.replace(text.find("version 6"), 9, version);
-    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 10 can be read"));
+    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 11 can be read"));
   }
 }
 
