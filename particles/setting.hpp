@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "viscontact/particles/arrangement/source.hpp"
 #include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/domain/periods.hpp"
@@ -46,6 +47,7 @@ struct Setting {
   std::map<std::int32_t, PiecewiseConstant> forces;
   /// The laws of each pair. Friction needs particles that turn (add_rotation).
   ContactLaws laws;
+  std::vector<Source> sources{};  ///< pour particles in; only without a fluid
   Links links;           ///< hinges, springs and arms; need particles that turn, except on an axis
   double time_step = 0;  ///< h [T], > 0
   Scheme scheme = Scheme::kEuler;  ///< kLeapfrog only without a fluid

@@ -56,6 +56,7 @@ void for_impulses(PairMemory& memory, const PairMemory& other, const Change& cha
 Simulation::Simulation(Setting setting, State state, int threads)
     : setting_(std::move(setting)),
       state_(std::move(state)),
+      pouring_(setting_.sources, state_),
       mean_radius_(mean_radius(state_.particles)),
       first_time_(state_.time),
       pool_(std::make_unique<ThreadPool>(threads)),
@@ -65,6 +66,29 @@ Simulation::Simulation(Setting setting, State state, int threads)
   join_neighbours(setting_.links.membranes, state_.particles);
   wrap_into_cell(state_);
   if (state_.steps > 0) check_shapes(setting_.links.membranes, state_.particles);
+  if (setting_.sources.empty()) return;
+  // The arrays have room for all particles to come, because callers may view them.
+  auto& p = state_.particles;
+  auto most = p.count();
+  for (const auto& source : setting_.sources) most += source.due(source.end);
+  const auto n = static_cast<std::size_t>(p.dimension);
+  for (auto* numbers : {&p.positions, &p.velocities, &p.angular_velocities})
+    numbers->reserve(3 * most);
+  for (auto* numbers : {&p.radii, &p.masses, &p.angles, &p.inertias}) numbers->reserve(most);
+  p.orientations.reserve(4 * most);
+  p.ids.reserve(most);
+  setting_.added_forces.reserve(n * most);
+  setting_.added_torques.reserve(3 * most);
+  if (state_.steps == 0) pour();
+}
+
+/// Pours in the particles that are due now.
+void Simulation::pour() {
+  if (setting_.sources.empty()) return;
+  pouring_.pour(setting_, state_);
+  mean_radius_ = mean_radius(state_.particles);
+  if (!setting_.added_forces.empty()) added_forces();
+  if (!setting_.added_torques.empty()) added_torques();
 }
 
 /// Multiplies the impulses of all pairs, which are guesses for a part of a step of another length.
@@ -404,6 +428,7 @@ StepReport Simulation::step(double end) {
   state_.earlier_step = interval->h;
   wrap_into_cell(state_);
   StepGrid::count(state_, *interval);
+  pour();
   return report;
 }
 

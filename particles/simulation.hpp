@@ -49,7 +49,11 @@ class Simulation {
   ~Simulation();
   Simulation(Simulation&&) noexcept;  ///< the other simulation must not be used afterwards
 
-  /// Computes one step of length h = Setting::time_step, but for steps at jumps (step_times.hpp).
+  /// Computes one step and pours in the particles of Setting::sources that are due at its end. A new
+  /// simulation begins with those that are due at its begin. Arrays of the particles keep their places
+  /// in memory.
+  ///
+  /// The step has the length h = Setting::time_step, but for steps at jumps (step_times.hpp).
   /// If the time `end` [T] is earlier than the end of this step by more than a millionth of h, the
   /// step ends at `end`. If less than a millionth of h is left until `end`, no step is made.
   /// Without this millionth, rounding errors of the times would cause tiny steps.
@@ -145,8 +149,11 @@ class Simulation {
   void find_impacts(double h, double next);
   void undo_impacts();
 
+  void pour();
+
   Setting setting_;
   State state_;
+  Pouring pouring_;
   double mean_radius_;
   double first_time_;  // time at which this object began [T]
   std::unique_ptr<ThreadPool> pool_;

@@ -84,6 +84,9 @@ struct State {
   /// With membranes: the positions of all particles before the last step [L]. Empty if there was no
   /// step, and without membranes.
   std::vector<double> earlier_positions;
+  /// Number of particles that each of Setting::sources has poured in; empty if none has begun. They
+  /// come after the particles of the case.
+  std::vector<std::int64_t> poured;
 };
 
 }  // namespace viscontact::particles

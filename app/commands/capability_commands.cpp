@@ -44,6 +44,9 @@ void add_particles(CLI::App& app) {
   add_case_and_folder(*command, *o, "frames, final state, restart file, page and record");
   add_value(*command, "--restart", o->restart, kFile,
             "restart.bin of a run to be continued with the case's forces, planes and end_time");
+  command->add_flag(
+      "--hdf5", o->hdf5,
+      "write all frames to one file particles.h5, too; also of a run that is finished");
   add_jobs(*command, o->threads, "number of threads; the results do not depend on it");
   run_job(*command, o, particles::run_particles);
 }

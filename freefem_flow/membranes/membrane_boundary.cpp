@@ -140,7 +140,7 @@ MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurve
                  1);
   } else {
     const auto& box = std::get<BoxDomain>(domain);
-    const auto &a = box.from, &b = box.to;
+    const Point a = {box.from[0], box.from[1]}, b = {box.to[0], box.to[1]};
     const auto left = cut_line({a[0], b[1]}, a, wanted_at);
     auto right = left;
     if (box.periodic[0]) {

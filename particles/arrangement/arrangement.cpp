@@ -1,5 +1,5 @@
-// Places discs at random (arrangement.hpp). Lengths are in the unit of the case. Discs that do not
-// fit are an Error(kBadInput). Each seed must keep its arrangement. The compiler must not contract
+// Places particles at random (arrangement.hpp). Lengths are in the unit of the case. Particles that
+// do not fit are an Error(kBadInput). Each seed must keep its arrangement. The compiler must not contract
 // products and sums (-ffp-contract=off in CMakeLists.txt), and only + - * / and sqrt may be used,
 // because these give the same bits on every machine.
 #include "viscontact/particles/arrangement/arrangement.hpp"
@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -22,13 +23,13 @@
 namespace viscontact::particles {
 namespace {
 
-/// x and y of a centre, or of a vector between centres [L].
-using Point = std::array<double, 2>;
+/// A centre, or a vector between centres [L]; z is 0 in two dimensions.
+using Point = std::array<double, 3>;
 
-/// The places that a centre may take: a disc, or a rectangle that may be periodic.
+/// The places that the centre of a particle may take: a disc, or a box that may be periodic.
 class Places {
  public:
-  /// `from_wall` is the least distance of a centre from a wall [L].
+  /// `from_wall` is the least distance of the centre from a wall [L].
   Places(const Domain& domain, double from_wall) {
     if (const auto* disc = std::get_if<DiscDomain>(&domain)) {
       radius_ = disc->radius - from_wall;
@@ -41,16 +42,23 @@ class Places {
       return;
     }
     const auto& box = std::get<BoxDomain>(domain);
+    dimension_ = box.dimension();
     periods_ = periods_of(domain);
-    for (const std::size_t d : {0U, 1U}) {
+    for (std::size_t d = 0; d < dimension_; ++d) {
       from_[d] = box.from[d] + (box.periodic[d] ? 0 : from_wall);
       to_[d] = box.to[d] - (box.periodic[d] ? 0 : from_wall);
     }
   }
 
+  /// 2 or 3.
+  std::size_t dimension() const { return dimension_; }
   /// True if there is no place for a centre.
-  bool are_empty() const { return !(from_[0] <= to_[0] && from_[1] <= to_[1]); }
-  /// Period in direction `d` [L]; 0 if the domain is not periodic in it. `d` is 0 for x, 1 for y.
+  bool are_empty() const {
+    for (std::size_t d = 0; d < dimension_; ++d)
+      if (!(from_[d] <= to_[d])) return true;
+    return false;
+  }
+  /// Period along axis `d` [L]; 0 if the domain is not periodic along it.
   double period(std::size_t d) const { return periods_[d]; }
   /// Smallest coordinate of a place in direction `d` [L].
   double from(std::size_t d) const { return from_[d]; }
@@ -59,14 +67,18 @@ class Places {
 
   /// True if a centre may be at `x`.
   bool contain(const Point& x) const {
-    if (!round_) return from_[0] <= x[0] && x[0] <= to_[0] && from_[1] <= x[1] && x[1] <= to_[1];
+    if (!round_) {
+      for (std::size_t d = 0; d < dimension_; ++d)
+        if (!(from_[d] <= x[d] && x[d] <= to_[d])) return false;
+      return true;
+    }
     const double dx = x[0] - centre_[0], dy = x[1] - centre_[1];
     return dx * dx + dy * dy <= radius_ * radius_;
   }
 
   /// The image of `x` that is in the box, for an `x` less than a period outside.
   Point wrapped(Point x) const {
-    for (const std::size_t d : {0U, 1U}) {
+    for (std::size_t d = 0; d < dimension_; ++d) {
       if (periods_[d] == 0) continue;
       if (x[d] < from_[d]) x[d] += periods_[d];
       if (x[d] >= to_[d]) x[d] -= periods_[d];
@@ -80,7 +92,7 @@ class Places {
   Point nearest(Point x) const {
     if (!round_) {
       x = wrapped(x);
-      for (const std::size_t d : {0U, 1U})
+      for (std::size_t d = 0; d < dimension_; ++d)
         if (periods_[d] == 0) x[d] = std::clamp(x[d], from_[d], to_[d]);
       return x;
     }
@@ -96,15 +108,15 @@ class Places {
   Point random(SplitMix64& random) const {
     for (;;) {
       Point x{};
-      for (const std::size_t d : {0U, 1U}) x[d] = random.between(from_[d], to_[d]);
+      for (std::size_t d = 0; d < dimension_; ++d) x[d] = random.between(from_[d], to_[d]);
       if (contain(x)) return wrapped(x);
     }
   }
 
   /// The shortest vector from `a` to `b`, across periodic sides too.
   Point difference(const Point& a, const Point& b) const {
-    Point apart = {b[0] - a[0], b[1] - a[1]};
-    for (const std::size_t d : {0U, 1U}) {
+    Point apart = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    for (std::size_t d = 0; d < dimension_; ++d) {
       if (periods_[d] == 0) continue;
       if (apart[d] > periods_[d] / 2) apart[d] -= periods_[d];
       if (apart[d] < -periods_[d] / 2) apart[d] += periods_[d];
@@ -114,36 +126,66 @@ class Places {
 
  private:
   bool round_ = false;
+  std::size_t dimension_ = 2;
   double radius_ = 0;
-  Point centre_{}, from_{}, to_{};
-  std::array<double, 2> periods_{};
+  Point centre_{}, from_{}, to_{}, periods_{};
 };
 
-/// A particle that is in the domain before the new discs are placed, and the least distance of
-/// their centres from it [L].
+double length_of(const Point& x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
+
+/// The edge of a square or cube of this size [L^2, L^3], x > 0. The cube root is Newton's, because
+/// that of the C library differs between machines.
+double edge_of(double size, std::size_t dimension) {
+  if (dimension == 2) return std::sqrt(size);
+  double root = size < 1 ? 1 : size;  // above the root, from where the iterates fall
+  for (double next = 0;; root = next) {
+    next = root - (root - size / (root * root)) / 3;
+    if (!(next < root)) return root;
+  }
+}
+
+/// A particle that is in the domain before the new ones are placed.
 struct Obstacle {
   Point centre;
-  double distance;
+  double radius;
 };
 
-/// The discs that are placed so far, sorted into cells that are at least as wide as the least
-/// distance of two centres, so that only discs in neighbouring cells can be too close.
+/// The particles that are placed so far, the largest ones first, sorted into cells that are at least
+/// as wide as the least distance of two centres, so that only particles in neighbouring cells can be
+/// too close.
 class Discs {
  public:
-  Discs(const Places& places, double distance, std::size_t most, std::vector<Obstacle> obstacles)
-      : places_(places), distance_(distance), obstacles_(std::move(obstacles)) {
-    // More cells than discs would cost memory without saving time.
-    const double side = std::sqrt(static_cast<double>(most)) + 1;
-    for (const std::size_t d : {0U, 1U}) {
-      const double fit = std::min(places.length(d) / distance_, side);
+  /// `radii` fall, and have the places that `places` gives for each.
+  Discs(const std::vector<Places>& places, std::vector<double> radii, double gap,
+        std::vector<Obstacle> obstacles)
+      : places_(places), radii_(std::move(radii)), gap_(gap), obstacles_(std::move(obstacles)) {
+    // More cells than particles would cost memory without saving time.
+    const double side = edge_of(static_cast<double>(radii_.size()), dimension()) + 1;
+    const double widest = 2 * radii_.front() + gap_;
+    for (std::size_t d = 0; d < dimension(); ++d) {
+      const double fit = std::min(widest_places().length(d) / widest, side);
       cells_[d] = std::max<std::size_t>(1, static_cast<std::size_t>(fit));
     }
-    numbers_.resize(cells_[0] * cells_[1]);
+    numbers_.resize(cells_[0] * cells_[1] * cells_[2]);
   }
 
+  std::size_t dimension() const { return widest_places().dimension(); }
+  std::size_t count() const { return radii_.size(); }
   const std::vector<Point>& centres() const { return centres_; }
-  double distance() const { return distance_; }
+  /// The places of particle k.
+  const Places& places(std::size_t k) const { return places_[places_.size() == 1 ? 0 : k]; }
+  /// Those of the smallest particle, which has most of them.
+  const Places& widest_places() const { return places_.back(); }
+  /// Least distance of two particles of mean size [L].
+  double distance() const {
+    double sum = 0;
+    for (const double radius : radii_) sum += radius;
+    const double mean =
+        radii_.front() == radii_.back() ? radii_.front() : sum / static_cast<double>(radii_.size());
+    return 2 * mean + gap_;
+  }
 
+  /// Adds the next particle.
   void add(const Point& x) {
     numbers_[cell_of(x)].push_back(centres_.size());
     centres_.push_back(x);
@@ -159,70 +201,76 @@ class Discs {
     numbers_[now].push_back(k);
   }
 
-  /// Calls `visit` for each disc except disc `self`, and for each obstacle, that is closer to `x`
-  /// than `factor` times its least distance: with the vector from `x` to it [L], its least distance
-  /// [L] and its number (obstacles have none). Ends early and returns true if `visit` returns true.
+  /// Calls `visit` for each other particle, and for each obstacle, that is closer to particle `self`
+  /// at `x` than `factor` times its least distance: with the vector from `x` to it [L], its least
+  /// distance [L] and its number (obstacles have none). Ends early and returns true if `visit`
+  /// returns true.
   template <class Visit>
-  bool any_close(const Point& x, std::optional<std::size_t> self, double factor,
-                 const Visit& visit) const {
-    const auto look = [&](const Point& other, double distance, std::optional<std::size_t> number) {
-      const Point apart = places_.difference(x, other);
-      const double least = factor * distance;
-      return apart[0] * apart[0] + apart[1] * apart[1] < least * least &&
+  bool any_close(const Point& x, std::size_t self, double factor, const Visit& visit) const {
+    const double radius = radii_[self];
+    const auto look = [&](const Point& other, double other_radius,
+                          std::optional<std::size_t> number) {
+      const Point apart = widest_places().difference(x, other);
+      const double distance = other_radius + radius + gap_, least = factor * distance;
+      return apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] < least * least &&
              visit(apart, distance, number);
     };
     for (const auto& obstacle : obstacles_)
-      if (look(obstacle.centre, obstacle.distance, {})) return true;
+      if (look(obstacle.centre, obstacle.radius, {})) return true;
     const auto home = place_of(x);
-    std::array<std::array<std::size_t, 3>, 2> near{};
-    std::array<std::size_t, 2> count{};
-    for (const std::size_t d : {0U, 1U}) count[d] = neighbours(home[d], d, near[d]);
+    std::array<std::array<std::size_t, 3>, 3> near{};
+    std::array<std::size_t, 3> count{};
+    for (const std::size_t d : {0U, 1U, 2U}) count[d] = neighbours(home[d], d, near[d]);
     for (std::size_t i = 0; i < count[0]; ++i)
       for (std::size_t j = 0; j < count[1]; ++j)
-        for (const std::size_t k : numbers_[near[0][i] * cells_[1] + near[1][j]])
-          if (k != self && look(centres_[k], distance_, k)) return true;
+        for (std::size_t l = 0; l < count[2]; ++l)
+          for (const std::size_t k : numbers_[number_of({near[0][i], near[1][j], near[2][l]})])
+            if (k != self && look(centres_[k], radii_[k], k)) return true;
     return false;
   }
 
-  bool is_free(const Point& x, std::optional<std::size_t> self) const {
+  /// True if particle `self` may be at x.
+  bool is_free(const Point& x, std::size_t self) const {
     return !any_close(x, self, 1, [](const auto&...) { return true; });
   }
 
  private:
-  std::array<std::size_t, 2> place_of(const Point& x) const {
-    std::array<std::size_t, 2> place{};
-    for (const std::size_t d : {0U, 1U}) {
-      const double share = (x[d] - places_.from(d)) / places_.length(d);
+  std::size_t number_of(const std::array<std::size_t, 3>& place) const {
+    return (place[0] * cells_[1] + place[1]) * cells_[2] + place[2];
+  }
+  std::array<std::size_t, 3> place_of(const Point& x) const {
+    std::array<std::size_t, 3> place{};
+    for (std::size_t d = 0; d < dimension(); ++d) {
+      const double share = (x[d] - widest_places().from(d)) / widest_places().length(d);
       const double at = share > 0 ? share * static_cast<double>(cells_[d]) : 0;
       place[d] = std::min(cells_[d] - 1, static_cast<std::size_t>(at));
     }
     return place;
   }
-  std::size_t cell_of(const Point& x) const {
-    const auto place = place_of(x);
-    return place[0] * cells_[1] + place[1];
-  }
+  std::size_t cell_of(const Point& x) const { return number_of(place_of(x)); }
   /// The cells beside cell `at` along axis d, and this cell, each once. Returns their number.
   std::size_t neighbours(std::size_t at, std::size_t d, std::array<std::size_t, 3>& near) const {
     const std::size_t n = cells_[d];
     std::size_t count = 0;
     near[count++] = at;
-    if (at > 0 || (places_.period(d) > 0 && n > 2)) near[count++] = at > 0 ? at - 1 : n - 1;
-    if (at + 1 < n || (places_.period(d) > 0 && n > 2)) near[count++] = at + 1 < n ? at + 1 : 0;
+    const bool is_ring = widest_places().period(d) > 0 && n > 2;
+    if (at > 0 || is_ring) near[count++] = at > 0 ? at - 1 : n - 1;
+    if (at + 1 < n || is_ring) near[count++] = at + 1 < n ? at + 1 : 0;
     return count;
   }
 
-  const Places& places_;
-  double distance_;
+  const std::vector<Places>& places_;
+  std::vector<double> radii_;
+  double gap_;
   std::vector<Obstacle> obstacles_;
-  std::array<std::size_t, 2> cells_{};
+  std::array<std::size_t, 3> cells_{1, 1, 1};
   std::vector<std::vector<std::size_t>> numbers_;
   std::vector<Point> centres_;
 };
 
 /// Pushes discs apart that are too close, in up to `rounds` rounds over all discs. True if all gaps
 /// are large enough then.
-bool push_apart(Discs& discs, const Places& places, int rounds) {
+bool push_apart(Discs& discs, int rounds) {
   // Discs are pushed to 1.001 times the distance that they must have, because the pushes approach
   // the distance that they aim at without reaching it.
   constexpr double kFurther = 1 + 1e-3;
@@ -235,14 +283,17 @@ bool push_apart(Discs& discs, const Places& places, int rounds) {
       Point push{};
       const Point x = discs.centres()[k];
       discs.any_close(x, k, kFurther, [&](const Point& apart, double distance, auto number) {
-        const double length = std::sqrt(apart[0] * apart[0] + apart[1] * apart[1]);
+        const double length = length_of(apart);
         const double missing = (number ? 0.5 : 1.0) * (kFurther * distance - length);
         // Two discs at one place are separated along x.
-        const Point away = length > 0 ? Point{apart[0] / length, apart[1] / length} : Point{1, 0};
-        for (const std::size_t d : {0U, 1U}) push[d] -= missing * away[d];
+        const Point away = length > 0
+                               ? Point{apart[0] / length, apart[1] / length, apart[2] / length}
+                               : Point{1, 0, 0};
+        for (std::size_t d = 0; d < discs.dimension(); ++d) push[d] -= missing * away[d];
         return false;
       });
-      if (push != Point{}) discs.move(k, places.nearest({x[0] + push[0], x[1] + push[1]}));
+      if (push != Point{})
+        discs.move(k, discs.places(k).nearest({x[0] + push[0], x[1] + push[1], x[2] + push[2]}));
     }
     if (all_free) return true;
   }
@@ -250,12 +301,18 @@ bool push_apart(Discs& discs, const Places& places, int rounds) {
 }
 
 /// Moves discs at random and keeps the moves that leave all gaps large enough.
-void shuffle(Discs& discs, const Places& places, double area, SplitMix64& random) {
-  const auto count = discs.centres().size();
-  // About half of the moves are kept if they go half as far as the gaps in a triangular lattice of
-  // the same density. The bounds keep moves possible near the densest lattice and in empty domains.
-  const double lattice = std::sqrt(2 * area / (std::sqrt(3.0) * static_cast<double>(count)));
-  const double span = std::min({0.5 * places.length(0), 0.5 * places.length(1), lattice});
+void shuffle(Discs& discs, double size, SplitMix64& random) {
+  const auto count = discs.count();
+  const auto dimension = discs.dimension();
+  // About half of the moves are kept if they go half as far as the gaps in the densest lattice of
+  // the same density, triangular or face-centred cubic. The bounds keep moves possible near this
+  // lattice and in empty domains.
+  const double n = static_cast<double>(count);
+  const double lattice = edge_of(
+      dimension == 2 ? 2 * size / (std::sqrt(3.0) * n) : std::sqrt(2.0) * size / n, dimension);
+  double span = lattice;
+  for (std::size_t d = 0; d < dimension; ++d)
+    span = std::min(span, 0.5 * discs.widest_places().length(d));
   const double step =
       std::min(span, std::max(0.5 * (lattice - discs.distance()), 0.01 * discs.distance()));
   // After 500 moves of each disc the arrangement no longer depends on the start. At most 20 million
@@ -265,7 +322,8 @@ void shuffle(Discs& discs, const Places& places, double area, SplitMix64& random
   for (std::size_t move = 0; move < moves; ++move) {
     const std::size_t k = random.below(count);
     Point x = discs.centres()[k];
-    for (double& coordinate : x) coordinate += random.between(-step, step);
+    for (std::size_t d = 0; d < dimension; ++d) x[d] += random.between(-step, step);
+    const auto& places = discs.places(k);
     x = places.wrapped(x);
     if (places.contain(x) && discs.is_free(x, k)) discs.move(k, x);
   }
@@ -273,65 +331,79 @@ void shuffle(Discs& discs, const Places& places, double area, SplitMix64& random
 
 }  // namespace
 
-double area_of(const Domain& domain) {
+double size_of(const Domain& domain) {
   if (const auto* disc = std::get_if<DiscDomain>(&domain))
     return std::numbers::pi * disc->radius * disc->radius;
-  if (const auto* box = std::get_if<BoxDomain>(&domain))
-    return (box->to[0] - box->from[0]) * (box->to[1] - box->from[1]);
-  return 0;
+  const auto* box = std::get_if<BoxDomain>(&domain);
+  return box == nullptr ? 0 : box->measure();
 }
 
-std::size_t count_of(double fraction, double radius, const Domain& domain) {
-  const double count = fraction * area_of(domain) / (std::numbers::pi * radius * radius);
-  constexpr double kMost = 1e9;
-  return static_cast<std::size_t>(std::clamp(std::floor(count + 0.5), 1.0, kMost));
+double size_of(const Arrangement& asked, int dimension) {
+  double sum = 0;
+  for (const double radius : asked.radii) sum += size_of_particle(dimension, radius);
+  return sum;
 }
 
 std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
                             const Particles& present) {
-  const double disc_area = std::numbers::pi * asked.radius * asked.radius;
-  const double area = area_of(domain);
+  const auto& radii = asked.radii;
+  const double gap = asked.smallest_gap, size = size_of(domain);
+  const auto [smallest, largest] = std::ranges::minmax(radii);
+  const bool are_equal = smallest == largest;
+  const auto* box = std::get_if<BoxDomain>(&domain);
+  const int dimension = box == nullptr ? 2 : static_cast<int>(box->dimension());
   const auto refuse = [&](const std::string& why) {
     throw Error(
         ErrorKind::kBadInput,
-        fmt::format("{} discs of radius {} with gaps of at least {} do not fit ({}); they take "
-                    "{:.4g} of the area of the domain; use fewer or smaller discs, or a smaller "
-                    "gap",
-                    asked.count, asked.radius, asked.smallest_gap, why,
-                    static_cast<double>(asked.count) * disc_area / area));
+        fmt::format("{} {} of {} with gaps of at least {} do not fit ({}); they take {:.4g} of the "
+                    "{} of the domain; use fewer or smaller ones, or a smaller gap",
+                    radii.size(), dimension == 2 ? "discs" : "spheres",
+                    are_equal ? fmt::format("radius {}", largest)
+                              : fmt::format("radii {:.6g} to {:.6g}", smallest, largest),
+                    gap, why, size_of(asked, dimension) / size,
+                    dimension == 2 ? "area" : "volume"));
   };
-  const Places places(domain, asked.radius + asked.smallest_gap);
-  const double distance = 2 * asked.radius + asked.smallest_gap;
-  if (places.are_empty()) refuse("the domain is narrower than one disc with its gaps");
-  for (const std::size_t d : {0U, 1U})
-    if (places.period(d) > 0 && places.period(d) < distance)
-      refuse("a period is shorter than one disc with its gap");
-  // Discs of radius distance/2 (with half of the gap around each) that do not overlap cover at most
-  // the fraction pi/sqrt(12) of the area, which the triangular lattice covers.
-  constexpr double kDensest = 0.9068996821171089;  // pi/sqrt(12)
-  if (static_cast<double>(asked.count) * std::numbers::pi * distance * distance / 4 >
-      kDensest * area)
-    refuse("the densest lattice has no room for them");
+  // The largest are placed first. Equal ones keep their order.
+  std::vector<std::size_t> order(radii.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, [&](auto i, auto j) { return radii[i] > radii[j]; });
+  std::vector<double> falling;
+  for (const auto k : order) falling.push_back(radii[k]);
+  std::vector<Places> places;  // one if all are equal
+  for (std::size_t k = 0; k < (are_equal ? 1 : radii.size()); ++k)
+    places.emplace_back(domain, falling[k] + gap);
+  if (places.front().are_empty()) refuse("the domain is narrower than one of them with its gaps");
+  for (std::size_t d = 0; d < places.front().dimension(); ++d)
+    if (places.front().period(d) > 0 && places.front().period(d) < 2 * largest + gap)
+      refuse("a period is shorter than one of them with its gap");
+  // With half of the gap around each, those that do not overlap cover at most the fraction that
+  // the densest lattice covers, triangular or face-centred cubic, if they are equal.
+  const double densest = !are_equal       ? 1
+                         : dimension == 2 ? 0.9068996821171089   // pi/sqrt(12)
+                                          : 0.7404804896930610;  // pi/sqrt(18)
+  double covered = 0;
+  for (const double radius : radii) covered += size_of_particle(dimension, radius + gap / 2);
+  if (covered > densest * size) refuse("the densest lattice has no room for them");
 
   std::vector<Obstacle> obstacles;
-  for (std::size_t k = 0; k < present.count(); ++k) {
-    const Vector x = present.position(k);
-    obstacles.push_back({{x[0], x[1]}, present.radii[k] + asked.radius + asked.smallest_gap});
-  }
+  for (std::size_t k = 0; k < present.count(); ++k)
+    obstacles.push_back({present.position(k), present.radii[k]});
   SplitMix64 random(asked.seed);
   // Pushing can fail although there is an arrangement. Then it begins again from other places.
   constexpr int kBeginnings = 10, kTries = 1000, kRounds = 2000;
   for (int beginning = 0; beginning < kBeginnings; ++beginning) {
-    Discs discs(places, distance, asked.count, obstacles);
-    for (std::size_t k = 0; k < asked.count; ++k) {
-      Point x = places.random(random);
-      for (int i = 1; i < kTries && !discs.is_free(x, {}); ++i) x = places.random(random);
+    Discs discs(places, falling, gap, obstacles);
+    for (std::size_t k = 0; k < radii.size(); ++k) {
+      Point x = discs.places(k).random(random);
+      for (int i = 1; i < kTries && !discs.is_free(x, k); ++i) x = discs.places(k).random(random);
       discs.add(x);
     }
-    if (!push_apart(discs, places, kRounds)) continue;
-    shuffle(discs, places, area, random);
-    std::vector<double> positions;
-    for (const auto& x : discs.centres()) positions.insert(positions.end(), x.begin(), x.end());
+    if (!push_apart(discs, kRounds)) continue;
+    shuffle(discs, size, random);
+    const auto axes = static_cast<std::size_t>(dimension);
+    std::vector<double> positions(axes * radii.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (std::size_t d = 0; d < axes; ++d) positions[axes * order[i] + d] = discs.centres()[i][d];
     return positions;
   }
   refuse(fmt::format("{} random beginnings did not lead to an arrangement", kBeginnings));

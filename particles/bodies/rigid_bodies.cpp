@@ -87,7 +87,7 @@ struct MemberImage {
 /// The images of the members that make the body.
 std::vector<MemberImage> images_of(const Particles& p, const std::vector<std::int32_t>& members) {
   std::vector<Periods> periods(members.size());
-  for (std::size_t axis = 0; axis < 2; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!(p.cell.lengths[axis] > 0)) continue;
     const auto cut = cut_of(p, members, axis);
     for (std::size_t m = 0; m < members.size(); ++m) periods[m][axis] = cut.periods[m];
@@ -140,8 +140,8 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
 
 /// Moves the centre of a body to its image in the cell.
 void wrap_centre(RigidBody& body, const PeriodicCell& cell) {
-  const Periods beyond = {periods_beyond(cell, 0, body.centre[0]),
-                          periods_beyond(cell, 1, body.centre[1])};
+  Periods beyond{};
+  for (std::size_t d = 0; d < 3; ++d) beyond[d] = periods_beyond(cell, d, body.centre[d]);
   body.centre = body.centre - shift_of(cell, beyond);
   body.velocity = body.velocity - velocity_of_image(cell, beyond);
 }
@@ -162,7 +162,7 @@ Matrix3 inverse_of(const Matrix3& a) {
 
 std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
                                                 const std::vector<std::int32_t>& members) {
-  for (std::size_t axis = 0; axis < 2; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!(particles.cell.lengths[axis] > 0)) continue;
     const auto cut = cut_of(particles, members, axis);
     if (cut.count > 1) return AmbiguousImages{axis, cut.widest};

@@ -43,7 +43,7 @@ void check_members(const case_file::TomlSection& section, const std::vector<std:
                  fmt::format("do not determine which of their images make the body: along {} the "
                              "largest distance between neighbouring centres, {:.6g}, occurs more "
                              "than once; it must occur once, because the body ends there",
-                             ambiguous->axis == 0 ? "x" : "y", ambiguous->distance));
+                             kAxes[ambiguous->axis], ambiguous->distance));
 }
 
 /// In a periodic domain a body must not touch itself across the period.

@@ -18,11 +18,12 @@ void disc_keys(case_file::Keys& keys, DiscDomain& disc) {
                 {"radius of the circle"});
 }
 
-void box_keys(case_file::Keys& keys, BoxDomain& box) {
+void box_keys(case_file::Keys& keys, BoxDomain& box, int dimension) {
   Vector from{}, to{};
-  keys.required("from", vector(from, 2), {"lower left corner"});
-  keys.required("to", vector(to, 2), {"upper right corner"});
-  for (std::size_t d = 0; d < 2; ++d) {
+  const auto axes = static_cast<std::size_t>(dimension);
+  keys.required("from", vector(from, dimension), {"corner with the smallest coordinates"});
+  keys.required("to", vector(to, dimension), {"corner with the largest coordinates"});
+  for (std::size_t d = 0; d < axes; ++d) {
     keys.require(to[d] - from[d] >= 1 / kLargestNumber, "to",
                  "contains {}; it must be greater than {}, the same coordinate of from", to[d],
                  from[d]);
@@ -30,12 +31,12 @@ void box_keys(case_file::Keys& keys, BoxDomain& box) {
     box.to[d] = to[d];
   }
   const auto read_periodic = [&](const case_file::TomlSection& section, std::string_view key) {
-    const auto periodic = section.truths(key, 2);
-    box.periodic = {periodic[0], periodic[1]};
+    const auto periodic = section.truths(key, axes);
+    for (std::size_t d = 0; d < axes; ++d) box.periodic[d] = periodic[d];
   };
   keys.optional("periodic", case_file::custom("such as `[true, false]`", read_periodic),
-                {"whether the left and the right side are joined, and the bottom and the top",
-                 "`[false, false]`"});
+                {"whether the two sides across x are joined, those across y, and those across z",
+                 "false along each axis"});
 }
 
 void cylinder_keys(case_file::Keys& keys, CylinderDomain& cylinder) {
@@ -51,14 +52,24 @@ void read_shape(const case_file::TomlSection& section, std::string_view key, Dom
   case_file::read_keys(section.section(key), declaration, domain.emplace<Shape>());
 }
 
-void domain_keys(case_file::Keys& keys, Domain& domain) {
+/// Reads a box of a case with this dimension.
+void read_box(const case_file::TomlSection& section, std::string_view key, Domain& domain,
+              int dimension) {
+  case_file::read_keys(section.section(key), box_keys, domain.emplace<BoxDomain>(),
+                       dimension == 3 ? 3 : 2);
+}
+
+void domain_keys(case_file::Keys& keys, Domain& domain, int dimension) {
   keys.optional(
       "disc", case_file::custom("`{ centre, radius }`", read_shape<DiscDomain, disc_keys>, domain),
       {"the inside of a circle, for discs. Its wall has the number -1"});
   keys.optional(
-      "box", case_file::custom("`{ from, to, periodic }`", read_shape<BoxDomain, box_keys>, domain),
-      {"a rectangle between two corners, for discs. Its walls have the numbers -1, -2, "
-       "... in the order left, right, bottom, top; periodic sides have no number"});
+      "box", case_file::custom("`{ from, to, periodic }`", read_box, domain, dimension),
+      {"a rectangle between two corners, for discs, or a cuboid, for spheres. Its walls have the "
+       "numbers -1, -2, ... in the order left, right (across x), bottom, top (across y), for "
+       "spheres "
+       "left, right, front, back (across y), bottom, top (across z); periodic sides have no "
+       "number"});
   keys.optional(
       "cylinder",
       case_file::custom("`{ radius, height }`", read_shape<CylinderDomain, cylinder_keys>, domain),
@@ -68,8 +79,10 @@ void domain_keys(case_file::Keys& keys, Domain& domain) {
 
 /// Checks that the section has exactly one shape, and that it belongs to the dimension.
 void check_shape(const case_file::TomlSection& section, int dimension) {
-  constexpr std::array kShapes = {std::pair("disc", 2), std::pair("box", 2),
-                                  std::pair("cylinder", 1)};
+  // A box has the dimension of its case.
+  const std::array kShapes = {std::pair("disc", 2),
+                              std::pair("box", dimension == 1 ? 2 : dimension),
+                              std::pair("cylinder", 1)};
   const std::pair<const char*, int>* given = nullptr;
   for (const auto& shape : kShapes) {
     if (!section.has(shape.first)) continue;
@@ -87,7 +100,7 @@ void check_shape(const case_file::TomlSection& section, int dimension) {
                   "belongs to a case with dimension {}, but space.dimension is {}; {}",
                   given->second == 1 ? "\"axisymmetric\"" : "2",
                   dimension == 1 ? "\"axisymmetric\"" : std::to_string(dimension),
-                  dimension == 3 ? "in three dimensions [domain] must be left out"
+                  dimension == 3 ? "it must be a box = { from, to, periodic }"
                   : dimension == 1
                       ? "it must be a cylinder = { radius, height }"
                       : "it must be a disc = { centre, radius } or a box = { from, to, periodic }");
@@ -391,7 +404,7 @@ void fluid_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
 Domain read_domain(const case_file::TomlSection& section, int dimension) {
   Domain domain;
   check_shape(section, dimension);
-  case_file::read_keys(section, domain_keys, domain);
+  case_file::read_keys(section, domain_keys, domain, dimension);
   return domain;
 }
 
@@ -470,9 +483,9 @@ void read_probes(const case_file::TomlSection& root, const Domain& domain,
 }
 
 std::vector<case_file::KeyTable> domain_and_fluid_tables() {
-  return {case_file::describe_keys("[domain]", domain_keys),
+  return {case_file::describe_keys("[domain]", domain_keys, 2),
           case_file::describe_keys("domain.disc", disc_keys),
-          case_file::describe_keys("domain.box", box_keys),
+          case_file::describe_keys("domain.box", box_keys, 2),
           case_file::describe_keys("domain.cylinder", cylinder_keys),
           case_file::describe_keys("[fluid] of particles", fluid_keys, {}),
           case_file::describe_keys("fluid.velocity", velocity_keys),

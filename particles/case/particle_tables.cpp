@@ -1,4 +1,4 @@
-// Reads the particles of a case: [particles], [[particle]], [arrangement] and [[force]]
+// Reads the particles of a case: [particles], [[particle]] and [[force]]
 // (particles_sections.hpp). Lengths, masses and times are in the units of the case. A wrong value
 // is an Error(kBadInput) with its line. A change must keep keys and defaults, which users' cases
 // rely on. Used by particles_case.cpp.
@@ -279,94 +279,6 @@ void read_file_of_particles(const case_file::TomlSection& section, ParticlesCase
   if (!in_fluid && p.turn()) add_rotation(p);
 }
 
-/// What [arrangement] says before the discs are placed: their number or their area fraction, and
-/// the mass of each [M].
-struct ArrangementKeys {
-  Arrangement asked;
-  double area_fraction = 0, mass = 0, density = 0;
-};
-
-constexpr int kMostDiscs = 1000000;  // with which times and memory were measured (bench/README.md)
-
-void arrangement_keys(case_file::Keys& keys, ArrangementKeys& given, bool has_fluid) {
-  auto& asked = given.asked;
-  keys.required("radius", case_file::number(asked.radius, kModeratelyPositive),
-                {"radius of each disc"});
-  keys.require(!(keys.has("count") && keys.has("area_fraction")), "count",
-               "must be left out, because area_fraction is given");
-  keys.required_if(!keys.has("area_fraction"), "count",
-                   case_file::count(asked.count, 1, kMostDiscs),
-                   {"number of discs", "required without `area_fraction`"});
-  keys.optional(
-      "area_fraction", case_file::number(given.area_fraction, case_file::kFraction),
-      {"in place of `count`: area of these discs over the area of the domain", "from `count`"});
-  asked.smallest_gap = 0.05 * asked.radius;
-  keys.optional("smallest_gap", case_file::number(asked.smallest_gap, kNotNegative),
-                {"least gap of two discs (also across periodic sides), of a disc and another "
-                 "particle, and of a disc and a wall",
-                 "0.05 `radius`"});
-  keys.optional("seed", case_file::count(asked.seed, 0, std::numeric_limits<int>::max()),
-                {"the same seed gives the same arrangement, bit for bit on every machine"});
-  const bool has_density = keys.optional(
-      "density", case_file::number(given.density, kModeratelyPositiveOr0),
-      {"in place of `mass`, in a fluid: mass of each disc over its area", "from `mass`"});
-  keys.require(!has_density || has_fluid, "density",
-               "belongs to discs in a fluid; the case has no section [fluid], and the discs must "
-               "have a mass");
-  keys.require(!has_density || !keys.has("mass"), "mass",
-               "must be left out, because density gives the mass of the discs");
-  if (has_density) given.mass = given.density * size_of_particle(2, asked.radius);
-  if (has_density && keys.reads()) return;
-  keys.required_if(
-      !has_fluid, "mass",
-      case_file::number(given.mass, has_fluid ? kModeratelyPositiveOr0 : kModeratelyPositive),
-      {"mass of each disc", "required; in a fluid 0", "from 1e-100 to 1e100, in a fluid also 0"});
-}
-
-/// Reads [arrangement] and adds its discs, which are at rest, after the other particles, which keep
-/// their places.
-void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
-  auto& p = c.particles;
-  const auto& domain = c.setting.domain;
-  const bool has_fluid = c.setting.fluid.has_value();
-  section.require(p.dimension == 2, "radius",
-                  "belongs to an arrangement of discs; space.dimension must be 2");
-  section.require(
-      std::holds_alternative<DiscDomain>(domain) || std::holds_alternative<BoxDomain>(domain),
-      "radius", "belongs to an arrangement, which needs a section [domain] with a disc or a box");
-  ArrangementKeys given;
-  case_file::read_keys(section, arrangement_keys, given, has_fluid);
-  auto& asked = given.asked;
-  const std::string_view key = section.has("count") ? "count" : "area_fraction";
-  if (key == "area_fraction") {
-    asked.count = count_of(given.area_fraction, asked.radius, domain);
-    section.require(asked.count <= static_cast<std::size_t>(kMostDiscs), key,
-                    "makes {} discs of this radius; at most {} are allowed", asked.count,
-                    kMostDiscs);
-  }
-  const auto centres = case_file::at_key(section, key, [&] { return arrange(asked, domain, p); });
-
-  constexpr int kLargestId = std::numeric_limits<int>::max();
-  const auto largest_id = p.ids.empty() ? 0 : std::ranges::max(p.ids);
-  const auto last_id = static_cast<std::size_t>(largest_id) + asked.count;
-  section.require(p.ids.empty() || last_id <= static_cast<std::size_t>(kLargestId), key,
-                  "needs ids above {}, the largest id of the other particles; at most {} is "
-                  "possible",
-                  largest_id, kLargestId);
-  p.positions.insert(p.positions.end(), centres.begin(), centres.end());
-  p.velocities.resize(p.positions.size());
-  for (std::size_t k = 0; k < asked.count; ++k) {
-    p.radii.push_back(asked.radius);
-    p.masses.push_back(given.mass);
-    if (!p.ids.empty()) p.ids.push_back(largest_id + 1 + static_cast<std::int32_t>(k));
-    if (!has_fluid) continue;
-    p.angles.push_back(0);
-    p.angular_velocities.push_back(0);
-    p.inertias.push_back(homogeneous_inertia(2, given.mass, asked.radius));
-  }
-  c.arrangement = asked;
-}
-
 /// A table [[force]].
 struct ForceTable {
   std::vector<std::int32_t> particles;
@@ -393,19 +305,23 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
     }
   if (root.has("arrangement")) read_arrangement(root.section("arrangement"), c);
   read_membranes(root, c, lines);
+  read_sources(root, c);
   if (c.setting.fluid && !c.setting.fluid->semi_axes.empty())
     add_discs(c.setting.fluid->semi_axes, c.particles, c.particles.count());
   if (c.setting.fluid && !c.setting.fluid->plates.empty())
     c.setting.fluid->plates.resize(c.particles.count());
   if (!c.setting.fluid && (c.setting.laws.friction || c.particles.turn()))
     add_rotation(c.particles);
+  const auto pours_at_start = [](const Source& source) { return source.begin == 0; };
+  if (c.particles.count() == 0 && std::ranges::any_of(c.setting.sources, pours_at_start))
+    return lines;
   if (c.particles.count() == 0 && !c.particles_file.empty())
     throw_bad_input({c.particles_file.string()},
                     "has no particle; it must have a row for each particle after the header line");
   if (c.particles.count() == 0)
     throw_bad_input({c.path.string()},
                     "has no particle; name a file in [particles], or add a [[particle]], a "
-                    "[[membrane]] or an [arrangement]");
+                    "[[membrane]], an [arrangement], or a [[source]] that begins at time 0");
   return lines;
 }
 
@@ -433,8 +349,7 @@ std::vector<case_file::KeyTable> particle_tables() {
   return {case_file::describe_keys("[particles]", file_keys),
           case_file::describe_keys("[[particle]]", particle_keys, c),
           case_file::describe_keys("particle.velocity_given", given_motion_keys, 2, 0),
-          case_file::describe_keys("[[force]]", force_by_id_keys, c, ids),
-          case_file::describe_keys("[arrangement]", arrangement_keys, false)};
+          case_file::describe_keys("[[force]]", force_by_id_keys, c, ids)};
 }
 
 ParticleIds::ParticleIds(const ParticlesCase& c) : case_(c) {

@@ -221,7 +221,7 @@ void check_periods_of_plane(const case_file::TomlSection& section, const Plane& 
         "normal",
         "belongs to a plane that turns or is not parallel to the period of the domain "
         "along {}; a plane in a periodic domain must be parallel to its periods",
-        d == 0 ? "x" : "y");
+        kAxes[d]);
 }
 
 void particles_sweep_keys(case_file::Keys& keys, case_file::SweepRequest& sweep) {
@@ -336,8 +336,8 @@ std::vector<case_file::KeyTable> tables_of_particles_case() {
       case_file::describe_keys("[output]", output_keys),
       case_file::describe_keys("[[plane]]", plane_keys, c),
       case_file::describe_keys("[sweep] of particles", particles_sweep_keys)};
-  for (auto& more :
-       {domain_and_fluid_tables(), particle_tables(), membrane_tables(), body_and_link_tables()})
+  for (auto& more : {domain_and_fluid_tables(), particle_tables(), arrangement_tables(),
+                     membrane_tables(), body_and_link_tables()})
     tables.insert(tables.end(), more.begin(), more.end());
   return tables;
 }

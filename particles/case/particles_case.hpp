@@ -12,6 +12,7 @@
 #include "viscontact/case_file/case_template.hpp"
 #include "viscontact/case_file/keys.hpp"
 #include "viscontact/particles/arrangement/arrangement.hpp"
+#include "viscontact/particles/arrangement/species.hpp"
 #include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::particles {
@@ -24,13 +25,13 @@ struct ParticlesCase {
   /// Everything that the simulation needs besides the particles.
   Setting setting;
   /// The particles of the CSV file, followed by those of the tables [[particle]] and by the random
-  /// discs of [arrangement].
+  /// particles of [arrangement].
   Particles particles;
   std::filesystem::path particles_file;  ///< the CSV file; empty if there is none
   double end_time = 0;                   ///< time at which the run ends [T], > 0
   double frame_interval = 0;             ///< time between two frames [T], > 0
   std::vector<std::string> tables;       ///< those that the case asks for, of kAskedTables
-  /// What [arrangement] asks for; its discs are the last particles.
+  /// What [arrangement] asks for; its particles are the last ones.
   std::optional<Arrangement> arrangement;
   /// What the section [sweep] asks for; nothing if the case has no such section.
   std::optional<case_file::SweepRequest> sweep;

@@ -4,6 +4,7 @@
 // particles_case.cpp calls the functions in the order of their needs, which their comments say.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -16,9 +17,12 @@
 
 namespace viscontact::particles {
 
+/// Names of the axes, for messages.
+inline constexpr std::array kAxes = {"x", "y", "z"};
+
 /// Reads [domain]. `dimension` is that of the case: 1 (spheres on an axis), 2 or 3. Also throws if
 /// not exactly one shape is given, and for a shape that does not belong to the dimension: discs
-/// move in a disc or a box, spheres on an axis in a cylinder, and no domain has dimension 3.
+/// move in a disc or a box, spheres in a box, and spheres on an axis in a cylinder.
 Domain read_domain(const case_file::TomlSection& section, int dimension);
 
 /// Reads [fluid]. `domain` holds the fluid and must not be empty. If the section does not give
@@ -59,6 +63,15 @@ struct ParticleLines {
 /// motion is given, because it has no effect; for an arrangement in a domain that is no disc or
 /// box; and if its discs do not fit.
 ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c);
+
+/// Reads [arrangement], called by read_particles_of_case(), and adds its particles, which are at
+/// rest, after the others, which keep their places. They are c.arrangement.
+void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c);
+/// Reads [[source]], called by read_particles_of_case(), into c.setting.sources. Also throws in a case
+/// with a fluid, and for a region that is outside the domain or reaches into an obstacle at time 0.
+void read_sources(const case_file::TomlSection& root, ParticlesCase& c);
+/// Describes these sections.
+std::vector<case_file::KeyTable> arrangement_tables();
 
 /// Reads [[membrane]], called by read_particles_of_case(): makes beads, which become particles, and
 /// the membranes of c.setting.fluid or, without a fluid, of c.setting.links. Also throws if the

@@ -37,7 +37,7 @@ void check_varied_keys(const sweep::Points& points) {
 /// Names of the columns with results of a case (docs/file-formats.md).
 std::vector<std::string> columns_of(const ParticlesCase& c) {
   std::vector<std::string> columns = {"particles"};
-  if (c.arrangement) columns.emplace_back("area_fraction");
+  if (c.arrangement) columns.emplace_back(fraction_column(c));
   for (const auto* column :
        {"to_time", "steps", "unconverged_steps", "iterations", "largest_residual",
         "largest_impulse_residual", "largest_gamma_error", "divided_steps", "unresolved_contacts",

@@ -16,6 +16,12 @@
 
 namespace viscontact::particles {
 
+/// Name of the column of a sweep with the part of the domain that the particles of [arrangement]
+/// cover.
+inline const char* fraction_column(const ParticlesCase& c) {
+  return c.particles.dimension == 3 ? "volume_fraction" : "area_fraction";
+}
+
 /// The points of the section [sweep] of a case of particles. Throws Error(kBadInput) if the case is
 /// wrong or a range in [sweep] is not valid.
 sweep::Points planned_particles(const std::filesystem::path& case_path);

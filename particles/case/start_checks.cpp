@@ -66,7 +66,9 @@ std::string obstacle_name(const ParticlesCase& c, std::size_t k) {
     walls = {"the side of the cylinder", "the floor of the cylinder", "the lid of the cylinder"};
   if (const auto* box = std::get_if<BoxDomain>(&c.setting.domain)) {
     if (!box->periodic[0]) walls = {"the left side of the box", "the right side of the box"};
-    if (!box->periodic[1])
+    if (!box->periodic[1] && box->dimension() == 3)
+      walls.insert(walls.end(), {"the front of the box", "the back of the box"});
+    if (!box->periodic[box->dimension() - 1])
       walls.insert(walls.end(), {"the bottom of the box", "the top of the box"});
   }
   return k < walls.size() ? walls[k] : fmt::format("plane {}", k - walls.size() + 1);
@@ -147,10 +149,10 @@ struct PlaceInDomain {
                        disc.centre[1]);
   }
   std::string operator()(const BoxDomain& box) const {
-    for (std::size_t d = 0; d < 2; ++d)
+    for (std::size_t d = 0; d < box.dimension(); ++d)
       if (!(x[d] >= box.from[d] && x[d] <= box.to[d]))
-        return fmt::format("{} of its centre must be from {} to {}{}", d == 0 ? "x" : "y",
-                           box.from[d], box.to[d], box.periodic[d] ? ", which is one period" : "");
+        return fmt::format("{} of its centre must be from {} to {}{}", kAxes[d], box.from[d],
+                           box.to[d], box.periodic[d] ? ", which is one period" : "");
     return "";
   }
   std::string operator()(const CylinderDomain& cylinder) const {
@@ -480,7 +482,7 @@ void check_arrangement(const case_file::TomlSection& root, const ParticlesCase& 
   if (!c.arrangement) return;
   const auto& fluid = *c.setting.fluid;
   const double gap = c.arrangement->smallest_gap;
-  const double least = kLeastGapOfMesh * c.arrangement->radius;
+  const double least = kLeastGapOfMesh * std::ranges::min(c.arrangement->radii);
   const auto section = root.section("arrangement");
   section.require(!root.section("fluid").has("threshold_gap") || gap >= fluid.threshold_gap,
                   "smallest_gap",
@@ -555,6 +557,7 @@ void check_penalty(const case_file::TomlSection& root, const ParticlesCase& c) {
 }  // namespace
 
 void check_start(const ParticlesCase& c, const ParticleLines& lines) {
+  if (c.particles.count() == 0) return;  // all are poured in
   const ParticleNames names(c, lines);
   check_radii_and_distances(c, names);
   check_domain(c, names);

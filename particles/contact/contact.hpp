@@ -137,7 +137,8 @@ Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
       pair.first < 0 ? places[pair.plane()].point.data() : &p.positions[index_of(pair.first) * D];
   for (std::size_t d = 0; d < D; ++d) sizes += std::abs(partner[d]);
   if (pair.first < 0) sizes += places[pair.plane()].radius;
-  if (pair.image != 0) sizes += p.cell.lengths[0] + p.cell.lengths[1];
+  if (pair.image != 0)
+    for (const double length : p.cell.lengths) sizes += length;
   if (contact.gap < 0) {
     contact.tolerated = std::min(tolerated, -contact.gap);
     contact.gap += contact.tolerated;

@@ -16,15 +16,14 @@ std::vector<Plane> walls(std::monostate) { return {}; }
 std::vector<Plane> walls(const DiscDomain& disc) { return {wall({disc.centre, {}, disc.radius})}; }
 
 std::vector<Plane> walls(const BoxDomain& box) {
-  const Vector from = {box.from[0], box.from[1], 0}, to = {box.to[0], box.to[1], 0};
   std::vector<Plane> planes;
-  if (!box.periodic[0]) {
-    planes.push_back(wall({from, {1, 0, 0}}));
-    planes.push_back(wall({to, {-1, 0, 0}}));
-  }
-  if (!box.periodic[1]) {
-    planes.push_back(wall({from, {0, 1, 0}}));
-    planes.push_back(wall({to, {0, -1, 0}}));
+  for (std::size_t d = 0; d < box.dimension(); ++d) {
+    if (box.periodic[d]) continue;
+    Vector inward{}, outward{};
+    inward[d] = 1;
+    outward[d] = -1;
+    planes.push_back(wall({box.from, inward}));
+    planes.push_back(wall({box.to, outward}));
   }
   return planes;
 }

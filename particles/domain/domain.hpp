@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <variant>
 #include <vector>
 
@@ -18,12 +19,23 @@ struct DiscDomain {
   double radius = 0;  ///< [L], > 0
 };
 
-/// A rectangle, in two dimensions. Its walls are the obstacles -1, -2, ... in the order left,
-/// right, bottom, top; a side that is periodic is no obstacle and has no number.
+/// A rectangle in two dimensions, a cuboid in three. Its walls are the obstacles -1, -2, ... in the
+/// order left, right (across x), bottom, top (across y), in three dimensions left, right, front,
+/// back (across y), bottom, top (across z); a side that is periodic is no obstacle and has no
+/// number.
 struct BoxDomain {
-  std::array<double, 2> from{},    ///< lower left corner [L], < `to` in both components
-      to{};                        ///< upper right corner [L]
-  std::array<bool, 2> periodic{};  ///< whether the left and right, bottom and top sides are one
+  /// Corner with the smallest coordinates [L], < `to` in each component; the third components of
+  /// both are 0 in two dimensions.
+  std::array<double, 3> from{}, to{};
+  std::array<bool, 3> periodic{};  ///< whether the two sides across x, y and z are one
+
+  /// 2 or 3.
+  std::size_t dimension() const { return to[2] > from[2] ? 3 : 2; }
+  /// Area or volume [L^2, L^3].
+  double measure() const {
+    const double area = (to[0] - from[0]) * (to[1] - from[1]);
+    return dimension() == 2 ? area : area * (to[2] - from[2]);
+  }
 };
 
 /// A closed cylinder about the axis z, with its floor at z = 0. All particles are spheres on the
@@ -36,12 +48,13 @@ struct CylinderDomain {
 /// monostate: no domain, so that only planes bound the particles.
 using Domain = std::variant<std::monostate, DiscDomain, BoxDomain, CylinderDomain>;
 
-/// Lengths of the periods along x and y [L]; 0 where the domain is not periodic.
-inline std::array<double, 2> periods_of(const Domain& domain) {
-  const auto* box = std::get_if<BoxDomain>(&domain);
-  if (box == nullptr) return {};
-  return {box->periodic[0] ? box->to[0] - box->from[0] : 0,
-          box->periodic[1] ? box->to[1] - box->from[1] : 0};
+/// Lengths of the periods along x, y and z [L]; 0 where the domain is not periodic.
+inline std::array<double, 3> periods_of(const Domain& domain) {
+  std::array<double, 3> periods{};
+  if (const auto* box = std::get_if<BoxDomain>(&domain))
+    for (std::size_t d = 0; d < 3; ++d)
+      if (box->periodic[d]) periods[d] = box->to[d] - box->from[d];
+  return periods;
 }
 
 /// The walls of a domain, at rest, in the order of the obstacles above. The wall of a disc is a

@@ -13,17 +13,20 @@
 
 namespace viscontact::particles {
 
-/// The cell of a domain that is periodic along x, y, both or neither.
+/// Numbers of periods along x, y and z by which an image is shifted.
+using Periods = Vector;
+
+/// The cell of a domain that is periodic along some of its axes.
 struct PeriodicCell {
-  std::array<double, 2> from{};     ///< lowest x and y of the cell [L]
-  std::array<double, 2> lengths{};  ///< periods along x and y [L]; 0 where there is no period
-  /// Mean velocity gradient du/dx, du/dy, dv/dx, dv/dy of a fluid in the cell [1/T]: an image moves
-  /// relative to its particle by the gradient times its shift.
+  Vector from{};     ///< lowest coordinates of the cell [L]
+  Vector lengths{};  ///< periods along x, y and z [L]; 0 where there is no period
+  /// Mean velocity gradient du/dx, du/dy, dv/dx, dv/dy of a fluid in the cell [1/T], in two
+  /// dimensions only: an image moves relative to its particle by the gradient times its shift.
   std::array<double, 4> gradient{};
   double moved_for = 0;  ///< time since the shifts of the images were `lengths` [T], >= 0
 
   /// True if there is a period.
-  bool is_periodic() const { return lengths[0] > 0 || lengths[1] > 0; }
+  bool is_periodic() const { return lengths[0] > 0 || lengths[1] > 0 || lengths[2] > 0; }
   /// True if images move relative to their particles.
   bool is_sheared() const {
     return gradient[0] * lengths[0] != 0 || gradient[2] * lengths[0] != 0 ||
@@ -39,18 +42,27 @@ inline PeriodicCell cell_of(const Domain& domain) {
   return box == nullptr ? PeriodicCell{} : PeriodicCell{box->from, periods_of(domain)};
 }
 
-/// Number of the image that is shifted by `x` periods along x and `y` periods along y, each of them
-/// -1, 0 or 1: (x + 1) + 3 (y + 1) - 4. It is 0 without a shift; opposite shifts have opposite
-/// numbers.
-constexpr std::int32_t image_number(int x, int y) { return x + 3 * y; }
-
-/// Periods along x and y by which the image with number `image`, -4 to 4, is shifted.
-constexpr std::array<int, 2> periods_of_image(std::int32_t image) {
-  return {(image + 4) % 3 - 1, (image + 4) / 3 - 1};
-}
+/// Number of the image that is shifted by `x`, `y` and `z` periods along the axes, each of them -1,
+/// 0 or 1. It is 0 without a shift; opposite shifts have opposite numbers. In two dimensions it is
+/// at most 4 in magnitude.
+constexpr std::int32_t image_number(int x, int y, int z = 0) { return x + 3 * y + 9 * z; }
 
 /// Largest number of an image.
-inline constexpr std::int32_t kLargestImage = 4;
+inline constexpr std::int32_t kLargestImage = 13;
+
+/// Periods along x, y and z by which the image with number `image`, -13 to 13, is shifted.
+constexpr std::array<int, 3> periods_of_image(std::int32_t image) {
+  const auto places = image + kLargestImage;
+  return {places % 3 - 1, places / 3 % 3 - 1, places / 9 - 1};
+}
+
+/// True if the cell has the image with this number: each axis of its shift has a period.
+inline bool has_image(const PeriodicCell& cell, std::int32_t image) {
+  const auto periods = periods_of_image(image);
+  for (std::size_t d = 0; d < 3; ++d)
+    if (periods[d] != 0 && !(cell.lengths[d] > 0)) return false;
+  return true;
+}
 
 /// Velocity of an image relative to its particle [L/T], if its shift at the start is `shift` [L].
 inline Vector velocity_at(const PeriodicCell& cell, const Vector& shift) {
@@ -58,48 +70,49 @@ inline Vector velocity_at(const PeriodicCell& cell, const Vector& shift) {
   return {g[0] * shift[0] + g[1] * shift[1], g[2] * shift[0] + g[3] * shift[1], 0};
 }
 
-/// Numbers of periods along x and y by which an image is shifted.
-using Periods = std::array<double, 2>;
+/// Shift of an image at the start [L].
+inline Vector shift_at_start(const PeriodicCell& cell, const Periods& periods) {
+  return {periods[0] * cell.lengths[0], periods[1] * cell.lengths[1], periods[2] * cell.lengths[2]};
+}
 
 /// Velocity of an image relative to its particle [L/T]. It is added wherever velocities of
 /// particles are compared of which one is that of an image: in contacts, rigid bodies and links.
 inline Vector velocity_of_image(const PeriodicCell& cell, const Periods& periods) {
-  return velocity_at(cell, {periods[0] * cell.lengths[0], periods[1] * cell.lengths[1], 0});
+  return velocity_at(cell, shift_at_start(cell, periods));
 }
 
 /// Shift of an image [L], which is added to the position of the particle.
 inline Vector shift_of(const PeriodicCell& cell, const Periods& periods) {
-  const Vector at_start{periods[0] * cell.lengths[0], periods[1] * cell.lengths[1], 0};
-  return at_start + cell.moved_for * velocity_of_image(cell, periods);
+  return shift_at_start(cell, periods) + cell.moved_for * velocity_of_image(cell, periods);
 }
 
 /// Velocity of the image with a number (image_number) relative to its particle [L/T].
 inline Vector velocity_of_image(const PeriodicCell& cell, std::int32_t image) {
-  const auto [x, y] = periods_of_image(image);
-  return velocity_of_image(cell, Periods{double(x), double(y)});
+  const auto [x, y, z] = periods_of_image(image);
+  return velocity_of_image(cell, Periods{double(x), double(y), double(z)});
 }
 /// Shift of the image with a number [L].
 inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
-  const auto [x, y] = periods_of_image(image);
-  return shift_of(cell, Periods{double(x), double(y)});
+  const auto [x, y, z] = periods_of_image(image);
+  return shift_of(cell, Periods{double(x), double(y), double(z)});
 }
 
-/// The vector at the start [L], x and y only, that has become `apart` [L] by the motion of the
-/// cell: (1 + moved_for gradient)^-1 apart. The motion takes each shift of an image to
+/// The vector at the start [L] that has become `apart` [L] by the motion of the cell:
+/// (1 + moved_for gradient)^-1 apart. The motion takes each shift of an image to
 /// (1 + moved_for gradient) times its value at the start.
-inline std::array<double, 2> before_the_motion(const PeriodicCell& cell, const Vector& apart) {
+inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
   const double t = cell.is_sheared() ? cell.moved_for : 0;
   const auto& g = cell.gradient;
   const double determinant = (1 + t * g[0]) * (1 + t * g[3]) - t * t * g[1] * g[2];
   return {((1 + t * g[3]) * apart[0] - t * g[1] * apart[1]) / determinant,
-          ((1 + t * g[0]) * apart[1] - t * g[2] * apart[0]) / determinant};
+          ((1 + t * g[0]) * apart[1] - t * g[2] * apart[0]) / determinant, apart[2]};
 }
 
 /// The periods whose shift is nearest to the vector `apart` [L]; 0 along an axis without a period.
 inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
   const auto at_start = before_the_motion(cell, apart);
   Periods periods{};
-  for (std::size_t d = 0; d < 2; ++d)
+  for (std::size_t d = 0; d < 3; ++d)
     if (cell.lengths[d] > 0) periods[d] = std::round(at_start[d] / cell.lengths[d]);
   return periods;
 }
@@ -109,7 +122,7 @@ inline Vector nearest_image(const PeriodicCell& cell, const Vector& apart) {
   return apart - shift_of(cell, periods_towards(cell, apart));
 }
 
-/// Number of periods along axis `axis` (0 or 1) that are subtracted from the coordinate `x` [L] to
+/// Number of periods along axis `axis` (0 to 2) that are subtracted from the coordinate `x` [L] to
 /// bring it into the cell: from <= x < from + length. 0 where there is no period.
 inline double periods_beyond(const PeriodicCell& cell, std::size_t axis, double x) {
   const double from = cell.from[axis], length = cell.lengths[axis];

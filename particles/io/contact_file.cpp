@@ -88,8 +88,7 @@ std::string wall_rows(const Setting& setting, const State& state, std::span<cons
 double measure_of(const Domain& domain) {
   using std::numbers::pi;
   if (const auto* disc = std::get_if<DiscDomain>(&domain)) return pi * disc->radius * disc->radius;
-  if (const auto* box = std::get_if<BoxDomain>(&domain))
-    return (box->to[0] - box->from[0]) * (box->to[1] - box->from[1]);
+  if (const auto* box = std::get_if<BoxDomain>(&domain)) return box->measure();
   const auto* cylinder = std::get_if<CylinderDomain>(&domain);
   return cylinder == nullptr ? 0 : pi * cylinder->radius * cylinder->radius * cylinder->height;
 }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "viscontact/particles/current_contacts.hpp"
@@ -17,7 +18,8 @@ namespace viscontact::particles {
 /// Particles, planes and contacts at one time.
 struct Frame {
   double time = 0;  ///< [T]
-  /// Flat array [L], `dimension` numbers for each particle; single precision suffices.
+  /// Flat array [L], `dimension` numbers for each particle; single precision suffices. They are NaN
+  /// for a particle that is not there yet.
   std::vector<float> positions;
   std::vector<PlanePosition> planes;     ///< all obstacles, in the order of domain.hpp
   std::vector<CurrentContact> contacts;  ///< glued (gamma < 0) or touching
@@ -55,7 +57,8 @@ struct Playback {
   std::vector<std::int32_t> bodies{};
   /// The links; empty if there are none.
   DrawnLinks links{};
-  bool has_friction = false;  ///< whether contacts stick and slide
+  /// mu_s >= 0 of contacts that stick and slide; empty: there is no friction.
+  std::optional<double> friction_coefficient{};
 };
 
 /// Position of particle k in a frame [L].

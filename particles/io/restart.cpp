@@ -1,5 +1,5 @@
 // Writes and reads the binary restart file (restart.hpp). Numbers are in the units of the case; a
-// damaged file is an Error(kBadInput). Files of versions 1 to 10 must stay readable; a change of the
+// damaged file is an Error(kBadInput). Files of versions 1 to 11 must stay readable; a change of the
 // fields of State or Pair needs a new version.
 #include "viscontact/particles/io/restart.hpp"
 
@@ -24,7 +24,8 @@ namespace {
 // where a pair has such a memory. Version 8 has the flow of a fluid with inertia, and is written
 // only where there is one. Version 9 has the positions before the last step, and is written only
 // with membranes. Version 10 has Pair::place, and is written only where one is not 0.
-constexpr int kVersion = 10;
+// Version 11 has State::poured, and is written only where a source has begun.
+constexpr int kVersion = 11;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -103,6 +104,8 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   field(state.earlier_positions);
   if (version < 10) return;
   field(arrays.places);
+  if (version < 11) return;
+  field(state.poured);
 }
 
 /// The first of kMemoryFields that has no array of its own in version 6.
@@ -317,7 +320,8 @@ std::string write_restart(const State& state) {
     arrays.bodies.push_back({body.centre, body.velocity, body.angle, body.orientation,
                              body.angular_momentum, body.angular_velocity});
   std::string bytes;
-  const int version = !arrays.places.empty()             ? 10
+  const int version = !state.poured.empty()              ? 11
+                      : !arrays.places.empty()           ? 10
                       : !state.earlier_positions.empty() ? 9
                       : !state.flow.empty()              ? 8
                       : !arrays.names.empty()            ? 7

@@ -28,6 +28,8 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
 struct VtpContent {
   /// Flat array [L], `dimension` numbers for each particle.
   std::vector<double> positions;
+  std::vector<double> radii;      ///< of each particle [L]
+  std::vector<std::int32_t> ids;  ///< of each particle
   // Of discs, counter-clockwise; empty if they do not turn, and of spheres.
   std::vector<double> angles,  ///< of each disc [rad]
       angular_velocities;      ///< of each disc [1/T]

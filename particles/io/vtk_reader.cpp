@@ -109,6 +109,12 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
   for (std::size_t i = 0; i < points.size(); ++i)
     if (dimension == 1 ? i % 3 == 2 : i % 3 < static_cast<std::size_t>(dimension))
       content.positions.push_back(points[i]);
+  content.radii = reader.array<double>("PointData", "radius");
+  if (content.radii.size() != points.size() / 3) reader.refuse();
+  if (reader.has_array("PointData", "id")) {
+    content.ids = reader.array<std::int32_t>("PointData", "id");
+    if (content.ids.size() != content.radii.size()) reader.refuse();
+  }
   if (reader.has_array("PointData", "angle")) {
     content.angles = reader.array<double>("PointData", "angle");
     content.angular_velocities = reader.array<double>("PointData", "angular_velocity");

@@ -57,7 +57,7 @@ struct NearestImage {
 NearestImage between(const Particles& p, std::int32_t first, std::int32_t second) {
   const Vector apart = p.position(index_of(second)) - p.position(index_of(first));
   const auto beyond = periods_towards(p.cell, apart);
-  return {apart - shift_of(p.cell, beyond), {-beyond[0], -beyond[1]}};
+  return {apart - shift_of(p.cell, beyond), -1.0 * beyond};
 }
 
 Vector direction_of(const Vector& apart) {
@@ -95,7 +95,7 @@ LinkEquations hinge_equations(const Hinge& hinge, const Particles& p) {
   const Vector off = apart - shift_of(p.cell, beyond);
   const auto of_unit = periods_in_unit(p, particle);
   for (std::size_t d = 0; d < static_cast<std::size_t>(p.dimension); ++d) {
-    LinkPart part{particle, {}, arm, false, {of_unit[0] - beyond[0], of_unit[1] - beyond[1]}};
+    LinkPart part{particle, {}, arm, false, of_unit - beyond};
     part.direction[d] = 1;
     equations.rows.push_back({{part}, off[d]});
   }

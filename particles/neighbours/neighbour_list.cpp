@@ -170,27 +170,28 @@ void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, doub
 void wrap_into_cell(State& state) {
   auto& p = state.particles;
   if (!p.cell.is_periodic() || p.cell.is_sheared()) return;
-  std::vector<std::array<int, 2>> wrapped(p.count());
+  const auto dimension = static_cast<std::size_t>(p.dimension);
+  std::vector<std::array<int, 3>> wrapped(p.count());
   bool any = false;
   for (std::size_t k = 0; k < p.count(); ++k)
-    for (std::size_t d = 0; d < 2; ++d) {
-      auto& x = p.positions[2 * k + d];
+    for (std::size_t d = 0; d < dimension; ++d) {
+      auto& x = p.positions[dimension * k + d];
       const double periods = periods_beyond(p.cell, d, x);
       if (p.cell.lengths[d] > 0) x = std::max(x - periods * p.cell.lengths[d], p.cell.from[d]);
       if (periods == 0) continue;
       any = true;
       wrapped[k][d] = static_cast<int>(periods);
       if (!state.positions_at_listing.empty())
-        state.positions_at_listing[2 * k + d] -= periods * p.cell.lengths[d];
+        state.positions_at_listing[dimension * k + d] -= periods * p.cell.lengths[d];
     }
   if (!any) return;
   // The vector between the centres of a pair stays the same, so its image changes by the periods by
   // which its particles were wrapped.
   for (auto& pair : state.pairs) {
     auto shift = periods_of_image(pair.image);
-    for (std::size_t d = 0; d < 2; ++d)
+    for (std::size_t d = 0; d < dimension; ++d)
       shift[d] += wrapped[index_of(pair.second)][d] - wrapped[index_of(pair.first)][d];
-    pair.image = image_number(shift[0], shift[1]);
+    pair.image = image_number(shift[0], shift[1], shift[2]);
   }
   std::ranges::sort(state.pairs, {}, [](const Pair& pair) { return place_of(pair); });
 }

@@ -23,11 +23,9 @@ namespace {
 template <class Visit>
 void for_each_image(const PanelSettings& d, const Frame& frame, const Visit& visit) {
   for (std::size_t k = 0; k < d.scene.playback.radii.size(); k += d.every)
-    for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
-      const auto shift = shift_of(d.scene.playback.cell, image);
-      if (image == 0 || shift[0] != 0 || shift[1] != 0)
-        visit(k, particles::operator+(position(d.scene.playback, frame, k), shift));
-    }
+    for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image)
+      if (const auto& cell = d.scene.playback.cell; has_image(cell, image))
+        visit(k, particles::operator+(position(d.scene.playback, frame, k), shift_of(cell, image)));
 }
 
 /// True if the particle belongs to a rigid body.
@@ -45,7 +43,7 @@ Vector apart(const PanelSettings& panel, const Frame& frame, std::size_t first,
              std::size_t second) {
   Vector w =
       position(panel.scene.playback, frame, second) - position(panel.scene.playback, frame, first);
-  for (std::size_t k = 0; k < 2; ++k)
+  for (std::size_t k = 0; k < 3; ++k)
     if (const double period = panel.scene.playback.cell.lengths[k]; period > 0)
       w[k] -= period * std::round(w[k] / period);
   return w;
@@ -315,27 +313,38 @@ std::string plane_3d_patches(const PanelSettings& d, const Frame& frame, bool fr
   return text;
 }
 
-/// The class of a contact's colour: 0 for gamma = 0; 1 to kContactColours, from light to dark, for
-/// gamma < 0 down to `lowest`.
-std::size_t colour_class(double gamma, double lowest) {
-  if (!(gamma < 0) || !(lowest < 0)) return 0;
-  return 1 + static_cast<std::size_t>(
-                 std::lround(std::clamp(gamma / lowest, 0.0, 1.0) * (kContactColours - 1)));
+/// Colour "#rrggbb" of a contact: that of gamma if gamma < 0, otherwise that of its friction. The
+/// scales have few colours, so that many contacts make one path.
+std::string colour_of(const Scene& scene, const CurrentContact& contact) {
+  const auto rounded = [](double share, int colours) {
+    return static_cast<double>(std::lround(share * (colours - 1))) / (colours - 1);
+  };
+  if (contact.friction == ContactFriction::kSlides) return report::kSlidingColour;
+  if (contact.gamma < 0 && scene.lowest_gamma < 0)
+    return report::film_colour(
+        rounded(std::clamp(contact.gamma / scene.lowest_gamma, 0.0, 1.0), kContactColours));
+  return report::friction_colour(
+      rounded(mobilised_friction(scene.playback, contact), kFrictionColours));
 }
 
-// The class of contacts that slide, after those of gamma.
-constexpr std::size_t kSlidingClass = kContactColours + 1;
-
-std::string class_colour(std::size_t colour) {
-  if (colour == kSlidingClass) return report::kSlidingColour;
-  return colour == 0 ? report::kTouchingColour
-                     : report::film_colour(static_cast<double>(colour - 1) / (kContactColours - 1));
+/// The width of the line of a contact whose smaller radius is `radius` page units [page units].
+double width_of(const PanelSettings& d, const CurrentContact& contact, double radius) {
+  const auto& scene = d.scene;
+  const bool is_film = contact.gamma < 0;
+  if (scene.top_force > 0) {
+    const double widest = std::min(kStyle.force_line * d.view.scale * scene.mean_radius, 12.0);
+    const double least = is_film ? std::clamp(kStyle.film_line * radius, 0.8, 2.0) : 0.3;
+    return std::max(least, widest * force_share(scene, contact));
+  }
+  return is_film || contact.friction == ContactFriction::kSlides
+             ? std::clamp(0.3 * radius, 0.8, 5.0)
+             : std::clamp(0.06 * radius, 0.3, 1.0);
 }
 
 /// The line of a contact. In space it is drawn just after the nearer of its two particles: over
 /// this particle and those behind it, and under those in front of it.
 struct ContactLine {
-  std::size_t colour = 0;
+  std::string colour;
   double width = 0;
   std::string path;
 };
@@ -379,11 +388,8 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentCon
     }
   }
   ContactLine line;
-  line.colour = contact.friction == ContactFriction::kSlides
-                    ? kSlidingClass
-                    : colour_class(contact.gamma, d.scene.lowest_gamma);
-  line.width = line.colour == 0 ? std::clamp(0.06 * d.view.scale * radius, 0.3, 1.0)
-                                : std::clamp(0.3 * d.view.scale * radius, 0.8, 5.0);
+  line.colour = colour_of(d.scene, contact);
+  line.width = width_of(d, contact, d.view.scale * radius);
   // The line to an image is drawn at both sides of the period.
   line.path = path_of({from, to + shift}, d.view);
   if (contact.image != 0) line.path += path_of({from - shift, to}, d.view);
@@ -405,28 +411,27 @@ std::string discs(const PanelSettings& d, const Frame& frame, const std::string&
     if (!is_in_body(d.scene.playback, k)) text += disc(d, frame, k, centre);
   });
   text += "</g>\n" + body_discs(d, frame) + angle_marks(d, frame) + plane_2d_lines(d, frame);
-  // All contacts of one colour make one path. Its width is the mean of their widths.
-  std::array<ContactLine, kSlidingClass + 1> lines;
-  std::array<int, kSlidingClass + 1> counts{};
+  // All contacts of one width, in tenths of a unit, and one colour make one path. Wide lines are
+  // over thin ones.
+  std::map<std::pair<long, std::string>, std::string> paths;
   for (const auto& contact : frame.contacts) {
     if (!drawn(d, contact)) continue;
     const auto line = line_of(d, frame, contact);
-    lines[line.colour].path += line.path;
-    lines[line.colour].width += line.width;
-    ++counts[line.colour];
+    paths[{std::lround(10 * line.width), line.colour}] += line.path;
   }
   text += "<g fill=\"none\" stroke-linecap=\"round\">\n";
-  for (std::size_t c = 0; c < lines.size(); ++c)
-    if (counts[c] > 0)
-      text += fmt::format("<path stroke=\"{}\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n",
-                          class_colour(c), lines[c].width / counts[c], lines[c].path);
+  for (const auto& [kind, path] : paths)
+    text += fmt::format("<path stroke=\"{}\" stroke-width=\"{:.1f}\" d=\"{}\"/>\n", kind.second,
+                        static_cast<double>(kind.first) / 10, path);
   return text + "</g>\n" + link_marks(d, frame);
 }
 
 std::string spheres(const PanelSettings& d, const Frame& frame) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < d.scene.playback.radii.size(); k += d.every)
-    order.emplace_back(dot(d.view.toward, position(d.scene.playback, frame, k)), k);
+    if (const double depth = dot(d.view.toward, position(d.scene.playback, frame, k));
+        !std::isnan(depth))  // the particle is there
+      order.emplace_back(depth, k);
   std::ranges::sort(order);
   std::vector<std::size_t> rank(d.scene.playback.radii.size());
   for (std::size_t i = 0; i < order.size(); ++i) rank[order[i].second] = i;
@@ -436,8 +441,8 @@ std::string spheres(const PanelSettings& d, const Frame& frame) {
     const auto line = line_of(d, frame, contact);
     auto at = rank[static_cast<std::size_t>(contact.second)];
     if (contact.first >= 0) at = std::max(at, rank[static_cast<std::size_t>(contact.first)]);
-    with[at] += fmt::format("<path stroke=\"{}\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n",
-                            class_colour(line.colour), line.width, line.path);
+    with[at] += fmt::format("<path stroke=\"{}\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n", line.colour,
+                            line.width, line.path);
   }
   std::string text = plane_3d_patches(d, frame, true);
   text += fmt::format(

@@ -37,6 +37,9 @@ struct PanelSettings {
 /// Number of colours of contacts with gamma < 0.
 inline constexpr int kContactColours = 20;
 
+/// Number of colours of the friction of contacts with gamma = 0.
+inline constexpr int kFrictionColours = 11;
+
 /// The elements of a panel that shows the frame. `behind` is drawn behind everything else. Across
 /// the sides of a period, the images of particles and contacts are drawn, of which the panel shows
 /// the part in its box.

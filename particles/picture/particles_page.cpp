@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "viscontact/particles/picture/frame_picture.hpp"
 #include "viscontact/particles/picture/scene.hpp"
 #include "viscontact/report/page.hpp"
 
@@ -47,6 +48,8 @@ struct PageData {
   /// are in [L].
   int position_bytes = 2;
   std::array<double, 3> low{}, step{1, 1, 1};
+  /// For each shown particle, the first of `frames` in which it is there. Empty: all are always there.
+  std::vector<std::int32_t> first_frames{};
   /// Names and contents of the blocks of numbers in the page.
   std::vector<std::pair<const char*, Bytes>> blocks{};
 };
@@ -102,8 +105,8 @@ void choose_frames(PageData& data, const Playback& playback, std::size_t every_f
 
 /// The contacts of all frames: a list of all pairs that are ever in contact, and for each frame the
 /// contacts in it. A contact is written as its distance in the list from the contact before it, a
-/// byte for gamma from 0 (gamma = 0) to 255 (the lowest gamma) and, in a motion with friction, a
-/// byte with its ContactFriction.
+/// byte for gamma from 0 (gamma = 0) to 255 (the lowest gamma); in a motion with friction a byte for
+/// mobilised_friction(), 255 if it slides; and, if there are forces, a byte for force_share().
 struct Contacts {
   Bytes pairs;    ///< int32, int32: as in CurrentContact, by number of the drawn particle
   Bytes images;   ///< int8: CurrentContact::image of each pair
@@ -113,7 +116,9 @@ struct Contacts {
 
 using Pair = std::array<std::int32_t, 3>;  // both particles and the image of the second
 
-Contacts contacts_of(const Playback& playback, const PageData& data, double lowest) {
+Contacts contacts_of(const Scene& scene, const PageData& data) {
+  const auto& playback = scene.playback;
+  const double lowest = scene.lowest_gamma;
   Contacts contacts;
   append(contacts.offsets, std::uint32_t{0});
   const auto every = static_cast<std::int32_t>(data.every_particle);
@@ -133,7 +138,7 @@ Contacts contacts_of(const Playback& playback, const PageData& data, double lowe
   }
   struct Listed {
     std::uint32_t at;
-    unsigned char level, friction;
+    unsigned char level, friction, force;
   };
   std::vector<Listed> listed;
   for (const auto f : data.frames) {
@@ -145,15 +150,20 @@ Contacts contacts_of(const Playback& playback, const PageData& data, double lowe
       const auto level =
           c.gamma < 0 ? std::max(1L, std::lround(255 * std::clamp(c.gamma / lowest, 0.0, 1.0)))
                       : 0L;
-      listed.push_back({static_cast<std::uint32_t>(at), static_cast<unsigned char>(level),
-                        static_cast<unsigned char>(c.friction)});
+      listed.push_back(
+          {static_cast<std::uint32_t>(at), static_cast<unsigned char>(level),
+           static_cast<unsigned char>(c.friction == ContactFriction::kSlides
+                                          ? 255
+                                          : std::lround(254 * mobilised_friction(playback, c))),
+           static_cast<unsigned char>(std::lround(255 * force_share(scene, c)))});
     }
     std::ranges::sort(listed, {}, &Listed::at);
     std::uint32_t before = 0;
-    for (const auto& [at, level, friction] : listed) {
+    for (const auto& [at, level, friction, force] : listed) {
       append_short(contacts.frames, at - before);
       contacts.frames.push_back(level);
-      if (playback.has_friction) contacts.frames.push_back(friction);
+      if (playback.friction_coefficient) contacts.frames.push_back(friction);
+      if (scene.top_force > 0) contacts.frames.push_back(force);
       before = at;
     }
     append(contacts.offsets, static_cast<std::uint32_t>(contacts.frames.size()));
@@ -174,8 +184,8 @@ std::size_t numbers_of_turn(const Playback& playback) {
 }
 
 /// Chooses frames, and whether contacts are shown, so that the page is not too large.
-Contacts choose_content(PageData& data, const Playback& playback, double lowest,
-                        std::size_t other_bytes) {
+Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_bytes) {
+  const auto& playback = scene.playback;
   constexpr std::size_t kMostBytes = 24'000'000, kMostParticles = 200'000;
   constexpr std::size_t kRest = 200'000;  // bytes for script, style and words
   data.every_particle = playback.radii.size() / (kMostParticles + 1) + 1;
@@ -193,23 +203,39 @@ Contacts choose_content(PageData& data, const Playback& playback, double lowest,
     const auto others = kRest + other_bytes + data.frames.size() * bytes_of_frame + radii_and_ids;
     const bool last = data.frames.size() <= 2;
     if (others > kMostBytes && !last) continue;
-    auto contacts = contacts_of(playback, data, lowest);
+    auto contacts = contacts_of(scene, data);
     const auto size = others + base64_size(contacts.pairs.size()) +
                       base64_size(contacts.images.size()) + base64_size(contacts.offsets.size()) +
                       base64_size(contacts.frames.size());
     if (size <= kMostBytes) return contacts;
     if (!last) continue;
     data.contacts = false;
-    return contacts_of(playback, data, lowest);
+    return contacts_of(scene, data);
   }
+}
+
+/// Finds out in which frame each particle is there first.
+void find_first_frames(PageData& data, const Playback& playback) {
+  const auto dimension = static_cast<std::size_t>(playback.dimension);
+  bool any = false;
+  for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle) {
+    std::size_t first = 0;
+    while (first + 1 < data.frames.size() &&
+           std::isnan(playback.frames[data.frames[first]].positions[k * dimension]))
+      ++first;
+    any = any || first > 0;
+    data.first_frames.push_back(static_cast<std::int32_t>(first));
+  }
+  if (!any) data.first_frames.clear();
 }
 
 /// Chooses as many frames as fit into a page of 24 MB, of which `other_bytes` are taken, and
 /// encodes them. If even two frames are too large, the contacts are left out.
-PageData page_data(const Playback& playback, double lowest_gamma, std::size_t other_bytes) {
+PageData page_data(const Scene& scene, std::size_t other_bytes) {
+  const auto& playback = scene.playback;
   PageData data;
   choose_position_bytes(data, playback);
-  auto contacts = choose_content(data, playback, lowest_gamma, other_bytes);
+  auto contacts = choose_content(data, scene, other_bytes);
   Bytes radii, semi_axes, plates, ids, bodies, times, positions, turns, planes;
   const auto turn_numbers = numbers_of_turn(playback);
   const auto dimension = static_cast<std::size_t>(playback.dimension);
@@ -226,7 +252,8 @@ PageData page_data(const Playback& playback, double lowest_gamma, std::size_t ot
     append(times, frame.time);
     for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle)
       for (std::size_t d = 0; d < dimension; ++d) {
-        const float x = frame.positions[k * dimension + d];
+        const float at = frame.positions[k * dimension + d];
+        const float x = std::isnan(at) ? static_cast<float>(data.low[d]) : at;
         const double step = data.step[d];
         if (data.position_bytes == 4)
           append(positions, x);
@@ -246,6 +273,11 @@ PageData page_data(const Playback& playback, double lowest_gamma, std::size_t ot
     }
   }
   data.blocks = {{"radii", radii}};
+  if (find_first_frames(data, playback); !data.first_frames.empty()) {
+    Bytes first_frames;
+    for (const auto frame : data.first_frames) append(first_frames, frame);
+    data.blocks.emplace_back("firstFrames", first_frames);
+  }
   if (!semi_axes.empty()) data.blocks.emplace_back("semiAxes", semi_axes);
   if (!plates.empty()) data.blocks.emplace_back("plates", plates);
   if (!ids.empty()) data.blocks.emplace_back("ids", ids);
@@ -393,6 +425,8 @@ std::string style_of_page() {
                                 {"axisRadius", kStyle.axis_radius},
                                 {"leastToward", kStyle.least_toward},
                                 {"bodyLine", kStyle.body_line},
+                                {"forceLine", kStyle.force_line},
+                                {"filmLine", kStyle.film_line},
                                 {"arm", kStyle.arm},
                                 {"springWidth", kStyle.spring_width},
                                 {"springTurns", kStyle.spring_turns},
@@ -403,9 +437,11 @@ std::string style_of_page() {
 /// The JSON and the blocks of numbers that the script reads.
 std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& flow) {
   const auto& playback = scene.playback;
-  auto scale = report::film_scale(-1, kPageColours, "").colours;
-  std::ranges::reverse(scale);
-  const auto colours = fmt::format("\"{}\"", fmt::join(scale, "\",\""));
+  const auto listed = [](const report::ColourScale& scale) {
+    return fmt::format("\"{}\"", fmt::join(scale.colours, "\",\""));
+  };
+  auto films = report::film_scale(-1, kPageColours, "");
+  std::ranges::reverse(films.colours);
   // The numbers of the ends are those of the drawn particles.
   const auto& links = data.every_particle == 1 ? playback.links : DrawnLinks{};
   const auto ends_of = [](const std::vector<DrawnLinks::Ends>& ends) {
@@ -422,15 +458,17 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
   auto text = fmt::format(
       "<script type=\"application/json\" id=\"motion\">{{\"dimension\":{},\"every\":{},"
       "\"bytes\":{},\"low\":{},\"step\":{},\"roomLow\":{},\"roomHigh\":{},\"lowest\":{},"
-      "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{},{},{}],\"hasAxis\":{},\"flow\":{},"
-      "\"sliding\":{},\"hinges\":[{}],\"springs\":[{}],\"arms\":[{}],\"style\":{}}}"
+      "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{}],\"hasAxis\":{},\"flow\":{},"
+      "\"friction\":[{}],\"hasForces\":{},\"meanRadius\":{},\"hinges\":[{}],\"springs\":[{}],"
+      "\"arms\":[{}],\"style\":{}}}"
       "</script>\n",
       playback.dimension, data.every_particle, data.position_bytes, list(data.low), list(data.step),
       list(scene.box.low), list(scene.box.high), scene.lowest_gamma, report::kTouchingColour,
-      colours, playback.cell.from[0], playback.cell.from[1], playback.cell.lengths[0],
-      playback.cell.lengths[1], scene.has_axis, flow.settings,
-      playback.has_friction ? fmt::format("\"{}\"", report::kSlidingColour) : "null", hinges,
-      ends_of(links.springs), ends_of(links.arms), style_of_page());
+      listed(films), fmt::join(playback.cell.from, ","), fmt::join(playback.cell.lengths, ","),
+      scene.has_axis, flow.settings,
+      playback.friction_coefficient ? listed(report::friction_scale(kFrictionColours, "")) : "",
+      scene.top_force > 0, scene.mean_radius, hinges, ends_of(links.springs), ends_of(links.arms),
+      style_of_page());
   for (const auto* blocks : {&data.blocks, &flow.blocks})
     for (const auto& [name, bytes] : *blocks)
       text += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", name,
@@ -462,6 +500,10 @@ std::string legend(const Scene& scene, const FlowOfPage& flow) {
   std::string text = flow.legend;
   if (scene.lowest_gamma < 0)
     text += scale_html(report::film_scale(scene.lowest_gamma, kPageColours, scene.film_words));
+  if (scene.playback.friction_coefficient && scene.touches)
+    text += scale_html(report::friction_scale(kFrictionColours, kFrictionWords));
+  if (!scene.force_words.empty())
+    text += fmt::format("<div class=touching>{}</div>\n", scene.force_words);
   if (scene.touches)
     text += fmt::format(
         "<div class=touching><span class=line style=\"background:{}\"></span> touching, no "
@@ -484,7 +526,7 @@ std::string particles_page(const Playback& original, const std::string& title) {
   const auto flow = flow_of_page(scene);
   std::size_t bytes_of_flow = 0;
   for (const auto& [name, bytes] : flow.blocks) bytes_of_flow += base64_size(bytes.size());
-  const auto data = page_data(scene.playback, scene.lowest_gamma, bytes_of_flow);
+  const auto data = page_data(scene, bytes_of_flow);
   const auto words = words_for(original, data);
   std::string page = report::page_head(title, particles_style(), false,
                                        "<meta name=color-scheme content=\"light dark\">\n") +

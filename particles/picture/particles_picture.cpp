@@ -268,10 +268,15 @@ std::string particles_picture(const Playback& original, const std::string& title
   }
   if (scene.lowest_gamma < 0) {
     bars.push_back(report::film_scale(scene.lowest_gamma, kContactColours, scene.film_words));
-    if (scene.touches) bars.back().words += "; thin and grey: touching, no film";
+    if (scene.touches) bars.back().words += "; grey: touching, no film";
   }
-  const bool slides = scene.slides;
-  auto svg = opening(title, bottom + (bars.empty() ? (slides ? 12 : 0) : 60),
+  const bool has_friction = scene.playback.friction_coefficient && scene.touches;
+  if (has_friction) bars.push_back(report::friction_scale(kFrictionColours, kFrictionWords));
+  // What has no scale stands in a line of words.
+  auto words = scene.force_words;
+  if (scene.slides)
+    words += fmt::format("{}contacts that slide are orange", words.empty() ? "" : "; ");
+  auto svg = opening(title, bottom + (words.empty() ? 0 : 16) + (bars.empty() ? 0 : 60),
                      !scene.playback.bodies.empty());
   svg += panels_of(panel, chosen, columns);
   if (panel.every > 1)
@@ -279,16 +284,14 @@ std::string particles_picture(const Playback& original, const std::string& title
         "<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"11\" text-anchor=\"end\">one particle in {} "
         "is drawn</text>\n",
         kPictureWidth - kEdge, bottom + 4, panel.every);
-  if (slides)
-    svg += fmt::format(
-        "<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"11\" fill=\"{}\">contacts that slide are "
-        "orange</text>\n",
-        kEdge, bottom + 4, report::kSlidingColour);
-  constexpr double kBar = 360;  // width of a colour bar
+  if (!words.empty())
+    svg += fmt::format("<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"12\">{}</text>\n", kEdge,
+                       bottom + 4, words);
+  const double kBar = bars.size() < 3 ? 360 : 280;  // width of a colour bar
   for (std::size_t b = 0; b < bars.size(); ++b) {
     const double middle =
         kPictureWidth * (static_cast<double>(b) + 0.5) / static_cast<double>(bars.size());
-    svg += picture_of(bars[b], middle - kBar / 2, bottom, kBar);
+    svg += picture_of(bars[b], middle - kBar / 2, bottom + (words.empty() ? 0 : 16), kBar);
   }
   return svg + "</svg>\n";
 }

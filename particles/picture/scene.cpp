@@ -3,9 +3,12 @@
 // Error(kBadInput). A change alters picture and page together.
 #include "viscontact/particles/picture/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -102,7 +105,7 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
     box.low[axis] -= more;
     box.high[axis] += more;
   }
-  for (std::size_t axis = 0; axis < 2; ++axis)
+  for (std::size_t axis = 0; axis < dimension; ++axis)
     if (const double period = playback.cell.lengths[axis]; period > 0) {
       box.low[axis] = playback.cell.from[axis];
       box.high[axis] = box.low[axis] + period;
@@ -124,8 +127,8 @@ std::vector<char> points_in_bodies(const report::Grid& grid, const Playback& pla
   const auto& window = grid.window;
   for (std::size_t k = 0; k < playback.radii.size(); ++k)
     for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
+      if (!has_image(playback.cell, image)) continue;
       const auto shift = shift_of(playback.cell, image);
-      if (image != 0 && shift[0] == 0 && shift[1] == 0) continue;
       const auto centre = position(playback, frame, k);
       const double x = centre[0] + shift[0], y = centre[1] + shift[1], r = playback.radii[k];
       const auto [left, right] = range(x - r, x + r, window.left, grid.step_x(), grid.columns);
@@ -258,8 +261,9 @@ FlowFrames read_flows(const Playback& in_plane, bool has_axis, const report::Win
     if (frame.flow.empty()) continue;
     const auto field = read_flow(frame.flow);
     if (field.triangles.empty()) continue;
-    const auto flow =
-        report::flow_on_grid(field, flows.grid, {in_plane.cell.lengths, in_plane.cell.gradient});
+    const auto flow = report::flow_on_grid(
+        field, flows.grid,
+        {{in_plane.cell.lengths[0], in_plane.cell.lengths[1]}, in_plane.cell.gradient});
     const auto is_body = points_in_bodies(flows.grid, in_plane, frame);
     FlowFrame found;
     found.frame = f;
@@ -315,12 +319,37 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
       motion.dimension == 2 && scene.is_in_fluid
           ? "gamma: minus the impulse per length that the film has absorbed [mass/time]"
           : "gamma: minus the impulse that the film has absorbed [mass × length/time]";
+  std::vector<double> forces;
   for (const auto f : frames)
     for (const auto& contact : playback.frames[f].contacts) {
+      if (contact.normal_force != 0) forces.push_back(std::abs(contact.normal_force));
       scene.touches = scene.touches || !(contact.gamma < 0);
       scene.slides = scene.slides || contact.friction == ContactFriction::kSlides;
     }
+  const auto& radii = playback.radii;
+  if (!radii.empty())
+    scene.mean_radius =
+        std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
+  if (forces.empty()) return scene;
+  // A few contacts that take a blow have much larger forces than all others.
+  constexpr std::size_t kOneIn = 50;
+  const auto top = forces.end() - 1 - static_cast<std::ptrdiff_t>(forces.size() / kOneIn);
+  std::ranges::nth_element(forces, top);
+  scene.top_force = *top;
+  scene.force_words = fmt::format(
+      "line width: normal force, widest from {:.3g} [{}] on", *top,
+      motion.dimension == 2 && scene.is_in_fluid ? "mass/time²" : "mass × length/time²");
   return scene;
+}
+
+double force_share(const Scene& scene, const CurrentContact& contact) {
+  return scene.top_force > 0 ? std::min(1.0, std::abs(contact.normal_force) / scene.top_force) : 0;
+}
+
+double mobilised_friction(const Playback& playback, const CurrentContact& contact) {
+  if (contact.friction == ContactFriction::kSlides) return 1;
+  const double bound = playback.friction_coefficient.value_or(0) * contact.normal_force;
+  return bound > 0 ? std::min(1.0, norm(contact.tangential_force) / bound) : 0;
 }
 
 Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& normal) {

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -56,14 +57,28 @@ void check_same_particles(const State& state, const ParticlesCase& c, const fs::
   };
   if (p.dimension != c.particles.dimension)
     differs(fmt::format("{} dimensions, not {}", p.dimension, c.particles.dimension));
-  if (p.count() != c.particles.count())
-    differs(fmt::format("{} particles, not {}", p.count(), c.particles.count()));
-  if (p.radii != c.particles.radii) differs("other radii");
-  if (p.masses != c.particles.masses) differs("other masses");
+  // The particles that sources have poured in come after those of the case.
+  const auto poured = std::accumulate(state.poured.begin(), state.poured.end(), std::int64_t{0});
+  const auto count = c.particles.count() + static_cast<std::size_t>(poured);
+  if (state.poured.size() > c.setting.sources.size())
+    differs(fmt::format("{} sources, not {}", state.poured.size(), c.setting.sources.size()));
+  if (p.count() != count) differs(fmt::format("{} particles, not {}", p.count(), count));
+  const auto begins_with = [](const std::vector<double>& all, const std::vector<double>& begin) {
+    return std::equal(begin.begin(), begin.end(), all.begin());
+  };
+  if (!begins_with(p.radii, c.particles.radii)) differs("other radii");
+  if (!begins_with(p.masses, c.particles.masses)) differs("other masses");
   const auto obstacles = obstacles_of(c.setting).size();
   for (const auto& film : state.walls)
     if (film.plane() >= obstacles)
       differs(fmt::format("a contact with plane {}, which the case does not have", -film.first));
+}
+
+/// Gives the state the ids of the case, which the restart file does not store, and those of
+/// particles that were poured in.
+void take_over_ids(State& state, const ParticlesCase& c) {
+  state.particles.ids = c.particles.ids;
+  add_missing_ids(state.particles);
 }
 
 /// Gives the state the rigid bodies of the case, which the restart file does not store, with their
@@ -71,6 +86,8 @@ void check_same_particles(const State& state, const ParticlesCase& c, const fs::
 void take_over_bodies(State& state, const ParticlesCase& c, const fs::path& restart) {
   const auto moving = std::move(state.particles.bodies.bodies);
   state.particles.bodies = c.particles.bodies;
+  if (!c.particles.bodies.empty())
+    state.particles.bodies.of_particle.resize(state.particles.count(), -1);
   auto& bodies = state.particles.bodies.bodies;
   if (moving.size() != bodies.size())
     throw_bad_input({restart.string()},
@@ -117,7 +134,7 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
   }
   state = read_restart(restart);
   check_same_particles(state, c, restart);
-  state.particles.ids = c.particles.ids;
+  take_over_ids(state, c);
   take_over_bodies(state, c, restart);
   if (c.particles.turn() && !state.particles.turn()) {
     // The earlier run had nothing that turned its particles.
@@ -125,6 +142,7 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
     state.particles.orientations = c.particles.orientations;
     state.particles.angular_velocities = c.particles.angular_velocities;
     state.particles.inertias = c.particles.inertias;
+    add_rotation(state.particles);
   }
   check_stops(state, c, restart);
   if (state.time > c.end_time * (1 - 1e-9))
@@ -161,7 +179,7 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
     }
     EarlierRun run{read_restart(restart), read_record(head, restart)};
     check_same_particles(run.state, c, restart);
-    run.state.particles.ids = c.particles.ids;
+    take_over_ids(run.state, c);
     take_over_bodies(run.state, c, restart);
     log.check(run.record);
     return run;

@@ -20,7 +20,7 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
      "motion.csv",  "contacts.csv",  "walls.csv",           "stress.csv",
      "flow.pvd",    "bodies.csv",    "hinges.csv",          "springs.csv",
      "arms.csv",    "membranes.csv", "links.pvd",           "rebounds.csv",
-     "probes.csv"});
+     "probes.csv",  "particles.h5"});
 
 /// What the name of a file of a frame has before and after the number of the frame.
 struct FrameKind {

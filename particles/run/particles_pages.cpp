@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -33,7 +34,8 @@ Playback without_frames(const ParticlesCase& c) {
   playback.ids = c.particles.ids;
   playback.cell = cell_of(c.setting);
   playback.bodies = c.particles.bodies.of_particle;
-  playback.has_friction = c.setting.laws.friction.has_value();
+  if (const auto& friction = c.setting.laws.friction)
+    playback.friction_coefficient = friction->coefficient;
   for (const auto& hinge : c.setting.links.hinges) playback.links.hinges.push_back(hinge.at);
   for (const auto& spring : c.setting.links.springs)
     playback.links.springs.push_back({spring.first, spring.second});
@@ -49,7 +51,8 @@ Playback without_frames(const ParticlesCase& c) {
 /// The frame at `time` [T] in the file at `path`.
 Frame read_frame(double time, const fs::path& path, const ParticlesCase& c) {
   auto content = read_vtp(path, c.particles.dimension);
-  if (content.positions.size() != c.particles.positions.size())
+  if (content.positions.size() < c.particles.positions.size() ||
+      (content.positions.size() > c.particles.positions.size() && c.setting.sources.empty()))
     throw_bad_input({path.string()}, "is a frame of other particles");
   Frame frame;
   frame.time = time;
@@ -68,6 +71,13 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
   auto& frames = playback.frames;
   const auto files = read_pvd(folder / "particles.pvd");
   if (files.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");
+  if (!c.setting.sources.empty()) {
+    // The last frame has all particles that were poured in.
+    const auto last = read_vtp(folder / files.back().second, c.particles.dimension);
+    playback.radii.assign(last.radii.begin(), last.radii.end());
+    if (!playback.ids.empty()) playback.ids = last.ids;
+    if (!playback.bodies.empty()) playback.bodies.resize(last.radii.size(), -1);
+  }
   constexpr std::size_t kMostBytes = std::size_t{256} << 20U;  // a page cannot show as much
   std::size_t every = 1, kept_bytes = 0;
   for (std::size_t f = 0; f < files.size(); ++f) {
@@ -81,6 +91,15 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
     frames.push_back(read_frame(files[f].first, folder / files[f].second, c));
     kept_bytes += frames.back().positions.size() * sizeof(float) +
                   frames.back().contacts.size() * sizeof(CurrentContact);
+  }
+  // Particles that are not there yet have no position.
+  for (auto& frame : frames) {
+    const auto count = playback.radii.size();
+    frame.positions.resize(count * static_cast<std::size_t>(playback.dimension),
+                           std::numeric_limits<float>::quiet_NaN());
+    if (!frames.back().angles.empty()) frame.angles.resize(count);
+    while (frame.orientations.size() < frames.back().orientations.size())
+      frame.orientations.insert(frame.orientations.end(), {1, 0, 0, 0});
   }
   if (c.setting.fluid)
     for (const auto& [time, file] : read_pvd(folder / "flow.pvd"))

@@ -24,6 +24,7 @@
 #include "viscontact/particles/io/contact_file.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/restart.hpp"
+#include "viscontact/particles/run/hdf5_file.hpp"
 #include "viscontact/particles/run/particle_simulation.hpp"
 #include "viscontact/particles/run/particles_earlier_run.hpp"
 #include "viscontact/particles/run/particles_folder.hpp"
@@ -251,6 +252,7 @@ void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path
 }  // namespace
 
 void run_particles(const ParticlesRequest& request) {
+  if (request.hdf5) require_hdf5();
   const ParticlesCase c = read_particles_case(request.case_file);
   std::vector<fs::path> inputs = {c.path};
   if (!c.particles_file.empty()) inputs.push_back(c.particles_file);
@@ -264,10 +266,12 @@ void run_particles(const ParticlesRequest& request) {
   RunLog log(c, folder, provenance);
   if (const auto earlier = find_earlier_run(c, folder, provenance, log)) {
     if (is_finished(*earlier, c, tiny_time(c), folder)) {
+      if (request.hdf5) write_hdf5(c, folder, provenance);
       tell_finished(c, *earlier, folder, request.json, request.stop);
       return;
     }
     log.resume(earlier->record);
+    remove_file(folder / "particles.h5");  // its frames are not all
     terminal::say(fmt::format("particles: the run in {} continues from t = {:.6g}, after step {}",
                               folder.string(), earlier->state.time, earlier->state.steps));
     state = earlier->state;
@@ -283,6 +287,7 @@ void run_particles(const ParticlesRequest& request) {
   std::string json;
   try {
     json = run.write_results();
+    if (request.hdf5) write_hdf5(c, folder, provenance);
   } catch (const Error&) {
     if (!failure) throw;
   }

@@ -18,6 +18,7 @@ struct ParticlesRequest {
   int threads = 1;                ///< number of threads, >= 1; results do not depend on it
   StartFluidSolver start_solver;  ///< used if the case has a fluid
   bool json = false;              ///< true: print run.json to standard output
+  bool hdf5 = false;              ///< true: write particles.h5, also for a run that is finished
   StopToken stop{};               ///< a stop ends the run after its state is saved
 };
 
@@ -28,7 +29,7 @@ struct ParticlesRequest {
 /// must not be replaced, and after it if a file cannot be written; the same request then continues
 /// from the last restart.bin. Throws after everything is written: Error(kNotConverged) if a step
 /// did not reach the tolerance or cannot be computed, Error(kInterrupted) if `stop` requested a
-/// stop.
+/// stop. Throws Error(kWrongUsage) at the beginning if `hdf5` is asked for in a program without it.
 void run_particles(const ParticlesRequest& request);
 
 }  // namespace viscontact::particles

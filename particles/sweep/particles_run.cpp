@@ -95,11 +95,9 @@ Values values_of(const ParticlesCase& c, const std::vector<std::string>& columns
   for (const auto& column : columns)
     if (json.contains(column))
       if (const auto value = number_of(json[column])) values[column] = *value;
-  if (c.arrangement) {
-    const DiscDomain disc{{}, c.arrangement->radius};
-    values["area_fraction"] =
-        area_of(disc) * static_cast<double>(c.arrangement->count) / area_of(c.setting.domain);
-  }
+  if (c.arrangement)
+    values[fraction_column(c)] =
+        size_of(*c.arrangement, c.particles.dimension) / size_of(c.setting.domain);
   std::erase_if(values, [](const auto& value) { return !std::isfinite(value.second); });
   return values;
 }

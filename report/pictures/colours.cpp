@@ -120,6 +120,15 @@ ColourScale film_scale(double lowest, int colours, const std::string& words) {
   return scale;
 }
 
+std::string friction_colour(double share) {
+  static const std::vector<ColourNode> kGreyToOrange = {{0, {90, 90, 90}}, {1, {213, 94, 0}}};
+  return colour_between(kGreyToOrange, share);
+}
+
+ColourScale friction_scale(int colours, const std::string& words) {
+  return {words, evenly_spaced(colours, friction_colour), {{0, "0"}, {0.5, "0.5"}, {1, "1"}}};
+}
+
 std::string speed_colour(double share) {
   // Lightness falls evenly from 0.985 to 0.6 in OKLab (Ottosson 2020), whose differences are about
   // those that the eye sees; the hue goes from 205 to 254 degrees.

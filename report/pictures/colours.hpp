@@ -50,6 +50,13 @@ ColourScale film_scale(double lowest, int colours, const std::string& words);
 inline constexpr const char* kTouchingColour = "#5a5a5a";  ///< for contacts with gamma = 0
 inline constexpr const char* kSlidingColour = "#d55e00";   ///< for contacts that slide
 
+/// The colour "#rrggbb" of a contact without a film for the share of Coulomb's bound that its
+/// friction has reached, from 0 (kTouchingColour) to 1 (kSlidingColour).
+std::string friction_colour(double share);
+
+/// The scale of that share from 0 to 1 with `colours` colours and these words.
+ColourScale friction_scale(int colours, const std::string& words);
+
 /// The colour "#rrggbb" for share = speed / top speed from 0 (nearly white) to 1 (blue). The
 /// colours are evenly spaced in lightness, and dark lines can be seen on all of them.
 std::string speed_colour(double share);

@@ -49,6 +49,16 @@ def lottery():
     write("lottery.csv", 3, rows)
 
 
+def force_network():
+    """Discs of radii 0.6 to 1 on a lattice in a box."""
+    random.seed(4)
+    rows = []
+    for k in range(400):
+        radius = random.uniform(0.6, 1.0)
+        rows.append((1.1 + 2.25 * (k % 16), 1.1 + 2.3 * (k // 16), random.uniform(-0.3, 0.3), 0, radius, radius**2))
+    write("force_network.csv", 2, rows)
+
+
 def shaken_discs():
     """Discs of radii 0.7 to 1 on a lattice over the floor."""
     random.seed(5)
@@ -99,5 +109,5 @@ def heap():
 
 
 if __name__ == "__main__":
-    for make in (billiard_break, billiards, heap, lottery, settling, shaken_discs, raft):
+    for make in (billiard_break, billiards, force_network, heap, lottery, settling, shaken_discs, raft):
         make()

@@ -122,6 +122,10 @@ const player = {
     button.textContent = 'Play';
   },
   draw,
+  /** Width [device pixels] and colour of the line of each contact of the shown frame. */
+  contacts: () => Array.from({length: lines.count},
+                             (_, i) => ({width: widthOf(i), colour: colours[colourOf(i)]})),
+  particles: () => pageRadius.filter(r => r > 0).length,  // that are shown
   first: firstTime,
   last: lastTime,
 };

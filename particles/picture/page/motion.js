@@ -12,8 +12,9 @@ function bytes(id) {
 const motion = JSON.parse(text('motion'));
 const dim = motion.dimension, flat = dim === 2;
 const style = motion.style;  // SceneStyle of particles/picture/scene.hpp
-// Lower left corner and lengths of the cell; a length is 0 where the motion has no period.
-const [cellX, cellY, periodX, periodY] = motion.cell;
+// Corner with the smallest coordinates and lengths of the cell; a length is 0 where the motion has no
+// period.
+const [cellX, cellY, cellZ, periodX, periodY, periodZ] = motion.cell;
 const radii = new Float32Array(bytes('radii')), times = new Float64Array(bytes('times'));
 // The ids of the particles in the files. Without this block, the id of particle k is k.
 const ids = document.getElementById('ids') ? new Int32Array(bytes('ids')) : null;
@@ -26,11 +27,13 @@ const writtenAngles = optional('angles', Float32Array);
 // none).
 const writtenOrientations = optional('orientations', Float32Array);
 const bodies = optional('bodies', Int32Array);
+// The frame in which each particle is there first, if some are poured in later.
+const firstFrames = optional('firstFrames', Int32Array);
 // Two semi-axes of each particle, the first one along its angle, if there are ellipses.
 const semiAxes = optional('semiAxes', Float32Array);
 // 1 for each plate with round ends: its semi-axes are half of its length and the radius of its ends.
 const plates = optional('plates', Int8Array);
-// Of each pair: x + 3 y, where the second particle is shifted by x and y periods.
+// Of each pair: x + 3 y + 9 z, where the second particle is shifted by x, y and z periods.
 const images = optional('images', Int8Array);
 const pairs = new Int32Array(bytes('pairs')), offsets = new Uint32Array(bytes('offsets'));
 const contactBytes = new Uint8Array(bytes('contacts'));
@@ -48,12 +51,15 @@ const orientations = new Float32Array(writtenOrientations ? 4 * count : 0);
 // The obstacles at the present time: {point, normal, radius}. An obstacle with a radius > 0 is a
 // circle about `point`, and its normal is 0; an obstacle with the radius 0 is a plane.
 let planes = [];
+let presentFrame = 0;  // the last frame that is not after the present time
 const lines = {
   frame: -1,
   count: 0,
   pair: new Int32Array(pairs.length / 2),
   level: new Uint8Array(pairs.length / 2),
-  friction: new Uint8Array(pairs.length / 2),  // 0 none, 1 sticks, 2 slides
+  // Friction as a share of Coulomb's bound, 0 to 254, or 255 if the contact slides.
+  friction: new Uint8Array(pairs.length / 2),
+  force: new Uint8Array(pairs.length / 2),  // normal force, 0 to 255 for the widest lines
 };
 
 /** The frame at or before a time, and the share (0 to 1) of the way to the next frame. */
@@ -72,7 +78,7 @@ function setTime(time) {
   const {frame, share} = placeOf(time), n = count * dim;
   const from = frame * n, to = Math.min(frame + 1, frames - 1) * n;
   for (let d = 0; d < dim; ++d) {
-    const period = [periodX, periodY, 0][d], begin = [cellX, cellY, 0][d];
+    const period = [periodX, periodY, periodZ][d], begin = [cellX, cellY, cellZ][d];
     for (let i = d; i < n; i += dim) {
       const here = motion.low[d] + motion.step[d] * written[from + i];
       let move = motion.low[d] + motion.step[d] * written[to + i] - here;
@@ -95,6 +101,7 @@ function setTime(time) {
     const normal = x.slice(3).map(v => (radius ? 0 : v / length));
     planes.push({point: x.slice(0, 3), normal, radius});
   }
+  presentFrame = frame + (share === 1 ? 1 : 0);
   readContacts(Math.min(frames - 1, frame + Math.round(share)));
 }
 
@@ -117,7 +124,8 @@ function setOrientations(frame, next, share) {
 /**
  * Decodes the contacts of a frame. The bytes of a contact are the index of its pair minus that of
  * the contact before (seven bits in each byte, low ones first), the level 0 to 255 of the impulse
- * that its film has taken, and, if there is friction, whether it sticks or slides.
+ * that its film has taken, if there is friction its share of Coulomb's bound, and, if there are
+ * forces, the share of the largest one.
  */
 function readContacts(frame) {
   if (lines.frame === frame) return;
@@ -134,6 +142,7 @@ function readContacts(frame) {
     pair += step;
     lines.pair[lines.count] = pair;
     lines.level[lines.count] = contactBytes[at++];
-    lines.friction[lines.count++] = motion.sliding ? contactBytes[at++] : 0;
+    lines.friction[lines.count] = motion.friction.length ? contactBytes[at++] : 0;
+    lines.force[lines.count++] = motion.hasForces ? contactBytes[at++] : 0;
   }
 }

@@ -65,7 +65,8 @@ function placeParticles() {
     const p = project(x, y, z);
     pageX[k] = p.x;
     pageY[k] = p.y;
-    pageRadius[k] = p.near * view.scale * radii[k];
+    const isThere = !firstFrames || presentFrame >= firstFrames[k];
+    pageRadius[k] = isThere ? p.near * view.scale * radii[k] : 0;
     if (!flat) depths[k] = axes[2][0] * x + axes[2][1] * y + axes[2][2] * z;
   }
   if (!flat) sortByDepth();
@@ -138,6 +139,7 @@ function drawDiscs() {
       for (const shiftY of besideY ? [0, besideY] : [0]) {
         const pageAtX = pageX[k] + view.scale * shiftX, pageAtY = pageY[k] - view.scale * shiftY;
         const size = pageRadius[k];
+        if (!size) continue;
         if (pageAtX < -size || pageAtX > canvas.width + size) continue;
         if (pageAtY < -size || pageAtY > canvas.height + size) continue;
         if (semiAxes) drawEllipse(k, pageAtX, pageAtY);
@@ -201,18 +203,24 @@ function drawAxes(k) {
     }
 }
 
+/** The place on the page of an image of a particle; each call overwrites it. */
+const shifted = (k, shift, sign) =>
+  project(...[0, 1, 2].map(d => (d < dim ? positions[k * dim + d] + sign * shift[d] : 0)));
+
 /**
  * Calls line(x1, y1, x2, y2) for the line on the page from one particle to the nearest image of
  * another; twice if it crosses a period.
  */
 function betweenParticles(first, second, line) {
-  const shift = [periodX, periodY].map((period, d) => {
+  const shift = [periodX, periodY, periodZ].map((period, d) => {
     const apart = positions[second * dim + d] - positions[first * dim + d];
     return period ? -period * Math.round(apart / period) : 0;
   });
-  const x = shift[0] * view.scale, y = -shift[1] * view.scale;
-  line(pageX[first], pageY[first], pageX[second] + x, pageY[second] + y);
-  if (x || y) line(pageX[first] - x, pageY[first] - y, pageX[second], pageY[second]);
+  const beyond = shifted(second, shift, 1);
+  line(pageX[first], pageY[first], beyond.x, beyond.y);
+  if (!shift.some(s => s)) return;
+  const before = shifted(first, shift, -1);
+  line(before.x, before.y, pageX[second], pageY[second]);
 }
 const traceLine = (x1, y1, x2, y2) => { pen.moveTo(x1, y1); pen.lineTo(x2, y2); };
 const between = (low, x, high) => Math.min(high, Math.max(low, x));
@@ -282,13 +290,16 @@ function drawLinks() {
 
 let withContacts = true;  // whether the reader wants to see them
 
-// The colours of contacts: index 0 is for gamma = 0, the others for gamma < 0 from light to dark.
-// The last colour is for contacts that slide.
-const colours = [motion.touching, ...motion.colours, ...(motion.sliding ? [motion.sliding] : [])];
+// The colours of contacts: first for gamma = 0, from no friction to contacts that slide, then for
+// gamma < 0 from light to dark.
+const ofFriction = motion.friction.length ? motion.friction : [motion.touching];
+const colours = [...ofFriction, ...motion.colours];
+const slides = i => lines.friction[i] === 255;
 function colourOf(i) {
-  if (lines.friction[i] === 2) return colours.length - 1;
   const level = lines.level[i];
-  return level === 0 ? 0 : 1 + Math.round(level / 255 * (motion.colours.length - 1));
+  return level === 0 || slides(i)
+    ? Math.round(lines.friction[i] / 255 * (ofFriction.length - 1))
+    : ofFriction.length + Math.round(level / 255 * (motion.colours.length - 1));
 }
 
 /** The ends on the page of the line in the middle of a plate; twice the centre of another disc. */
@@ -334,11 +345,13 @@ function traceContact(i) {
     pen.moveTo(p.x, p.y);
   } else if (image) {
     // Across a period the line is drawn at both sides of the cell.
-    const x = ((image + 4) % 3 - 1) * periodX * view.scale;
-    const y = -(Math.floor((image + 4) / 3) - 1) * periodY * view.scale;
+    const shift = [periodX, periodY, periodZ].map(
+      (period, d) => (Math.floor((image + 13) / 3 ** d) % 3 - 1) * period);
     pen.moveTo(pageX[first], pageY[first]);
-    pen.lineTo(pageX[second] + x, pageY[second] + y);
-    pen.moveTo(pageX[first] - x, pageY[first] - y);
+    const beyond = shifted(second, shift, 1);
+    pen.lineTo(beyond.x, beyond.y);
+    const before = shifted(first, shift, -1);
+    pen.moveTo(before.x, before.y);
   } else if (plates) {
     traceBetweenSpines(first, second);
     return;
@@ -351,7 +364,13 @@ function traceContact(i) {
 function widthOf(i) {
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
   const r = first < 0 ? pageRadius[second] : Math.min(pageRadius[first], pageRadius[second]);
-  return lines.level[i] === 0 && lines.friction[i] !== 2
+  if (motion.hasForces) {
+    const scale = pageRadius[second] / radii[second];
+    const widest = Math.min(20 * dots, style.forceLine * scale * motion.meanRadius);
+    const least = lines.level[i] === 0 ? 0.5 : Math.min(3 * dots, Math.max(1, style.filmLine * r));
+    return Math.max(least, widest * lines.force[i] / 255);
+  }
+  return lines.level[i] === 0 && !slides(i)
     ? Math.min(1.5 * dots, Math.max(0.5, 0.08 * r))
     : Math.min(9 * dots, Math.max(1, 0.3 * r));
 }
@@ -362,21 +381,21 @@ const contactSeen = i => {
 };
 
 /**
- * Draws the contacts, one colour after the other; the width is that for a particle of mean size.
+ * Draws the contacts, wide lines over thin ones. All of one width, in quarters of a pixel, and one
+ * colour are drawn at once.
  */
 function drawContacts() {
-  for (let c = 0; c < colours.length; ++c) {
-    let width = 0, drawn = 0;
+  const kinds = new Map();
+  for (let i = 0; i < lines.count; ++i) {
+    if (!contactSeen(i)) continue;
+    const kind = Math.round(4 * widthOf(i)) * 256 + colourOf(i);
+    if (kinds.has(kind)) kinds.get(kind).push(i); else kinds.set(kind, [i]);
+  }
+  for (const kind of [...kinds.keys()].sort((a, b) => a - b)) {
     pen.beginPath();
-    for (let i = 0; i < lines.count; ++i)
-      if (colourOf(i) === c && contactSeen(i)) {
-        traceContact(i);
-        width += widthOf(i);
-        ++drawn;
-      }
-    if (!drawn) continue;
-    pen.strokeStyle = colours[c];
-    pen.lineWidth = width / drawn;
+    kinds.get(kind).forEach(traceContact);
+    pen.strokeStyle = colours[kind % 256];
+    pen.lineWidth = Math.floor(kind / 256) / 4;
     pen.stroke();
   }
 }

@@ -11,6 +11,7 @@
 
 #include "tests/common/failure.hpp"
 #include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/particles/arrangement/species.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -18,6 +19,14 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr double kGap = 0.05;
+
+std::vector<double> equal(std::size_t count) { return std::vector<double>(count, 1); }
+
+/// As many radii of 1 as cover about this fraction of the domain.
+std::vector<double> covering(double fraction, const Domain& domain) {
+  return equal(static_cast<std::size_t>(
+      std::max(1.0, std::round(fraction * size_of(domain) / std::numbers::pi))));
+}
 
 double shortest(double difference, double period) {
   return period > 0 ? std::remainder(difference, period) : difference;
@@ -67,9 +76,9 @@ TEST(Arrangement, HasItsGapsInEachDomainUpToTheAreaFraction06) {
   for (const auto& domain : domains())
     for (const double fraction : {0.02, 0.3, 0.5, 0.6})
       for (const std::uint64_t seed : {1U, 2U, 3U}) {
-        const auto count = count_of(fraction, 1, domain);
-        const auto x = arrange({count, 1, kGap, seed}, domain, {});
-        ASSERT_EQ(x.size(), 2 * count);
+        const auto radii = covering(fraction, domain);
+        const auto x = arrange({radii, kGap, seed}, domain, {});
+        ASSERT_EQ(x.size(), 2 * radii.size());
         // The test computes distances in another order, with other rounding errors.
         EXPECT_GE(smallest_gap(x, domain), kGap - 1e-13) << fraction << " " << seed;
         EXPECT_GE(smallest_gap_to_walls(x, domain), kGap - 1e-13) << fraction << " " << seed;
@@ -78,13 +87,13 @@ TEST(Arrangement, HasItsGapsInEachDomainUpToTheAreaFraction06) {
 
 TEST(Arrangement, IsDecidedByItsSeed) {
   const auto& domain = domains()[0];
-  const auto one = arrange({64, 1, kGap, 1}, domain, {});
-  EXPECT_EQ(arrange({64, 1, kGap, 1}, domain, {}), one);
-  EXPECT_NE(arrange({64, 1, kGap, 2}, domain, {}), one);
+  const auto one = arrange({equal(64), kGap, 1}, domain, {});
+  EXPECT_EQ(arrange({equal(64), kGap, 1}, domain, {}), one);
+  EXPECT_NE(arrange({equal(64), kGap, 2}, domain, {}), one);
 }
 
 TEST(Arrangement, HasTheSameBitsOnEveryMachine) {
-  const auto x = arrange({64, 1, kGap, 1}, domains()[0], {});
+  const auto x = arrange({equal(64), kGap, 1}, domains()[0], {});
   EXPECT_EQ(sha256({reinterpret_cast<const char*>(x.data()), x.size() * sizeof(double)}),
             "e66ec1fb135deca48cf7587e436930724ff0e6af2557178f6d13409944d9390f");
 }
@@ -94,20 +103,66 @@ TEST(Arrangement, LeavesTheGapsToPresentParticles) {
   Particles present;
   present.positions = {2, -1};
   present.radii = {5};
-  const auto x = arrange({25, 1, kGap, 1}, domain, present);
+  const auto x = arrange({equal(25), kGap, 1}, domain, present);
   for (std::size_t i = 0; i < x.size(); i += 2)
     EXPECT_GE(std::hypot(x[i] - 2, x[i + 1] + 1), 6 + kGap - 1e-13);
   EXPECT_GE(smallest_gap(x, domain), kGap - 1e-13);
 }
 
-TEST(Arrangement, CountIsTheNearestToTheFraction) {
-  const Domain box = BoxDomain{{0, 0}, {20, 20}, {}};
-  EXPECT_EQ(count_of(0.5, 1, box), 64U);  // 63.66
-  EXPECT_EQ(count_of(0.3, 1, box), 38U);  // 38.20
-  EXPECT_EQ(count_of(0.3, 2, box), 10U);  // 9.55
-  EXPECT_EQ(count_of(1e-6, 1, box), 1U);
-  EXPECT_EQ(count_of(0.3, 1, DiscDomain{{}, 10}), 30U);
-  EXPECT_DOUBLE_EQ(area_of(DiscDomain{{}, 10}), 100 * std::numbers::pi);
+/// The smallest gap of two spheres or discs of these radii, across periodic sides too, and of one and
+/// a wall of the box.
+double smallest_gap_in_box(const std::vector<double>& x, const std::vector<double>& radii,
+                           const BoxDomain& box) {
+  const auto n = box.dimension();
+  const auto periods = periods_of(box);
+  double gap = 1e300;
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    for (std::size_t d = 0; d < n; ++d)
+      if (!box.periodic[d])
+        gap = std::min(
+            {gap, x[n * i + d] - box.from[d] - radii[i], box.to[d] - x[n * i + d] - radii[i]});
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      Vector apart{};
+      for (std::size_t d = 0; d < n; ++d)
+        apart[d] = shortest(x[n * i + d] - x[n * j + d], periods[d]);
+      gap = std::min(gap, norm(apart) - radii[i] - radii[j]);
+    }
+  return gap;
+}
+
+TEST(Arrangement, OfSeveralSizesHasItsGapsInTwoAndThreeDimensions) {
+  const DrawnSpecies species(
+      {{.radius = {.kind = RadiusDistribution::Kind::kLognormal, .median = 1, .sigma = 0.3}},
+       {.radius = {.list = {0.5, 2}}, .share = 0.5}},
+      3, 7);
+  for (const auto& box : {BoxDomain{{-3, 5}, {40, 45}, {true, true}},
+                          BoxDomain{{0, 0, 1}, {20, 18, 24}, {true, true, false}},
+                          BoxDomain{{0, 0, 0}, {18, 18, 18}, {true, true, true}},
+                          BoxDomain{{0, 0, 0}, {18, 19, 20}, {}}}) {
+    const bool is_flat = box.dimension() == 2;
+    Arrangement asked{.radii = {}, .smallest_gap = kGap, .seed = 3};
+    for (const auto& particle :
+         drawn_to_size(species, is_flat ? 2 : 3, (is_flat ? 0.6 : 0.4) * box.measure(), 10000))
+      asked.radii.push_back(particle.radius);
+    const auto x = arrange(asked, box, {});
+    ASSERT_EQ(x.size(), box.dimension() * asked.radii.size());
+    EXPECT_GE(smallest_gap_in_box(x, asked.radii, box), kGap - 1e-13);
+    const double share = size_of(asked, is_flat ? 2 : 3) / box.measure();
+    EXPECT_NEAR(share, is_flat ? 0.6 : 0.4, 0.01);
+  }
+}
+
+TEST(Arrangement, OfSpheresHasTheSameBitsOnEveryMachine) {
+  const BoxDomain box{{0, 0, 0}, {10, 10, 10}, {true, true, false}};
+  Arrangement asked{.radii = {}, .smallest_gap = kGap, .seed = 1};
+  const DrawnSpecies species(
+      {{.radius = {.kind = RadiusDistribution::Kind::kLognormal, .median = 1, .sigma = 0.1}}}, 3,
+      1);
+  for (const auto& particle : drawn(species, 50)) asked.radii.push_back(particle.radius);
+  const auto x = arrange(asked, box, {});
+  EXPECT_EQ(sha256({reinterpret_cast<const char*>(x.data()), x.size() * sizeof(double)}),
+            "ccb48cd13deaa444664b26d251939807acea6a6c137edacd21627a74276fb909");
 }
 
 TEST(Arrangement, IsUniformInAPeriodicBox) {
@@ -117,7 +172,7 @@ TEST(Arrangement, IsUniformInAPeriodicBox) {
   const Domain box = BoxDomain{{0, 0}, {20, 20}, {true, true}};
   double first = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    const auto x = arrange({64, 1, kGap, seed}, box, {});
+    const auto x = arrange({equal(64), kGap, seed}, box, {});
     for (std::size_t i = 0; i < x.size(); i += 2) first += x[i] < 10 && x[i + 1] < 10 ? 1 : 0;
   }
   EXPECT_NEAR(first / 100, 16, 1.4);
@@ -130,7 +185,7 @@ TEST(Arrangement, OfTwoDiscsHasAllPlacesEquallyOften) {
   const Domain box = BoxDomain{{0, 0}, {10, 10}, {true, true}};
   int close = 0;
   for (std::uint64_t seed = 0; seed < 1000; ++seed)
-    close += smallest_gap(arrange({2, 1, kGap, seed}, box, {}), box) < 2 ? 1 : 0;
+    close += smallest_gap(arrange({equal(2), kGap, seed}, box, {}), box) < 2 ? 1 : 0;
   const double pi = std::numbers::pi;
   EXPECT_NEAR(close / 1000.0, (16 - 2.05 * 2.05) * pi / (100 - pi * 2.05 * 2.05), 4 * 0.016);
 }
@@ -140,12 +195,13 @@ TEST(Arrangement, WhatDoesNotFitIsRefused) {
     return bad_input([&] { arrange(asked, domain, {}); });
   };
   const Domain box = BoxDomain{{0, 0}, {20, 20}, {}};
-  EXPECT_THAT(refused({110, 1, kGap, 1}, box), HasSubstr("the densest lattice has no room"));
-  EXPECT_THAT(refused({95, 1, 0, 1}, BoxDomain{{0, 0}, {2.1, 180}, {}}),
+  EXPECT_THAT(refused({equal(110), kGap, 1}, box), HasSubstr("the densest lattice has no room"));
+  EXPECT_THAT(refused({equal(95), 0, 1}, BoxDomain{{0, 0}, {2.1, 180}, {}}),
               HasSubstr("95 discs of radius 1 with gaps of at least 0 do not fit (10 random"));
-  EXPECT_THAT(refused({1, 1, kGap, 1}, DiscDomain{{}, 1.04}), HasSubstr("narrower than one disc"));
-  EXPECT_THAT(refused({1, 1, kGap, 1}, BoxDomain{{0, 0}, {2.04, 9}, {true, true}}),
-              HasSubstr("a period is shorter than one disc"));
+  EXPECT_THAT(refused({equal(1), kGap, 1}, DiscDomain{{}, 1.04}),
+              HasSubstr("narrower than one of them"));
+  EXPECT_THAT(refused({equal(1), kGap, 1}, BoxDomain{{0, 0}, {2.04, 9}, {true, true}}),
+              HasSubstr("a period is shorter than one of them"));
 }
 
 }  // namespace

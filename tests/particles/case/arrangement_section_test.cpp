@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/common/failure.hpp"
 #include "tests/particles/case/fluid_cases.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
@@ -96,7 +98,102 @@ TEST(ArrangementSection, WrongKeysAreRefusedAtTheirLine) {
   Particles spheres;
   spheres.dimension = 3;
   EXPECT_THAT(bad_input([&] { read("count = 2\nradius = 1.0\n", {}, false, spheres); }),
-              HasSubstr("space.dimension must be 2"));
+              HasSubstr("needs a section [domain] with a disc or a box"));
+}
+
+const Domain kCuboid = BoxDomain{{0, 0, 0}, {20, 10, 15}, {true, true, false}};
+
+Particles read_spheres(const std::string& keys) {
+  Particles p;
+  p.dimension = 3;
+  return read(keys, kCuboid, false, p);
+}
+
+TEST(ArrangementSection, PlacesSpheresOfSeveralSpecies) {
+  const auto p = read_spheres(
+      "count = 90\nspecies = [ { radius = 1.0, share = 2.0, density = 3.0 },\n"
+      "{ radius = { lognormal = { median = 0.7, sigma = 0.1 } }, mass = 5.0 } ]\n");
+  EXPECT_THAT(p.positions, SizeIs(270));
+  EXPECT_EQ(std::ranges::count(p.radii, 1.0), 60);
+  EXPECT_EQ(std::ranges::count(p.masses, 5.0), 30);
+  for (std::size_t k = 0; k < p.count(); ++k)
+    EXPECT_DOUBLE_EQ(p.masses[k], p.radii[k] == 1 ? 3 * size_of_particle(3, 1) : 5.0);
+  const auto uniform =
+      read_spheres("volume_fraction = 0.2\nradius = { uniform = [0.5, 1.0] }\ndensity = 1.0\n");
+  double volume = 0;
+  for (std::size_t k = 0; k < uniform.count(); ++k) {
+    EXPECT_TRUE(0.5 <= uniform.radii[k] && uniform.radii[k] < 1);
+    volume += uniform.masses[k];
+  }
+  EXPECT_NEAR(volume, 0.2 * 3000, size_of_particle(3, 1));
+  EXPECT_THAT(read_spheres("count = 4\nradius = [0.5, 1.0]\nmass = 1.0\n").radii,
+              ElementsAre(0.5, 1.0, 0.5, 1.0));
+}
+
+TEST(ArrangementSection, WrongSpeciesAreRefusedAtTheirLine) {
+  const auto refused = [](const std::string& keys) {
+    return bad_input([&] { read_spheres("count = 2\n" + keys); });
+  };
+  EXPECT_THAT(refused("species = [ { radius = 1.0, mass = 1.0 } ]\nradius = 1.0\n"),
+              HasSubstr("case.toml:5: arrangement.radius must be left out, because species"));
+  EXPECT_THAT(refused("species = [ { radius = 1.0 } ]\n"),
+              HasSubstr("case.toml:4: arrangement.species[0].mass is missing"));
+  EXPECT_THAT(refused("radius = { uniform = [1.0, 0.5] }\nmass = 1.0\n"),
+              HasSubstr("arrangement.radius.uniform must be two numbers"));
+  EXPECT_THAT(refused("radius = { uniform = [0.5, 1.0], lognormal = { median = 1.0, sigma = 0.1 "
+                      "} }\nmass = 1.0\n"),
+              HasSubstr("must have one of them"));
+  EXPECT_THAT(refused("radius = { lognormal = { median = 1.0, sigma = 2.0 } }\nmass = 1.0\n"),
+              HasSubstr("sigma is 2; it must be a number from 1e-6 to 1"));
+  EXPECT_THAT(refused("radius = 1.0\ndensity = 0.0\n"), HasSubstr("must have a mass"));
+  EXPECT_THAT(bad_input([] { read_spheres("area_fraction = 0.1\nradius = 1.0\nmass = 1.0\n"); }),
+              HasSubstr("arrangement.area_fraction must be volume_fraction in 3 dimensions"));
+}
+
+/// A case of discs in a box, into which [[source]] pours others.
+std::string poured(const std::string& source, const std::string& rest = "") {
+  return "title = \"Poured\"\n[space]\ndimension = 2\n[domain]\nbox = { from = [0.0, 0.0], to = "
+         "[10.0, 20.0] }\n[viscous_contact]\ntime_step = 0.01\nend_time = 5.0\ngamma_min = 0.0\n" +
+         rest + "[[source]]\n" + source;
+}
+
+TEST(SourceSection, HasDefaultsAndRatesFromNumbers) {
+  const std::string keys =
+      "radius = 0.5\nmass = 1.0\nregion = { from = [1.0, 15.0], to = [9.0, 19.0] }\n";
+  const auto c = read_particles_text(poured(keys + "rate = 2.0\n[[source]]\n" + keys +
+                                            "number = 30\nfrom = 1.0\nuntil = 4.0\n"
+                                            "velocity = [0.0, -3.0]\n"));
+  ASSERT_THAT(c.setting.sources, SizeIs(2));
+  const auto& first = c.setting.sources[0];
+  EXPECT_EQ(first.begin, 0);
+  EXPECT_EQ(first.end, 5);
+  EXPECT_EQ(first.rate, 2);
+  EXPECT_EQ(first.velocity, Vector{});
+  EXPECT_EQ(first.due(5), 11U);
+  const auto& second = c.setting.sources[1];
+  EXPECT_EQ(second.rate, 10);
+  EXPECT_EQ(second.due(4), 30U);
+  EXPECT_EQ(second.velocity[1], -3);
+  EXPECT_NE(first.seed, second.seed);
+  EXPECT_EQ(c.particles.count(), 0U);
+}
+
+TEST(SourceSection, WrongKeysAreRefusedAtTheirLine) {
+  const std::string region = "region = { from = [1.0, 15.0], to = [9.0, 19.0] }\n";
+  const std::string disc = "radius = 0.5\nmass = 1.0\n";
+  expect_refused_at(poured(disc + region), "[[source]]", "rate and number are missing");
+  expect_refused_at(poured(disc + region + "rate = 1.0\nfrom = 2.0\nuntil = 1.0\n"), "until = 1.0",
+                    "it must be later than from, 2");
+  expect_refused_at(poured(disc + "region = { from = [1.0, 15.0], to = [11.0, 19.0] }\nrate = 1.0"),
+                    "region", "has the corner (11, 15), which is outside the domain");
+  expect_refused_at(poured(disc + "region = { from = [1.0, 15.0], to = [0.0, 19.0] }\nrate = 1.0"),
+                    "region", "it must be at least 1");
+  expect_refused_at(poured(disc + region + "rate = 1e9\n"), "rate", "at most 1000000 are allowed");
+  EXPECT_THAT(
+      bad_input([&] { read_particles_text(poured(disc + region + "rate = 1.0\nfrom = 1.0\n")); }),
+      HasSubstr("or a [[source]] that begins at time 0"));
+  expect_refused_at(poured(disc + region + "rate = 1.0\n", "[fluid]\nviscosity = 1.0\n"), "region",
+                    "the case must not have a section [fluid]");
 }
 
 TEST(ArrangementSection, GapInAFluidIsJudgedWithoutTheSeed) {

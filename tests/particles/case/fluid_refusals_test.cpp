@@ -256,7 +256,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "it must be a cylinder = { radius, height }"},
         Refusal{"DiscInSpace", kDryDiscs, "dimension = 2",
                 "dimension = 3\n[domain]\ndisc = { radius = 9.0 }",
-                "disc = ", "in three dimensions [domain] must be left out"}),
+                "disc = ", "it must be a box = { from, to, periodic }"}),
     name_of);
 
 Refusal in_particle(const std::string& name, std::string_view text, const std::string& line,

@@ -284,7 +284,7 @@ TEST(DomainCase, IsAllowedWithoutAFluid) {
               "[domain]\nbox = { from = [0.0, 0.0], to = [2.0, 6.0], periodic = [true, false] }\n"
               "[viscous_contact]"));
   EXPECT_FALSE(c.setting.fluid);
-  EXPECT_THAT(periods_of(c.setting.domain), ElementsAre(2, 0));
+  EXPECT_THAT(periods_of(c.setting.domain), ElementsAre(2, 0, 0));
   EXPECT_THAT(c.particles.angles, IsEmpty());
 }
 

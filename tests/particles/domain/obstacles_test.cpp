@@ -30,6 +30,14 @@ TEST(Obstacles, OfABoxAreLeftRightBottomTop) {
   EXPECT_TRUE(obstacles_of(box).empty());
 }
 
+TEST(Obstacles, OfACuboidAreLeftRightFrontBackBottomTop) {
+  BoxDomain box{{-1, -2, -3}, {3, 7, 5}, {}};
+  EXPECT_EQ(gaps_of(box, {0, 0, 0}, 0.5), (std::vector<double>{0.5, 2.5, 1.5, 6.5, 2.5, 4.5}));
+  box.periodic = {true, true, false};
+  EXPECT_EQ(gaps_of(box, {0, 0, 0}, 0.5), (std::vector<double>{2.5, 4.5}));
+  EXPECT_EQ(box.measure(), 4 * 9 * 8);
+}
+
 TEST(Obstacles, OfACylinderAreSideFloorLid) {
   EXPECT_EQ(gaps_of(CylinderDomain{5, 10}, {3, 0, 0}, 1), (std::vector<double>{4, 2, 6}));
   // The side does not push along the axis.

@@ -34,11 +34,22 @@ TEST(Periods, NumbersOfImagesGiveTheirShifts) {
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x) {
       const auto image = image_number(x, y);
-      EXPECT_EQ(image, (x + 1) + 3 * (y + 1) - 4);
+      EXPECT_EQ(image, (x + 1) + 3 * (y + 1) - 4);  // the number in restart files
       EXPECT_EQ(shift_of(cell, image), (Vector{4.0 * x, 3.0 * y, 0}));
       numbers.insert(image);
     }
   EXPECT_EQ(numbers.size(), 9U);
+  const auto cuboid = cell_of(BoxDomain{{1, 2, 3}, {5, 8, 5}, {true, true, true}});
+  numbers.clear();
+  for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
+    const auto [x, y, z] = periods_of_image(image);
+    EXPECT_EQ(image_number(x, y, z), image);
+    EXPECT_EQ(shift_of(cuboid, image), (Vector{4.0 * x, 6.0 * y, 2.0 * z}));
+    EXPECT_TRUE(has_image(cuboid, image));
+    EXPECT_EQ(has_image(cell, image), z == 0);
+    numbers.insert(image);
+  }
+  EXPECT_EQ(numbers.size(), 27U);
 }
 
 TEST(Periods, BringACoordinateIntoTheCell) {
@@ -61,12 +72,12 @@ std::vector<ClosePair> all_close_pairs(const PeriodicCell& cell, const std::vect
       for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
         const Vector shift = shift_of(cell, image);
         const auto a = index_of(i), b = index_of(j);
-        if (image != 0 && norm(shift) == 0) continue;
-        if (cell.lengths[0] == 0 && periods_of_image(image)[0] != 0) continue;
-        if (cell.lengths[1] == 0 && periods_of_image(image)[1] != 0) continue;
-        if (std::hypot(x[2 * b] + shift[0] - x[2 * a], x[2 * b + 1] + shift[1] - x[2 * a + 1]) <
-            extents[a] + extents[b])
-          pairs.push_back({i, j, image});
+        if (!has_image(cell, image)) continue;
+        const auto dimension = x.size() / extents.size();
+        Vector apart = shift;
+        for (std::size_t d = 0; d < dimension; ++d)
+          apart[d] += x[dimension * b + d] - x[dimension * a + d];
+        if (norm(apart) < extents[a] + extents[b]) pairs.push_back({i, j, image});
       }
   return pairs;
 }
@@ -81,6 +92,25 @@ TEST(ClosePairsInPeriod, AreThoseOfTheDefinition) {
       // Up to a tenth of a period outside the cell.
       x.push_back(random.uniform(-1.7, 6.7));
       x.push_back(random.uniform(1.5, 7.5));
+      extents.push_back(random.decades(-1.5, 0.3));
+    }
+    const auto expected = all_close_pairs(cell, x, extents);
+    EXPECT_EQ(close_pairs_in_period(cell, x, extents, pool), expected);
+    EXPECT_GT(std::ranges::count_if(expected, [](const auto& pair) { return pair.image != 0; }),
+              10);
+  }
+}
+
+TEST(ClosePairsInPeriod, AreThoseOfTheDefinitionInThreeDimensions) {
+  Random random(4);
+  ThreadPool pool(1);
+  for (int periods = 1; periods < 8; ++periods) {
+    const auto cell = cell_of(BoxDomain{
+        {-1, 2, 0}, {6, 7, 6}, {(periods & 1) != 0, (periods & 2) != 0, (periods & 4) != 0}});
+    std::vector<double> x, extents;
+    for (int k = 0; k < 80; ++k) {
+      x.insert(x.end(),
+               {random.uniform(-1.7, 6.7), random.uniform(1.5, 7.5), random.uniform(-0.6, 6.6)});
       extents.push_back(random.decades(-1.5, 0.3));
     }
     const auto expected = all_close_pairs(cell, x, extents);
@@ -153,6 +183,70 @@ TEST(PeriodicSimulation, KeepsMomentumAndGapsAcrossTheSides) {
   });
   EXPECT_LT(norm(momentum(simulation.state().particles) - before), 1e-12);
   EXPECT_GT(glued_across, 10U);
+}
+
+/// lively_discs() in three dimensions.
+Simulation lively_spheres(const Vector& shift, const std::array<bool, 3>& periodic) {
+  Setting setting;
+  setting.domain = BoxDomain{shift, Vector{7, 8, 7.5} + shift, periodic};
+  setting.laws.film.gamma_min = -0.5;
+  setting.time_step = 0.02;
+  Random random(12);
+  State state = random_cloud(
+      3, 120, 5, [&] { return random.uniform(0.4, 0.6); }, random);
+  auto& p = state.particles;
+  for (std::size_t k = 0; k < p.count(); ++k)
+    for (std::size_t d = 0; d < 3; ++d) {
+      p.positions[3 * k + d] += 3.5 + shift[d];
+      p.velocities[3 * k + d] = random.uniform(-1, 1);
+    }
+  return {setting, state, 2};
+}
+
+TEST(PeriodicSimulation, DoesNotSeeTheSidesOfACuboid) {
+  const Vector shift = {2.5, 3.25, 1.75}, periods = {7, 8, 7.5};
+  auto here = lively_spheres({}, {true, true, true});
+  // The same places in a cell that begins elsewhere: other particles are at its sides.
+  auto setting = here.setting();
+  setting.domain = BoxDomain{shift, periods + shift, {true, true, true}};
+  Simulation there(setting, here.state(), 1);
+  const Vector momentum_before = momentum(here.state().particles);
+  std::set<std::int32_t> glued_across;
+  run(here, 1, [&](const StepReport& report) {
+    ASSERT_TRUE(report.converged);
+    ASSERT_LT(largest_overlap(here.setting(), here.state()), 2e-6);
+    for (const auto& pair : here.state().pairs)
+      if (pair.gamma < 0 && pair.image != 0) glued_across.insert(pair.image);
+  });
+  run(there, 1);
+  const auto &p = here.state().particles, &q = there.state().particles;
+  std::array<std::size_t, 3> across{};
+  for (std::size_t i = 0; i < p.positions.size(); ++i) {
+    const auto d = i % 3;
+    const double x = q.positions[i] - p.positions[i];
+    EXPECT_NEAR(std::remainder(x, periods[d]), 0, 1e-12);
+    EXPECT_NEAR(q.velocities[i], p.velocities[i], 1e-12);
+    if (std::abs(x) > periods[d] / 2) ++across[d];
+    EXPECT_GE(p.positions[i], 0);
+    EXPECT_LT(p.positions[i], periods[d]);
+  }
+  for (const auto count : across) EXPECT_GT(count, 5U);
+  EXPECT_GE(glued_across.size(), 2U);
+  EXPECT_LT(norm(momentum(p) - momentum_before), 1e-12);
+}
+
+TEST(PeriodicSimulation, SpheresStayBetweenTheWallsOfACuboid) {
+  auto simulation = lively_spheres({1, 2, 3}, {true, false, true});
+  run(simulation, 4, [&](const StepReport& report) { ASSERT_TRUE(report.converged); });
+  const auto& p = simulation.state().particles;
+  std::size_t at_walls = 0;
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    const double below = p.positions[3 * k + 1] - p.radii[k] - 2;
+    const double above = 10 - p.positions[3 * k + 1] - p.radii[k];
+    EXPECT_GT(std::min(below, above), -1e-6);
+    at_walls += std::min(below, above) < 1e-6 ? 1U : 0U;
+  }
+  EXPECT_GT(at_walls, 5U);
 }
 
 /// Two discs that are pressed together, fly across a side and are pulled apart there: the film

@@ -212,15 +212,15 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
   });
   refused([](State& state) {
     add_particle(state, {5, 5, 0}, 1, 1);
-    state.pairs = {{0, 1, 0, 0, 0, 5}};
+    state.pairs = {{0, 1, 0, 0, 0, kLargestImage + 1}};
   });
 }
 
 TEST_F(RestartFile, OfALaterVersionIsRefused) {
-  for (const auto* version : {"version 11", "version :", "version 0", "version 6x"}) {
+  for (const auto* version : {"version 12", "version :", "version 0", "version 6x"}) {
     auto text = write_restart(disc_on_plane(-0.5));
     text.replace(text.find("version 6"), 9, version);
-    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 10 can be read"));
+    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 11 can be read"));
   }
 }
 

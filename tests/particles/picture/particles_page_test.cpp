@@ -8,6 +8,7 @@
 #include "tests/particles/picture/page_reader.hpp"
 #include "tests/particles/picture/playbacks.hpp"
 #include "viscontact/particles/picture/particles_picture.hpp"
+#include "viscontact/report/pictures/colours.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -169,6 +170,26 @@ TEST_P(ParticlesInBrowser, BodiesLinksTurnsAndContactsThatSlideAreDrawn) {
   EXPECT_THAT(found["legend"].get<std::string>(), HasSubstr("sliding"));
 }
 
+TEST_P(ParticlesInBrowser, WidthOfAContactIsItsForceAndItsColourTheMobilisedFriction) {
+  const auto found = read_page(particles_page(loaded_row(GetParam()), "Loaded"), R"JS(
+setTimeout(() => {
+  const contacts = window.viscontactPlayer.contacts();
+  tell({widths: contacts.map(({width}) => width / contacts[0].width),
+        colours: contacts.map(({colour}) => colour),
+        legend: document.querySelector('.legend').textContent});
+}, 100);
+)JS",
+                               700);
+  ASSERT_TRUE(found.is_object());
+  // A byte has the force, so that shares are right to half of 1/255.
+  EXPECT_EQ(found["widths"][0], 1);
+  EXPECT_NEAR(found["widths"][1], 0.5, 0.002);
+  EXPECT_NEAR(found["widths"][2], 0.25, 0.002);
+  EXPECT_EQ(found["colours"], (nlohmann::json{report::friction_colour(0.5), report::kSlidingColour,
+                                              report::kTouchingColour}));
+  EXPECT_THAT(found["legend"].get<std::string>(), HasSubstr("widest from 4 [mass × length/time²]"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Dimensions, ParticlesInBrowser, ::testing::Values(2, 3));
 
 TEST(ParticlesPage, OneParticleInOneFrameStands) {
@@ -184,6 +205,36 @@ TEST(ParticlesPage, OneParticleInOneFrameStands) {
   named.ids = {1207};
   EXPECT_EQ(read_page(particles_page(named, "One"), kReader, 1200)["readout"],
             "particle 1207: radius 0.5, at (3, 4), 0 contacts");
+}
+
+TEST_P(ParticlesInBrowser, ParticlesThatArePouredInAreShownFromTheirFirstFrameOn) {
+  auto playback = falling_row(GetParam(), 4, 5);
+  const auto dimension = static_cast<std::size_t>(GetParam());
+  // The last particle comes in the fourth of five frames.
+  for (std::size_t f = 0; f < 3; ++f) {
+    auto& frame = playback.frames[f];
+    std::fill_n(frame.positions.end() - GetParam(), dimension, std::nanf(""));
+    std::erase_if(frame.contacts, [](const auto& contact) { return contact.second == 3; });
+  }
+  const auto svg = particles_picture(playback, "Poured", 5);
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  std::size_t circles = 0;
+  for (auto at = svg.find("<circle "); at != std::string::npos; at = svg.find("<circle ", at + 1))
+    ++circles;
+  EXPECT_EQ(circles, 3 * 3U + 2 * 4U);
+  const auto found = read_page(particles_page(playback, "Poured"), R"JS(
+(async () => {
+  const player = window.viscontactPlayer, shown = [];
+  for (const time of [0, 1.2, 1.5, 2]) {
+    player.seek(time);
+    await new Promise(done => setTimeout(done, 60));
+    shown.push(player.particles());
+  }
+  tell(shown);
+})();
+)JS",
+                               700);
+  EXPECT_EQ(found, (nlohmann::json{3, 3, 4, 4}));
 }
 
 TEST(ParticlesPage, FetchesNothingAndTakesItsTitleAsText) {

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+#include <regex>
+
 #include "tests/common/regular_expressions.hpp"
 #include "tests/common/well_formed_xml.hpp"
 #include "tests/particles/picture/playbacks.hpp"
@@ -62,6 +65,33 @@ TEST(ParticlesPicture, ShowsBodiesLinksTurnsAndContactsThatSlide) {
     EXPECT_EQ(count_of("url(#body)", svg), dimension == 3 ? 4U : 0U);
   }
   EXPECT_THAT(particles_picture(falling_row(2, 5, 2), "Free", 2), Not(HasSubstr("orange")));
+}
+
+TEST(ParticlesPicture, WidthOfAContactIsItsForceAndItsColourTheMobilisedFriction) {
+  for (const int dimension : {2, 3}) {
+    const auto svg = particles_picture(loaded_row(dimension), "Loaded", 1);
+    SCOPED_TRACE(svg);
+    expect_well_formed_picture(svg);
+    // The widths are written with one digit in the plane, and the widest is at most 12.
+    std::map<std::string, double> widths;
+    const std::regex line("<path stroke=\"(#[0-9a-f]{6})\" stroke-width=\"([0-9.]+)\"");
+    for (auto at = std::sregex_iterator(svg.begin(), svg.end(), line); at != std::sregex_iterator();
+         ++at)
+      widths[(*at)[1]] = std::stod((*at)[2]);
+    EXPECT_EQ(widths.size(), 3U);
+    EXPECT_NEAR(widths[report::friction_colour(0.5)], 12, 0.051);
+    EXPECT_NEAR(widths[report::kSlidingColour], 6, 0.051);
+    EXPECT_NEAR(widths[report::kTouchingColour], 3, 0.051);
+    EXPECT_THAT(svg, HasSubstr("line width: normal force, widest from 4 [mass × length/time²] on"));
+    EXPECT_THAT(svg, HasSubstr(kFrictionWords));
+  }
+  // Most forces are seen beside a blow: here the largest of 100 contacts is no measure.
+  auto blow = falling_row(2, 101, 2);
+  for (auto& contact : blow.frames[1].contacts) contact.normal_force = contact.first < 0 ? 0 : -1;
+  blow.frames[1].contacts.front().normal_force = 1e6;
+  const auto scene = scene_of(blow, {0, 1}, {}, 2);
+  EXPECT_EQ(scene.top_force, 1);
+  EXPECT_EQ(force_share(scene, blow.frames[1].contacts.front()), 1);
 }
 
 TEST(ParticlesPicture, HasNoMorePanelsThanFrames) {

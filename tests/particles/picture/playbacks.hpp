@@ -39,7 +39,7 @@ inline Playback falling_row(int dimension, int count, int frames) {
 /// and the last one slides on the floor in the last frame.
 inline Playback linked_row(int dimension, int frames) {
   auto playback = falling_row(dimension, 5, frames);
-  playback.has_friction = true;
+  playback.friction_coefficient = 0.5;
   playback.bodies = {0, 0, -1, -1, -1};
   playback.links.hinges = {{0, dimension == 2 ? 1.0 : 0.0, dimension == 2 ? 0.0 : 1.0}};
   playback.links.springs = {{1, 2}};
@@ -57,6 +57,25 @@ inline Playback linked_row(int dimension, int frames) {
   for (auto& contact : playback.frames.back().contacts)
     contact.friction = contact.first < 0 && contact.second == 4 ? ContactFriction::kSlides
                                                                 : ContactFriction::kSticks;
+  return playback;
+}
+
+/// A row of four discs or spheres of radius 1 with friction 0.5 and without films. The forces of the
+/// three contacts are 4, 2 and 1. The first sticks with half of Coulomb's bound, the second slides,
+/// and the third has no friction.
+inline Playback loaded_row(int dimension) {
+  auto playback = falling_row(dimension, 4, 1);
+  playback.friction_coefficient = 0.5;
+  auto& contacts = playback.frames[0].contacts;
+  contacts = {{0, 1, 0, 0}, {1, 2, 0, 0}, {2, 3, 0, 0}};
+  contacts[0].normal_force = 4;
+  contacts[0].tangential_force = {0, 1, 0};
+  contacts[0].friction = ContactFriction::kSticks;
+  contacts[1].normal_force = 2;
+  contacts[1].tangential_force = {0, 1, 0};
+  contacts[1].friction = ContactFriction::kSlides;
+  contacts[2].normal_force = 1;
+  contacts[2].friction = ContactFriction::kSticks;
   return playback;
 }
 

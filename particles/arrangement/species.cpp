@@ -1,0 +1,113 @@
+// Draws radii (species.hpp). The compiler must not contract products and sums (-ffp-contract=off in
+// CMakeLists.txt), and only + - * / sqrt, frexp and ldexp may be used, because these give the same
+// bits on every machine; exp and log of the C library differ between versions.
+#include "viscontact/particles/arrangement/species.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "viscontact/particles/particles.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+constexpr double kLog2 = 0.6931471805599453;
+
+/// log x for a finite x > 0, to a few units in the last place.
+double portable_log(double x) {
+  int exponent = 0;
+  double mantissa = std::frexp(x, &exponent);  // from 0.5 to 1
+  if (mantissa < 0.7071067811865476) {
+    mantissa *= 2;
+    --exponent;
+  }
+  // log m = 2 artanh s with |s| <= 0.172: the terms after s^23 are less than 1e-19.
+  const double s = (mantissa - 1) / (mantissa + 1), square = s * s;
+  double sum = 0;
+  for (int n = 23; n >= 1; n -= 2) sum = sum * square + 1.0 / n;
+  return exponent * kLog2 + 2 * s * sum;
+}
+
+/// exp x for |x| < 700, to a few units in the last place.
+double portable_exp(double x) {
+  const double halvings = std::floor(x / kLog2 + 0.5);
+  const double rest = x - halvings * kLog2;  // at most 0.347 in magnitude
+  double sum = 1;
+  for (int n = 16; n >= 1; --n) sum = 1 + rest / n * sum;  // the next term is less than 1e-22
+  return std::ldexp(sum, static_cast<int>(halvings));
+}
+
+/// A number of the normal distribution with mean 0 and variance 1 (Marsaglia's polar method).
+double normal(SplitMix64& random) {
+  for (;;) {
+    const double x = random.between(-1, 1), y = random.between(-1, 1), square = x * x + y * y;
+    if (square > 0 && square < 1) return x * std::sqrt(-2 * portable_log(square) / square);
+  }
+}
+
+/// The radius of particle `number` of its species.
+double radius_of(const RadiusDistribution& radius, std::size_t number, SplitMix64& random) {
+  switch (radius.kind) {
+    case RadiusDistribution::Kind::kList:
+      return radius.list[number % radius.list.size()];
+    case RadiusDistribution::Kind::kUniform:
+      return random.between(radius.from, radius.to);
+    case RadiusDistribution::Kind::kLognormal:
+      return radius.median * portable_exp(radius.sigma * normal(random));
+  }
+  return 0;
+}
+
+}  // namespace
+
+DrawnSpecies::DrawnSpecies(std::vector<Species> species, int dimension, std::uint64_t seed)
+    // The places of an arrangement have the random numbers of the seed itself.
+    : species_(std::move(species)),
+      counts_(species_.size()),
+      dimension_(dimension),
+      random_(splitmix_hash(seed) ^ 0x7370656369657321ULL) {}
+
+DrawnParticle DrawnSpecies::next() {
+  // The species that lags most behind its share is the next one.
+  double shares = 0, total = 1;
+  for (std::size_t s = 0; s < species_.size(); ++s) {
+    shares += species_[s].share;
+    total += static_cast<double>(counts_[s]);
+  }
+  std::size_t next = 0;
+  double most = 0;
+  for (std::size_t s = 0; s < species_.size(); ++s) {
+    const double lag = species_[s].share / shares * total - static_cast<double>(counts_[s]);
+    if (s == 0 || lag > most) {
+      next = s;
+      most = lag;
+    }
+  }
+  const auto& species = species_[next];
+  const double radius = radius_of(species.radius, counts_[next]++, random_);
+  return {radius, species.density > 0 ? species.density * size_of_particle(dimension_, radius)
+                                      : species.mass};
+}
+
+std::vector<DrawnParticle> drawn(DrawnSpecies species, std::size_t count) {
+  std::vector<DrawnParticle> particles;
+  while (particles.size() < count) particles.push_back(species.next());
+  return particles;
+}
+
+std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, double size,
+                                         std::size_t most) {
+  std::vector<DrawnParticle> particles;
+  double sum = 0;
+  while (particles.size() < most) {
+    const auto next = species.next();
+    const double more = size_of_particle(dimension, next.radius);
+    // One more particle is taken as long as this brings the sum nearer to the size.
+    if (!particles.empty() && sum + more / 2 > size) break;
+    particles.push_back(next);
+    sum += more;
+  }
+  return particles;
+}
+
+}  // namespace viscontact::particles

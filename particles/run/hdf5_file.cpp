@@ -1,0 +1,258 @@
+// Copies the arrays of the frames into an HDF5 file (hdf5_file.hpp). Numbers are in the units of the case
+// and are copied without conversion. Each call of the C library is checked in one place (checked).
+#include "viscontact/particles/run/hdf5_file.hpp"
+
+#include "viscontact/common/error.hpp"
+
+#ifdef VISCONTACT_HAS_HDF5
+
+#include <hdf5.h>
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/vtk/appended_data.hpp"
+#include "viscontact/particles/io/vtk.hpp"
+#include "viscontact/particles/pair_memory.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Throws Error(kBadInput) with the name of the file if the C library returned an error.
+template <class Result>
+Result checked(Result result, const fs::path& file) {
+  if (result < 0) throw_bad_input({file.string()}, "cannot be written as HDF5");
+  return result;
+}
+
+/// An object of the C library, which is closed at the end.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t), const fs::path& file)
+      : id_(checked(id, file)), close_(close) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }  // NOLINT: the C library takes it
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+template <class Number>
+hid_t type_of() {
+  if constexpr (std::is_same_v<Number, double>)
+    return H5T_NATIVE_DOUBLE;
+  else if constexpr (std::is_same_v<Number, std::int32_t>)
+    return H5T_NATIVE_INT32;
+  else
+    return H5T_NATIVE_INT64;
+}
+
+/// A data set with rows of `columns` numbers, which grows.
+template <class Number>
+class Rows {
+ public:
+  Rows(hid_t group, const std::string& name, std::size_t columns, const fs::path& file)
+      : file_(file), columns_(columns), set_(create(group, name)) {}
+
+  void append(const std::vector<Number>& numbers) {
+    const hsize_t count = numbers.size() / columns_;
+    if (count == 0) return;
+    const std::array<hsize_t, 2> begin = {rows_, 0}, part = {count, columns_};
+    rows_ += count;
+    const std::array<hsize_t, 2> all = {rows_, columns_};
+    checked(H5Dset_extent(set_, all.data()), file_);
+    const Handle space(H5Dget_space(set_), H5Sclose, file_);
+    checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, begin.data(), nullptr, part.data(), nullptr),
+            file_);
+    const Handle memory(H5Screate_simple(rank(), part.data(), nullptr), H5Sclose, file_);
+    checked(H5Dwrite(set_, type_of<Number>(), memory, space, H5P_DEFAULT, numbers.data()), file_);
+  }
+
+ private:
+  int rank() const { return columns_ == 1 ? 1 : 2; }
+  Handle create(hid_t group, const std::string& name) {
+    const std::array<hsize_t, 2> none = {0, columns_}, most = {H5S_UNLIMITED, columns_};
+    const Handle space(H5Screate_simple(rank(), none.data(), most.data()), H5Sclose, file_);
+    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file_);
+    // Chunks of 64 kB are read fast, and small files stay small.
+    const std::array<hsize_t, 2> chunk = {8192 / columns_, columns_};
+    checked(H5Pset_chunk(properties, rank(), chunk.data()), file_);
+    checked(H5Pset_shuffle(properties), file_);
+    checked(H5Pset_deflate(properties, 4), file_);
+    return {H5Dcreate2(group, name.c_str(), type_of<Number>(), space, H5P_DEFAULT, properties,
+                       H5P_DEFAULT),
+            H5Dclose, file_};
+  }
+
+  fs::path file_;
+  std::size_t columns_;
+  hsize_t rows_ = 0;
+  Handle set_;
+};
+
+void add_text(hid_t object, const char* name, const std::string& text, const fs::path& file) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, file);
+  checked(H5Tset_size(type, text.size() + 1), file);
+  checked(H5Tset_cset(type, H5T_CSET_UTF8), file);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, file);
+  const Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                         file);
+  checked(H5Awrite(attribute, type, text.c_str()), file);
+}
+
+/// An array of the frames: its section and name there, and its name and columns in the file.
+struct Array {
+  std::string_view section, name;
+  std::string target;
+  std::size_t columns;
+};
+
+/// The arrays of one kind of number that the first frame has, each with its rows.
+template <class Number>
+class Arrays {
+ public:
+  Arrays(const std::vector<Array>& all, const AppendedReader& first, hid_t group,
+         const fs::path& file) {
+    for (const auto& array : all)
+      if (first.has_array(array.section, array.name))
+        arrays_.emplace_back(array, Rows<Number>(group, array.target, array.columns, file));
+  }
+  /// Appends those of a frame that must have `count` rows each.
+  void append(const AppendedReader& frame, std::size_t count) {
+    for (auto& [array, rows] : arrays_) {
+      const auto numbers = frame.array<Number>(array.section, array.name);
+      if (numbers.size() != count * array.columns) frame.refuse();
+      rows.append(numbers);
+    }
+  }
+
+ private:
+  std::vector<std::pair<Array, Rows<Number>>> arrays_;
+};
+
+/// The rows of particles or contacts of all frames, with the number of the first row of each.
+class Table {
+ public:
+  Table(hid_t file_id, const char* name, const std::vector<Array>& decimal,
+        const std::vector<Array>& whole, const AppendedReader& first, const fs::path& file)
+      : group_(H5Gcreate2(file_id, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, file),
+        decimal_(decimal, first, group_, file),
+        whole_(whole, first, group_, file),
+        begins_(group_, "begin", 1, file) {
+    begins_.append({0});
+  }
+  void append(const AppendedReader& frame, std::size_t count) {
+    decimal_.append(frame, count);
+    whole_.append(frame, count);
+    end_ += static_cast<std::int64_t>(count);
+    begins_.append({end_});
+  }
+
+ private:
+  Handle group_;
+  Arrays<double> decimal_;
+  Arrays<std::int32_t> whole_;
+  Rows<std::int64_t> begins_;
+  std::int64_t end_ = 0;
+};
+
+std::vector<Array> arrays_of_contacts() {
+  std::vector<Array> arrays = {{"CellData", "gap", "gap", 1},
+                               {"CellData", "gamma", "gamma", 1},
+                               {"CellData", "normal_force", "normal_force", 1},
+                               {"CellData", "tangential_force", "tangential_force", 3}};
+  for (const auto& field : kMemoryFields)
+    if (field.is_shown) arrays.push_back({"CellData", field.name, std::string(field.name), 1});
+  return arrays;
+}
+
+void write(const ParticlesCase& c, const fs::path& folder, const fs::path& file,
+           const std::string& provenance) {
+  const auto frames = read_pvd(folder / "particles.pvd");
+  if (frames.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");
+  const Handle id(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, file);
+  add_text(id, "provenance", provenance, file);
+  add_text(id, "title", c.title, file);
+  const auto first_text = read_file(folder / frames.front().second);
+  const AppendedReader first(first_text, (folder / frames.front().second).string(), "frame");
+  const bool is_flat = c.particles.dimension < 3;  // the angular velocity is one number
+  Rows<double> times(id, "time", 1, file);
+  Table particles(id, "particles",
+                  {{"Points>", "Points", "position", 3},
+                   {"PointData", "velocity", "velocity", 3},
+                   {"PointData", "radius", "radius", 1},
+                   {"PointData", "mass", "mass", 1},
+                   {"PointData", "angle", "angle", 1},
+                   {"PointData", "orientation", "orientation", 4},
+                   {"PointData", "angular_velocity", "angular_velocity", is_flat ? 1U : 3U}},
+                  {{"PointData", "id", "id", 1}, {"PointData", "body", "body", 1}}, first, file);
+  Table contacts(id, "contacts", arrays_of_contacts(),
+                 {{"CellData", "i", "first", 1},
+                  {"CellData", "j", "second", 1},
+                  {"CellData", "image", "image", 1},
+                  {"CellData", "friction", "friction", 1}},
+                 first, file);
+  for (const auto& [time, name] : frames) {
+    const auto text = read_file(folder / name);
+    const AppendedReader frame(text, (folder / name).string(), "frame");
+    times.append({time});
+    particles.append(frame, frame.array<double>("PointData", "radius").size());
+    contacts.append(frame, frame.array<double>("CellData", "gap").size());
+  }
+  checked(H5Fflush(id, H5F_SCOPE_GLOBAL), file);
+}
+
+}  // namespace
+
+void require_hdf5() {}
+
+void write_hdf5(const ParticlesCase& c, const fs::path& folder,
+                const results::Provenance& provenance) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
+  const fs::path target = folder / "particles.h5", partial = target.string() + ".part";
+  const auto made = results::output_text(target, TextKind::kHashComment, "", provenance);
+  try {
+    write(c, folder, partial, made);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(partial, ignored);
+    throw;
+  }
+  fs::rename(partial, target);
+}
+
+}  // namespace viscontact::particles
+
+#else
+
+namespace viscontact::particles {
+
+void require_hdf5() {
+  throw Error(
+      ErrorKind::kWrongUsage,
+      "--hdf5 needs libhdf5, and this program was built without it; install libhdf5-dev and "
+      "build the program again");
+}
+
+void write_hdf5(const ParticlesCase&, const std::filesystem::path&, const results::Provenance&) {
+  require_hdf5();
+}
+
+}  // namespace viscontact::particles
+
+#endif
