@@ -23,9 +23,6 @@
 namespace viscontact::particles {
 namespace {
 
-/// A centre, or a vector between centres [L]; z is 0 in two dimensions.
-using Point = std::array<double, 3>;
-
 /// The places that the centre of a particle may take: a disc, or a box that may be periodic.
 class Places {
  public:
@@ -66,7 +63,7 @@ class Places {
   double length(std::size_t d) const { return to_[d] - from_[d]; }
 
   /// True if a centre may be at `x`.
-  bool contain(const Point& x) const {
+  bool contain(const Vector& x) const {
     if (!round_) {
       for (std::size_t d = 0; d < dimension_; ++d)
         if (!(from_[d] <= x[d] && x[d] <= to_[d])) return false;
@@ -77,7 +74,7 @@ class Places {
   }
 
   /// The image of `x` that is in the box, for an `x` less than a period outside.
-  Point wrapped(Point x) const {
+  Vector wrapped(Vector x) const {
     for (std::size_t d = 0; d < dimension_; ++d) {
       if (periods_[d] == 0) continue;
       if (x[d] < from_[d]) x[d] += periods_[d];
@@ -89,7 +86,7 @@ class Places {
   }
 
   /// The nearest place to `x` that is allowed, slightly inside.
-  Point nearest(Point x) const {
+  Vector nearest(Vector x) const {
     if (!round_) {
       x = wrapped(x);
       for (std::size_t d = 0; d < dimension_; ++d)
@@ -105,17 +102,17 @@ class Places {
   }
 
   /// A random place, uniformly distributed.
-  Point random(SplitMix64& random) const {
+  Vector random(SplitMix64& random) const {
     for (;;) {
-      Point x{};
+      Vector x{};
       for (std::size_t d = 0; d < dimension_; ++d) x[d] = random.between(from_[d], to_[d]);
       if (contain(x)) return wrapped(x);
     }
   }
 
   /// The shortest vector from `a` to `b`, across periodic sides too.
-  Point difference(const Point& a, const Point& b) const {
-    Point apart = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  Vector difference(const Vector& a, const Vector& b) const {
+    Vector apart = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     for (std::size_t d = 0; d < dimension_; ++d) {
       if (periods_[d] == 0) continue;
       if (apart[d] > periods_[d] / 2) apart[d] -= periods_[d];
@@ -128,10 +125,10 @@ class Places {
   bool round_ = false;
   std::size_t dimension_ = 2;
   double radius_ = 0;
-  Point centre_{}, from_{}, to_{}, periods_{};
+  Vector centre_{}, from_{}, to_{}, periods_{};
 };
 
-double length_of(const Point& x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
+double length_of(const Vector& x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
 
 /// The edge of a square or cube of this size [L^2, L^3], x > 0. The cube root is Newton's, because
 /// that of the C library differs between machines.
@@ -146,7 +143,7 @@ double edge_of(double size, std::size_t dimension) {
 
 /// A particle that is in the domain before the new ones are placed.
 struct Obstacle {
-  Point centre;
+  Vector centre;
   double radius;
 };
 
@@ -171,7 +168,7 @@ class Discs {
 
   std::size_t dimension() const { return widest_places().dimension(); }
   std::size_t count() const { return radii_.size(); }
-  const std::vector<Point>& centres() const { return centres_; }
+  const std::vector<Vector>& centres() const { return centres_; }
   /// The places of particle k.
   const Places& places(std::size_t k) const { return places_[places_.size() == 1 ? 0 : k]; }
   /// Those of the smallest particle, which has most of them.
@@ -186,12 +183,12 @@ class Discs {
   }
 
   /// Adds the next particle.
-  void add(const Point& x) {
+  void add(const Vector& x) {
     numbers_[cell_of(x)].push_back(centres_.size());
     centres_.push_back(x);
   }
 
-  void move(std::size_t k, const Point& x) {
+  void move(std::size_t k, const Vector& x) {
     const std::size_t before = cell_of(centres_[k]), now = cell_of(x);
     centres_[k] = x;
     if (before == now) return;
@@ -206,11 +203,11 @@ class Discs {
   /// distance [L] and its number (obstacles have none). Ends early and returns true if `visit`
   /// returns true.
   template <class Visit>
-  bool any_close(const Point& x, std::size_t self, double factor, const Visit& visit) const {
+  bool any_close(const Vector& x, std::size_t self, double factor, const Visit& visit) const {
     const double radius = radii_[self];
-    const auto look = [&](const Point& other, double other_radius,
+    const auto look = [&](const Vector& other, double other_radius,
                           std::optional<std::size_t> number) {
-      const Point apart = widest_places().difference(x, other);
+      const Vector apart = widest_places().difference(x, other);
       const double distance = other_radius + radius + gap_, least = factor * distance;
       return apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] < least * least &&
              visit(apart, distance, number);
@@ -230,7 +227,7 @@ class Discs {
   }
 
   /// True if particle `self` may be at x.
-  bool is_free(const Point& x, std::size_t self) const {
+  bool is_free(const Vector& x, std::size_t self) const {
     return !any_close(x, self, 1, [](const auto&...) { return true; });
   }
 
@@ -238,7 +235,7 @@ class Discs {
   std::size_t number_of(const std::array<std::size_t, 3>& place) const {
     return (place[0] * cells_[1] + place[1]) * cells_[2] + place[2];
   }
-  std::array<std::size_t, 3> place_of(const Point& x) const {
+  std::array<std::size_t, 3> place_of(const Vector& x) const {
     std::array<std::size_t, 3> place{};
     for (std::size_t d = 0; d < dimension(); ++d) {
       const double share = (x[d] - widest_places().from(d)) / widest_places().length(d);
@@ -247,7 +244,7 @@ class Discs {
     }
     return place;
   }
-  std::size_t cell_of(const Point& x) const { return number_of(place_of(x)); }
+  std::size_t cell_of(const Vector& x) const { return number_of(place_of(x)); }
   /// The cells beside cell `at` along axis d, and this cell, each once. Returns their number.
   std::size_t neighbours(std::size_t at, std::size_t d, std::array<std::size_t, 3>& near) const {
     const std::size_t n = cells_[d];
@@ -265,7 +262,7 @@ class Discs {
   std::vector<Obstacle> obstacles_;
   std::array<std::size_t, 3> cells_{1, 1, 1};
   std::vector<std::vector<std::size_t>> numbers_;
-  std::vector<Point> centres_;
+  std::vector<Vector> centres_;
 };
 
 /// Pushes discs apart that are too close, in up to `rounds` rounds over all discs. True if all gaps
@@ -280,19 +277,19 @@ bool push_apart(Discs& discs, int rounds) {
       all_free = all_free && discs.is_free(discs.centres()[k], k);
       // Each of two close discs moves by half of the missing distance. Beside an obstacle, which
       // does not move, the disc moves by all of it.
-      Point push{};
-      const Point x = discs.centres()[k];
-      discs.any_close(x, k, kFurther, [&](const Point& apart, double distance, auto number) {
+      Vector push{};
+      const Vector x = discs.centres()[k];
+      discs.any_close(x, k, kFurther, [&](const Vector& apart, double distance, auto number) {
         const double length = length_of(apart);
         const double missing = (number ? 0.5 : 1.0) * (kFurther * distance - length);
         // Two discs at one place are separated along x.
-        const Point away = length > 0
-                               ? Point{apart[0] / length, apart[1] / length, apart[2] / length}
-                               : Point{1, 0, 0};
+        const Vector away = length > 0
+                                ? Vector{apart[0] / length, apart[1] / length, apart[2] / length}
+                                : Vector{1, 0, 0};
         for (std::size_t d = 0; d < discs.dimension(); ++d) push[d] -= missing * away[d];
         return false;
       });
-      if (push != Point{})
+      if (push != Vector{})
         discs.move(k, discs.places(k).nearest({x[0] + push[0], x[1] + push[1], x[2] + push[2]}));
     }
     if (all_free) return true;
@@ -321,7 +318,7 @@ void shuffle(Discs& discs, double size, SplitMix64& random) {
   const std::size_t moves = count * std::clamp(kMoves / count, kLeast, kMost);
   for (std::size_t move = 0; move < moves; ++move) {
     const std::size_t k = random.below(count);
-    Point x = discs.centres()[k];
+    Vector x = discs.centres()[k];
     for (std::size_t d = 0; d < dimension; ++d) x[d] += random.between(-step, step);
     const auto& places = discs.places(k);
     x = places.wrapped(x);
@@ -394,7 +391,7 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
   for (int beginning = 0; beginning < kBeginnings; ++beginning) {
     Discs discs(places, falling, gap, obstacles);
     for (std::size_t k = 0; k < radii.size(); ++k) {
-      Point x = discs.places(k).random(random);
+      Vector x = discs.places(k).random(random);
       for (int i = 1; i < kTries && !discs.is_free(x, k); ++i) x = discs.places(k).random(random);
       discs.add(x);
     }
