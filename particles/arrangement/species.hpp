@@ -21,10 +21,11 @@ struct RadiusDistribution {
   };
   Kind kind = Kind::kList;     ///< which one
   std::vector<double> list{};  ///< of kList [L], each > 0; not empty
-  double from = 0, to = 0;     ///< of kUniform [L], 0 < from < to
-  /// Of kLognormal: the median radius [L], > 0, and the standard deviation of log r, > 0. The mean
-  /// radius is median exp(sigma^2/2).
-  double median = 0, sigma = 0;
+  double from = 0,             ///< least radius of kUniform [L], > 0
+      to = 0;                  ///< largest radius of kUniform [L], > `from`
+  /// Median radius of kLognormal [L], > 0. The mean radius is median exp(sigma^2/2).
+  double median = 0,
+         sigma = 0;  ///< standard deviation of log r, of kLognormal, > 0
 };
 
 /// Particles of one kind.

@@ -26,8 +26,8 @@ struct DiscDomain {
 struct BoxDomain {
   /// Corner with the smallest coordinates [L], < `to` in each component; the third components of
   /// both are 0 in two dimensions.
-  std::array<double, 3> from{}, to{};
-  std::array<bool, 3> periodic{};  ///< whether the two sides across x, y and z are one
+  std::array<double, 3> from{}, to{};  ///< the opposite corner [L]
+  std::array<bool, 3> periodic{};      ///< whether the two sides across x, y and z are one
 
   /// 2 or 3.
   std::size_t dimension() const { return to[2] > from[2] ? 3 : 2; }
