@@ -17,7 +17,6 @@
 #include <cstdlib>
 #include <ctime>
 #include <map>
-#include <random>
 #include <string>
 #include <utility>
 
@@ -33,42 +32,6 @@ double kinetic_energy(const Particles& p) {
   for (std::size_t k = 0; k < p.count(); ++k)
     energy += p.masses[k] * dot(p.velocity(k), p.velocity(k)) / 2;
   return energy;
-}
-
-State box_of_spheres(int count) {
-  State state;
-  auto& p = state.particles;
-  p.dimension = 3;
-  std::mt19937_64 random(12345);  // the same numbers on every machine
-  const auto uniform = [&] { return static_cast<double>(random() >> 11U) * 0x1p-53; };
-  const int n = static_cast<int>(std::ceil(std::cbrt(count)));
-  for (int k = 0; k < count; ++k) {
-    const double radius = 0.8 + 0.2 * uniform();
-    p.radii.push_back(radius);
-    p.masses.push_back(radius * radius * radius);
-    for (const int place : {k % n, k / n % n, k / n / n})
-      p.positions.push_back(1.05 + 2.1 * place + 0.1 * (uniform() - 0.5));
-  }
-  p.velocities.assign(p.positions.size(), 0.0);
-  return state;
-}
-
-Setting box_in_space(int count) {
-  auto setting = box(1);
-  const double width = 2.1 * std::ceil(std::cbrt(count));
-  setting.gravity = {0, 0, -1};
-  setting.planes.clear();
-  const auto plane = [&](Vector point, Vector normal) {
-    Plane p;
-    p.start = {point, normal};
-    setting.planes.push_back(p);
-  };
-  plane({}, {0, 0, 1});
-  plane({}, {1, 0, 0});
-  plane({}, {0, 1, 0});
-  plane({width, 0, 0}, {-1, 0, 0});
-  plane({0, width, 0}, {0, -1, 0});
-  return setting;
 }
 
 double cpu_seconds() {
@@ -99,20 +62,24 @@ int main(int argc, char** argv) {
     o[argv[i]] = argv[i + 1];
   }
   const int count = std::stoi(o["--count"]);
-  const bool is_in_space = o["--dimension"] == "3";
-  auto setting = is_in_space ? box_in_space(count) : box(count);
+  const int dimension = std::stoi(o["--dimension"]);
+  if (dimension != 2 && dimension != 3) {
+    fmt::print(stderr, "box2d: --dimension is '{}'; it must be 2 or 3\n", o["--dimension"]);
+    return 2;
+  }
+  auto setting = box(count, dimension);
   setting.solver = {std::stod(o["--tolerance"]), std::stod(o["--impulse-tolerance"]),
                     std::stoi(o["--max-iterations"])};
   setting.laws.film.gamma_min = std::stod(o["--gamma-min"]);
-  auto discs = is_in_space ? box_of_spheres(count) : box_of_discs(count);
+  auto particles = particles_in_box(count, dimension);
   if (const double friction = std::stod(o["--friction"]); friction > 0) {
     const bool is_convex = o["--method"] == "convex";
     setting.laws.friction =
         FrictionLaw{friction, is_convex ? FrictionMethod::kConvex : FrictionMethod::kFixedPoint};
-    add_rotation(discs.particles);
+    add_rotation(particles.particles);
   }
   const double until = std::stod(o["--until"]), stretch = std::stod(o["--print"]);
-  Simulation simulation(setting, std::move(discs), std::stoi(o["--threads"]));
+  Simulation simulation(setting, std::move(particles), std::stoi(o["--threads"]));
   double shown = 0, all = 0, worst_overlap = 0;
   int steps = 0, iterations = 0, unconverged = 0, all_unconverged = 0, all_steps = 0;
   double spent = 0, residual = 0, longest = 0;

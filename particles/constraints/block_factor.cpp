@@ -78,20 +78,36 @@ inline void substitute_back(const std::array<double, static_cast<std::size_t>(K*
   }
 }
 
+/// 1 over the roots of the numbers on the diagonal of a block, with which rows of different units can
+/// be compared; 1 where the number is 0.
+template <int K, class Block>
+std::array<double, static_cast<std::size_t>(K)> scales_of_rows(const Block& a) {
+  std::array<double, static_cast<std::size_t>(K)> scales;
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    const double root = std::sqrt(std::abs(a[i * scales.size() + i]));
+    scales[i] = root > 0 ? 1 / root : 1;
+  }
+  return scales;
+}
+
 /// Replaces a block by its factors L and U with exchange of rows, with the inverses of the numbers
-/// on the diagonal of U, and sets the row of each pivot. Changes `sign` if the determinant is
-/// negative. Returns false if the block is singular.
+/// on the diagonal of U, and sets the row of each pivot, which is that with the largest number times
+/// its scale. Changes `sign` if the determinant is negative. Returns false if the block is singular.
 template <int K, class Block, class Pivots>
-bool factorise_block(Block& a, Pivots& pivots, int& sign) {
+bool factorise_block(std::array<double, static_cast<std::size_t>(K)> scales, Block& a,
+                     Pivots& pivots, int& sign) {
   constexpr auto k = static_cast<std::size_t>(K);
   for (std::size_t j = 0; j < k; ++j) {
     std::size_t pivot = j;
     for (std::size_t i = j + 1; i < k; ++i)
-      if (std::abs(a[i * k + j]) > std::abs(a[pivot * k + j])) pivot = i;
+      if (scales[i] * std::abs(a[i * k + j]) > scales[pivot] * std::abs(a[pivot * k + j]))
+        pivot = i;
     if (!(std::abs(a[pivot * k + j]) > 0) || !std::isfinite(a[pivot * k + j])) return false;
     pivots[j] = static_cast<unsigned char>(pivot);
-    if (pivot != j)
+    if (pivot != j) {
       for (std::size_t c = 0; c < k; ++c) std::swap(a[pivot * k + c], a[j * k + c]);
+      std::swap(scales[pivot], scales[j]);
+    }
     const double inverse = 1 / a[j * k + j];
     if ((inverse < 0) != (pivot != j)) sign = -sign;
     a[j * k + j] = inverse;
@@ -220,6 +236,7 @@ bool BlockFactor<K, kIsSymmetric>::factorise() {
 template <int K, bool kIsSymmetric>
 bool BlockFactor<K, kIsSymmetric>::factorise_column(std::size_t j) {
   constexpr auto kSize = static_cast<std::size_t>(K);
+  const auto scales = scales_of_rows<K>(diagonal_[j]);
   for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e) entry_in_row_[index(rows_[e])] = e;
   for (auto column = first_in_row_[j]; column >= 0;) {
     const auto k = index(column);
@@ -244,7 +261,7 @@ bool BlockFactor<K, kIsSymmetric>::factorise_column(std::size_t j) {
     for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e)
       for (std::size_t i = 0; i < kSize; ++i) substitute<K>(diagonal_[j], &below_[e][i * kSize]);
   } else {
-    if (!factorise_block<K>(diagonal_[j], pivots_[j], sign_)) return false;
+    if (!factorise_block<K>(scales, diagonal_[j], pivots_[j], sign_)) return false;
     for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e)
       solve_block<K, kSize>(diagonal_[j], pivots_[j], above_[e].data());
   }

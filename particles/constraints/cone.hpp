@@ -78,28 +78,29 @@ class ConeScaling {
   /// (W^2 + shift)^-1, row by row, computed from eigenvalues, so that points near the boundary of
   /// the cone lose no digits.
   std::array<ConePoint, 3> inverse_square(double shift) const {
-    const auto [low, high, across, direction] = eigenvalues(shift);
-    std::array<ConePoint, 3> inverse = beside(1 / low / 2 + 1 / high / 2, 1 / across, direction);
-    inverse[0][0] = (1 / low + 1 / high) / 2;
+    const auto [along, against, across, direction] = eigenvalues(shift);
+    std::array<ConePoint, 3> inverse =
+        beside(1 / along / 2 + 1 / against / 2, 1 / across, direction);
+    inverse[0][0] = (1 / along + 1 / against) / 2;
     for (std::size_t k = 1; k < 3; ++k)
-      inverse[0][k] = inverse[k][0] = (1 / low - 1 / high) / 2 * direction[k];
+      inverse[0][k] = inverse[k][0] = (1 / along - 1 / against) / 2 * direction[k];
     return inverse;
   }
   /// The inverse of W^2 + shift without its first row and column, in the place of these.
   std::array<ConePoint, 3> inverse_square_beside(double shift) const {
-    const auto [low, high, across, direction] = eigenvalues(shift);
-    return beside(2 / (low + high), 1 / across, direction);
+    const auto [along, against, across, direction] = eigenvalues(shift);
+    return beside(2 / (along + against), 1 / across, direction);
   }
   /// The product of the first row of W^2, without its first number, and a point x.
   double square_along(const ConePoint& x) const {
-    const auto [low, high, across, direction] = eigenvalues(0);
-    return (low - high) / 2 * (direction[1] * x[1] + direction[2] * x[2]);
+    const auto [along, against, across, direction] = eigenvalues(0);
+    return (along - against) / 2 * (direction[1] * x[1] + direction[2] * x[2]);
   }
 
  private:
-  // Eigenvalues of W^2 + shift: of (1, direction), (1, -direction) and what is across them.
+  // Eigenvalues of W^2 + shift, of the vectors (1, direction), (1, -direction) and those across both.
   struct Eigenvalues {
-    double low, high, across;
+    double along, against, across;
     ConePoint direction;
   };
   Eigenvalues eigenvalues(double shift) const {

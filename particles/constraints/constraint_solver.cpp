@@ -59,8 +59,10 @@ class Iteration {
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return finish();
     proximal_.emplace(problem_, w_);
     proximal_->set_epsilon(epsilon_);
-    while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant())
+    while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant()) {
       take_proximal_step(max_iterations);
+      note_progress();
+    }
     return finish();
   }
 
@@ -84,15 +86,17 @@ class Iteration {
     }
   }
 
-  /// Whether the residual has not fallen below half of its least value for a long time. With a
-  /// patience of 2000 iterations three steps more of 200 were given up in bench/box2d.cpp.
-  bool is_stagnant() {
-    constexpr int kPatience = 3000;
+  /// Notes when the best residual has been halved.
+  void note_progress() {
     constexpr double kGain = 0.5;
-    if (residual_ < kGain * gained_residual_) {
-      gained_residual_ = residual_;
-      gained_at_ = best_.result.iterations;
-    }
+    if (!(best_.result.residual < kGain * gained_residual_)) return;
+    gained_residual_ = best_.result.residual;
+    gained_at_ = best_.result.iterations;
+  }
+  /// Whether the best residual was not halved for a long time. With a patience of 2000 iterations
+  /// three steps more of 200 were given up in bench/box2d.cpp.
+  bool is_stagnant() const {
+    constexpr int kPatience = 3000;
     return best_.result.iterations - gained_at_ > kPatience;
   }
 
@@ -333,7 +337,7 @@ class Iteration {
   std::vector<Motion<D>> motions_;
   std::vector<BlockResidual> residuals_;
   ConstraintSolution<D> best_;
-  double gained_residual_ = std::numeric_limits<double>::infinity();  // see is_stagnant()
+  double gained_residual_ = std::numeric_limits<double>::infinity();  // see note_progress()
   int gained_at_ = 0;
   bool is_rising_ = false, has_given_loads_ = false, has_cones_ = false;
   int steps_ = 0, next_try_ = 0;  // of the proximal method; the step in which to close the gaps

@@ -104,7 +104,7 @@ void InteriorPoints<D>::add_impulse(const Cones& part, const ConePoint& r,
     problem_.add_impulse(part.row + k, impulse[part.first + k], to);
 }
 
-/// The largest value of a row without impulses, in the unit of u and r.
+/// The largest value of a row for the motions y_, in the unit of u and r.
 template <int D>
 double InteriorPoints<D>::largest_value() const {
   double largest = 0;
@@ -116,11 +116,16 @@ double InteriorPoints<D>::largest_value() const {
   return largest;
 }
 
-/// Computes all errors. Returns the largest of them, in the unit of u and r.
+/// Computes all errors. Returns the largest of them, in the unit of u and r. That of a cone is the
+/// root of u.r, which is 0 at the solution.
 template <int D>
 double InteriorPoints<D>::measure() {
-  double largest = 0;
+  double largest = 0, largest_product = 0;
   gap_ = 0;
+  const auto add_product = [&](double product) {
+    gap_ += product;
+    largest_product = largest_or_nan(largest_product, product);
+  };
   for (std::size_t u = 0; u < y_.size(); ++u) {
     Motion<D> left;
     for (std::size_t k = 0; k < kMotion; ++k) left[k] = problem_.units[u].free[k] - y_[u][k];
@@ -133,7 +138,7 @@ double InteriorPoints<D>::measure() {
       part.error += part.compliance * part.r;
     } else {
       part.error -= part.u;
-      gap_ += part.u * part.r;
+      add_product(part.u * part.r);
     }
     largest = largest_or_nan(largest, std::abs(part.error));
   }
@@ -147,7 +152,7 @@ double InteriorPoints<D>::measure() {
       components[0] = 0;
       part.error = Cone::coordinates(components);
     }
-    gap_ += inner(part.u, part.r);
+    add_product(inner(part.u, part.r));
     for (const double e : part.error) largest = largest_or_nan(largest, std::abs(e));
   }
   if (degree_ > 0) gap_ /= degree_;
@@ -157,7 +162,7 @@ double InteriorPoints<D>::measure() {
     for (std::size_t k = 0; k < kMotion; ++k) square += moved[k] * error_[u][k];
     largest = largest_or_nan(largest, std::sqrt(std::max(square, 0.0)));
   }
-  return largest_or_nan(largest, std::sqrt(gap_));
+  return largest_or_nan(largest, std::sqrt(std::max(largest_product, 0.0)));
 }
 
 /// Scales a part at its present point, and sets the predictor's goal.
@@ -370,8 +375,10 @@ int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
   // Below kNear of the size, an iteration gains much unless rounding errors are what is left.
   constexpr double kNear = 1e-6, kSlow = 0.5;
   set_parts();
-  impulses_ = problem_.impulses;
-  for (std::size_t u = 0; u < y_.size(); ++u) y_[u] = problem_.units[u].free;
+  // The least impulses, and the motions with these. They are the solution where nothing else moves.
+  std::ranges::fill(impulses_, 0.0);
+  for (const auto& part : singles_) impulses_[part.row] = part.base;
+  y_ = motions(problem_, impulses_);
   const double size = largest_value();
   start(size);
   int iterations = 0;

@@ -495,9 +495,7 @@ std::vector<double> set_allowed(std::span<Contact<2>> contacts,
     for_particles(contact,
                   [&](std::size_t k) { of_particle[k] = std::max(of_particle[k], impulse); });
   }
-  constexpr double kGapError = 1e-14;  // rounding errors of positions
-  const double rounding =
-      kGapError * conditions.mean_radius + conditions.velocity_error * h * fastest(free, layout);
+  const double rounding = rounding_error_of_gaps(conditions);
   std::vector<double> at_work(contacts.size(), std::numeric_limits<double>::infinity());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     for_particles(contacts[c],

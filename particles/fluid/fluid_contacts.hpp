@@ -84,8 +84,8 @@ struct ContactConditions {
   /// The length of the step in which forces change the momentum, over h; 1 but in a fluid with
   /// inertia. The impulse of a force lambda is h lambda times this share.
   double share_of_impulse = 1;
-  /// Change of the velocity of a gap by a unit force of its contact [T/M] up to which the contact
-  /// counts as one that hinges hold, and takes no part; 0: none is held.
+  /// Change of the velocity of a gap, or of a slip, by a unit force of its contact [T/M] up to which
+  /// the gap or slip counts as one that hinges hold, and takes no part; 0: none is held.
   double least_w = 0;
   double least_reach = 0;  ///< pairs are listed up to this gap at least [L]
   /// Whether the mobility is symmetric. Moving fluid carries what a contact does to the contacts
@@ -95,6 +95,14 @@ struct ContactConditions {
   /// the solution is made as exact as it can be.
   bool keeps_solution = false;
 };
+
+/// What rounding errors of positions, and errors of velocities, change in a gap after the step [L].
+inline double rounding_error_of_gaps(const ContactConditions& conditions) {
+  constexpr double kOfPositions = 1e-14;  // in mean radii
+  return kOfPositions * conditions.mean_radius +
+         conditions.velocity_error * conditions.h *
+             fastest(conditions.free_velocities, conditions.layout);
+}
 
 /// Contact::w of a contact whose gap a hinge holds, as no force of the contact can change it. It takes
 /// no part, and its gap is as exact as the hinge.

@@ -27,7 +27,7 @@ using Eigen::Index;
 constexpr double kShareOfAllowed = 0.1;
 
 /// The sides of a box that are walls, as numbers of SideVelocities, in the order of obstacles.
-std::vector<std::size_t> sides_of(const BoxDomain& box) {
+std::vector<std::size_t> walls_of(const BoxDomain& box) {
   std::vector<std::size_t> sides;
   for (std::size_t d = 0; d < 2; ++d)
     if (!box.periodic[d]) sides.insert(sides.end(), {2 * d, 2 * d + 1});
@@ -43,7 +43,7 @@ std::array<double, 2> velocity_of_wall(const Setting& setting, std::size_t wall,
     const auto& e = flow->gradient;
     return {e[0] * point[0] + e[1] * point[1], e[2] * point[0] + e[3] * point[1]};
   }
-  const auto side = sides_of(std::get<BoxDomain>(setting.domain))[wall];
+  const auto side = walls_of(std::get<BoxDomain>(setting.domain))[wall];
   const auto& velocity = std::get<SideVelocities>(boundary)[side];
   if (velocity.kind != WallVelocity::Kind::kConstant) return {};
   return velocity.at((begin + end) / 2, begin, end);
@@ -283,6 +283,8 @@ class FrictionSolver {
       ++step_.iterations;
       friction.w =
           friction.slip_rate(contact_of(friction), of_slips_[f].data(), conditions_.layout);
+      // What a hinge holds bears no friction.
+      if (!(friction.w > conditions_.least_w)) friction.w = 0;
     }
     return of_slips_[f];
   }
@@ -327,11 +329,7 @@ class FrictionSolver {
     // Velocities with contact are sums of answers of the fluid, whose error is that of W.
     const double error =
         std::max(std::numeric_limits<double>::epsilon(), conditions_.velocity_error);
-    // As in set_allowed().
-    constexpr double kGapError = 1e-14;
-    const double rounding =
-        kGapError * conditions_.mean_radius +
-        error * conditions_.h * fastest(conditions_.free_velocities, conditions_.layout);
+    const double rounding = rounding_error_of_gaps(conditions_);
     const int most = conditions_.solver.max_iterations;
     step_.iterations += improve(matrix_of(rows, contacts, frictions), error, rounding, gives_loads,
                                 gives_loads ? most : most - step_.iterations, rows);
@@ -433,7 +431,8 @@ void take_residuals_of_friction(const StepContacts& step, double mu_s,
                                 const ContactConditions& conditions, StepResiduals& residuals) {
   for (const auto& friction : step.frictions) {
     const auto& contact = step.contacts[friction.contact];
-    if (!(contact.w > 0)) continue;
+    // Without an answer, or where a hinge holds the place, there is no friction.
+    if (!(contact.w > 0 && friction.w > 0)) continue;
     const double slip = friction.slip(contact, velocities.data(), conditions.h, conditions.layout);
     residuals.take(
         residual_of_friction(friction.impulse, mu_s * friction.carried(contact), slip, friction.w),

@@ -135,9 +135,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   if (constraints_ && is_final) examine_links(settings, mean_radius, result);
   std::vector<std::size_t> closed;
   for (std::size_t k = 0; k < pair_count(); ++k) {
-    if (is_chosen_[k] != 0 || !(takes_part(pair(k).second) || takes_part(pair(k).first)) ||
-        !gap_would_close(k, 0))
-      continue;
+    if (!may_have_closed(k) || !gap_would_close(k, 0)) continue;
     const auto here = contact(k);
     const double gap = gap_after(here, displacements_);
     if (take(-gap, scales.of(here), settings, mean_radius, result)) closed.push_back(k);

@@ -53,7 +53,7 @@ StepProjection<D>::StepProjection(State& state, double h, std::span<const PlaneP
 template <int D>
 void StepProjection<D>::add_constraints(const ConstraintStep& step) {
   links_ = step.links;
-  is_convex_ = step.laws.friction && step.laws.friction->method == FrictionMethod::kConvex;
+  step_ = &step;
   constraints_.emplace(step, state_.particles, displacements_, mobilities_);
   constraints_->join_linked(system_);
 }
@@ -114,15 +114,23 @@ std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
   return pool_.sum_of_blocks<ConcatenatedBlocks<std::size_t>>(pair_count(), in_block).values;
 }
 
-/// The pairs that are not chosen yet, have a particle that takes part, and whose gaps the
-/// displacements make smaller than margin_.
+/// Whether pair k may be chosen before its gap closes. The convex relaxation holds dry particles that
+/// slide apart, (5.9), also where they would not meet.
+template <int D>
+bool StepProjection<D>::can_hold_early(std::size_t k) {
+  const auto& laws = step_->laws;
+  return laws.friction->method != FrictionMethod::kConvex ||
+         laws.lowest_gamma(pair(k), state_.memories.of(pair(k).memory),
+                           radii_of(pair(k), state_.particles, step_->obstacles)) < 0;
+}
+
+/// The pairs that a solution may have closed, whose gaps the displacements make smaller than
+/// margin_.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::nearly_closed() {
   std::vector<std::size_t> pairs;
   for (std::size_t k = 0; k < pair_count(); ++k)
-    if (is_chosen_[k] == 0 && (takes_part(pair(k).second) || takes_part(pair(k).first)) &&
-        gap_would_close(k, margin_))
-      pairs.push_back(k);
+    if (may_have_closed(k) && gap_would_close(k, margin_) && can_hold_early(k)) pairs.push_back(k);
   return pairs;
 }
 
@@ -194,12 +202,11 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   ProjectionResult result;
   // Tolerate half of the allowed overlap. The other half is for the overlap that this step may add.
   tolerated_ = settings.tolerance * mean_radius / 2;
-  // With Coulomb's law a solution costs more than contacts that stay open. Therefore pairs whose gaps
-  // are nearly closed are chosen together with the first ones that a solution has closed, but not
-  // before: a tower that stands by itself would lean on neighbours that it only touches. The convex
-  // relaxation holds particles that slide apart, (5.9), also where they would not meet.
+  // With friction a solution costs more than contacts that stay open. Therefore pairs whose gaps are
+  // nearly closed are chosen together with the first ones that a solution has closed, but not
+  // before: a tower that stands by itself would lean on neighbours that it only touches.
   constexpr double kMargin = 5e-3;
-  if (constraints_ && !is_convex_) margin_ = kMargin * mean_radius;
+  if (step_ != nullptr && step_->laws.friction) margin_ = kMargin * mean_radius;
   choose(closed_by_free_motion());
   // Tolerances of the rough solution: of the gaps in mean radii, and of the impulses as a fraction
   // of the impulses at work. For bench/box2d.cpp with 1000 discs, gaps of 5e-4 to 2e-3 take equally
@@ -236,7 +243,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     if (!is_rough) least_excess = std::min(least_excess, result.residuals.excess);
     if (more.empty()) is_rough = false;
     choose(with_connected_pairs(more, ++rounds));
-    if (margin_ > 0) choose(nearly_closed());
+    if (margin_ > 0 && !more.empty()) choose(nearly_closed());
   }
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     result.pairs.push_back(&pair(chosen_[c]));

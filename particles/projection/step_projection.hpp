@@ -103,6 +103,11 @@ class StepProjection {
     return particle >= 0 && system_.body_of(particle) >= 0;
   }
   bool gap_would_close(std::size_t k, double margin);
+  // Whether pair k is not chosen yet, but the solution may have closed its gap.
+  bool may_have_closed(std::size_t k) {
+    return is_chosen_[k] == 0 && (takes_part(pair(k).second) || takes_part(pair(k).first));
+  }
+  bool can_hold_early(std::size_t k);
   std::vector<std::size_t> nearly_closed();
   std::vector<std::size_t> closed_by_free_motion();
   void choose(const std::vector<std::size_t>& pairs);
@@ -127,11 +132,11 @@ class StepProjection {
   std::vector<PlanePosition> tangents_;
   double tolerated_ = 0;             // overlap that is left as it is [L]
   double margin_ = 0;                // gap below which a pair is nearly closed [L]
-  bool is_convex_ = false;           // whether friction is that of the convex relaxation
   std::vector<std::size_t> chosen_;  // pair of each contact of system_
   std::vector<char> is_chosen_;      // of each pair in the list
   ContactSystem<D> system_;
   const Links* links_ = nullptr;
+  const ConstraintStep* step_ = nullptr;  // of add_constraints(); null without constraints
   std::optional<ConstraintSystem<D>> constraints_;
   std::optional<PairsOfParticles> pairs_of_particles_;
   const Impacts<D>* impacts_ = nullptr;

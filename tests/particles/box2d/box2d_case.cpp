@@ -1,6 +1,6 @@
 #include "tests/particles/box2d/box2d_case.hpp"
 
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace viscontact::particles {
@@ -18,36 +18,54 @@ class Uniform {
   std::uint64_t x_ = 12345;
 };
 
+/// The number of particles along an edge of the lattice.
+int along_edge(int count, int dimension) {
+  int n = 1;
+  const auto fits = [&] { return dimension == 2 ? n * n >= count : n * n * n >= count; };
+  while (!fits()) ++n;
+  return n;
+}
+
 }  // namespace
 
-State box_of_discs(int count) {
+State particles_in_box(int count, int dimension) {
   State state;
   auto& p = state.particles;
+  p.dimension = dimension;
   Uniform uniform;
-  const int n = static_cast<int>(std::ceil(std::sqrt(count)));
+  const int n = along_edge(count, dimension);
   for (int k = 0; k < count; ++k) {
     const double radius = 0.8 + 0.2 * uniform();
-    const double x = 0.1 * (uniform() - 0.5), y = 0.1 * (uniform() - 0.5);
     p.radii.push_back(radius);
-    p.masses.push_back(radius * radius);
-    p.positions.insert(p.positions.end(), {1.05 + 2.1 * (k % n) + x, 1.05 + 2.1 * (k / n) + y});
+    p.masses.push_back(dimension == 2 ? radius * radius : radius * radius * radius);
+    for (int d = 0, place = k; d < dimension; ++d, place /= n)
+      p.positions.push_back(1.05 + 2.1 * (d + 1 < dimension ? place % n : place) +
+                            0.1 * (uniform() - 0.5));
   }
   p.velocities.assign(p.positions.size(), 0.0);
   return state;
 }
 
-Setting box(int count) {
+Setting box(int count, int dimension) {
   Setting setting;
-  const double width = 2.1 * std::ceil(std::sqrt(count));
-  const auto plane = [&](Vector point, Vector normal) {
+  const double width = 2.1 * along_edge(count, dimension);
+  const auto plane = [&](const Vector& point, const Vector& normal) {
     Plane p;
     p.start = {point, normal};
     setting.planes.push_back(p);
   };
-  plane({}, {0, 1, 0});
-  plane({}, {1, 0, 0});
-  plane({width, 0, 0}, {-1, 0, 0});
-  setting.gravity = {0, -1, 0};
+  const auto up = static_cast<std::size_t>(dimension - 1);
+  Vector upwards{};
+  upwards[up] = 1;
+  plane({}, upwards);
+  for (std::size_t d = 0; d < up; ++d) {
+    Vector inwards{}, corner{};
+    inwards[d] = 1;
+    corner[d] = width;
+    plane({}, inwards);
+    plane(corner, -1 * inwards);
+  }
+  setting.gravity = -1 * upwards;
   setting.time_step = 0.05;
   setting.laws.film.gamma_min = -2;
   return setting;

@@ -1,4 +1,5 @@
-// The case of the benchmark box2d, for its test and for bench/box2d.cpp: discs fall into a box.
+// The case of the benchmark box2d, for its tests and for bench/box2d.cpp: discs or spheres fall into a
+// box.
 // Lengths, masses and times are in one unit each. A change makes the times of bench/README.md
 // incomparable.
 #pragma once
@@ -7,12 +8,13 @@
 
 namespace viscontact::particles {
 
-/// `count` discs at rest on a lattice of spacing 2.1, each displaced at random by up to 0.05 along
-/// each axis. Radii are random from 0.8 to 1, and the mass of a disc is the square of its radius.
-State box_of_discs(int count);
+/// `count` discs (dimension 2) or spheres (dimension 3) at rest on a lattice of spacing 2.1 that is
+/// as wide as the box. Each is displaced at random by up to 0.05 along each axis. Radii r are random
+/// from 0.8 to 1, and masses are r^2 or r^3.
+State particles_in_box(int count, int dimension = 2);
 
-/// A floor and two walls, 2.1 ceil(sqrt count) apart, with gravity 1, time step 0.05 and gamma_min
-/// = -2.
-Setting box(int count);
+/// A floor and two or four walls that enclose a square or cube of the width 2.1 ceil(count^(1/2)) or
+/// 2.1 ceil(count^(1/3)). Gravity is 1, the time step 0.05 and gamma_min -2.
+Setting box(int count, int dimension = 2);
 
 }  // namespace viscontact::particles

@@ -25,7 +25,7 @@ double largest_overlap_of_all(const State& state) {
 TEST(Box2d, ComesToRestWithoutOverlapsAndEveryStepConverges) {
   constexpr int kCount = 200;
   const auto setting = box(kCount);
-  Simulation simulation(setting, box_of_discs(kCount), 1);
+  Simulation simulation(setting, particles_in_box(kCount), 1);
   const auto& state = simulation.state();
   double before = 0, after = 0, highest = 0;
   run(simulation, 30, [&](const StepReport& report) {

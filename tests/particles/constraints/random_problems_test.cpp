@@ -136,6 +136,48 @@ TEST(InteriorPointsOfFriction, SolveRedundantProblemsInThePlane) {
   }
 }
 
+/// Films that pull, and nothing else: without their impulses nothing moves, and the guess is wrong.
+TEST(InteriorPointsOfFriction, BeginWithTheImpulsesOfTheFilms) {
+  ConstraintProblem<2> problem;
+  const std::array<double, 2> rest{};
+  const double turn = 0;
+  problem.units = {unit_of_particle<2>(1, 2, rest.data(), &turn),
+                   unit_of_particle<2>(1, 2, rest.data(), &turn)};
+  // One gap is closed, the other one stays open by 0.1 with the whole impulse of its film.
+  for (const int unit : {0, 1}) {
+    ConstraintBlock block;
+    block.row = problem.rows.size();
+    block.lowest = -0.3;
+    problem.blocks.push_back(block);
+    const std::vector<RowPart<2>> parts{{unit, displacement_row<2>({1, 0, 0}, {})}};
+    problem.add_row(unit == 0 ? 0 : 0.4, parts, 5);
+  }
+  problem.is_convex = true;
+  InteriorPoints<2> interior(problem, row_mobilities<2>(problem));
+  interior.solve(1e-9, 100);
+  EXPECT_NEAR(interior.impulses()[0], 0, 1e-8);
+  EXPECT_NEAR(interior.impulses()[1], -0.3, 1e-8);
+}
+
+/// Two rows that no motion satisfies, and a contact with friction.
+TEST(ConstraintSolver, EndsWhereNothingIsGained) {
+  RandomConstraints what;
+  what.has_links = true;
+  auto problem = random_constraints<2>(what, {}, 1);
+  ConstraintBlock block;
+  block.is_contact = false;
+  for (const double offset : {0.0, 1.0}) {
+    block.row = problem.rows.size();
+    problem.blocks.push_back(block);
+    const std::vector<RowPart<2>> parts{{0, displacement_row<2>({1, 0, 0}, {})}};
+    problem.add_row(offset, parts, 0);
+  }
+  allow(problem);
+  const auto solution = solve_constraints(problem, 1000000);
+  EXPECT_GT(solution.result.residual, 1);
+  EXPECT_LT(solution.result.iterations, 10000);
+}
+
 TEST(InteriorPointsOfFriction, MotionsAreTheSameInAllUnitsAndOrders) {
   Random random(3);
   RandomConstraints what;

@@ -359,6 +359,29 @@ TEST(FrictionInFluid, OfABodyWithMoreContactsThanMotionsIsThatOfItsLoad) {
   }
 }
 
+/// A disc on the floor that turns about a hinge at the height of the floor's contact: the line of
+/// friction passes through the hinge, so that friction has no lever and no work.
+TEST(FrictionInFluid, ThatPassesThroughAHingeIsNone) {
+  const double load = 7, pull = 4, lever = 3;
+  for (const double h : {1e-3, 0.1}) {
+    auto system = disc_on_floor(0.5, h, load, pull);
+    Hinge hinge;
+    hinge.at = {5 - lever, kThreshold, 0};
+    hinge.point = {0, hinge.at - system.state.particles.position(0)};
+    add_rotation(system.state.particles);
+    system.setting.links.hinges = {hinge};
+    auto simulation = system.simulation(drag_of_discs);
+    const auto report = run(simulation, 3 * h);
+    EXPECT_TRUE(report.converged);
+    EXPECT_LE(report.residual, 1e-8);
+    EXPECT_NEAR(simulation.state().particles.positions[0], 5, kExact);
+    const auto contacts = contacts_of(simulation.setting(), simulation.state());
+    ASSERT_EQ(contacts.size(), 1U);
+    EXPECT_NEAR(contacts[0].normal_force, load + pull * kRadius / lever, kExact);
+    EXPECT_EQ(norm(contacts[0].tangential_force), 0);
+  }
+}
+
 /// The walls of a strain flow move with (s x, -s y). A plate whose left end alone touches the floor
 /// sticks to the point there, and not to the one below its centre.
 TEST(FrictionInFluid, OfAPlateIsThatOfTheWallAtItsEnd) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "tests/particles/box2d/box2d_case.hpp"
 #include "viscontact/particles/particles.hpp"
@@ -20,7 +21,7 @@ void run_box(double gamma_min, int max_iterations, const Visit& visit) {
   setting.solver = {1e-6, 1e-10, max_iterations};
   setting.laws.film.gamma_min = gamma_min;
   setting.laws.friction = FrictionLaw{0.3, FrictionMethod::kFixedPoint};
-  auto discs = box_of_discs(kCount);
+  auto discs = particles_in_box(kCount);
   add_rotation(discs.particles);
   Simulation simulation(setting, std::move(discs), 1);
   while (simulation.state().time < kEnd * (1 - 1e-9)) visit(simulation.step(kEnd));
@@ -40,6 +41,40 @@ TEST(JammedFriction, AStepThatDoesNotReachTheTolerancesHasNoOverlap) {
     EXPECT_GT(unsolved, 5);
     EXPECT_GT(contacts, 130);  // the discs lie on each other
   }
+}
+
+/// Places and angles of 60 particles that have fallen into the box, in lengths of the unit `unit`.
+std::vector<double> places_in_unit(double unit, int dimension, FrictionMethod method,
+                                   double gamma_min) {
+  constexpr int kCount = 60;
+  auto setting = box(kCount, dimension);
+  setting.gravity = unit * setting.gravity;
+  for (auto& plane : setting.planes) plane.start.point = unit * plane.start.point;
+  setting.laws.film.gamma_min = unit * gamma_min;
+  setting.laws.friction = FrictionLaw{0.3, method};
+  auto state = particles_in_box(kCount, dimension);
+  auto& p = state.particles;
+  for (auto& x : p.positions) x *= unit;
+  for (auto& radius : p.radii) radius *= unit;
+  add_rotation(p);
+  Simulation simulation(setting, std::move(state), 1);
+  while (simulation.state().time < 6) simulation.step(6);
+  auto places = simulation.state().particles.positions;
+  for (auto& x : places) x /= unit;
+  const auto& angles = simulation.state().particles.angles;
+  places.insert(places.end(), angles.begin(), angles.end());
+  return places;
+}
+
+TEST(JammedFriction, HasTheSameBitsInUnitsThatArePowersOfTwo) {
+  for (const auto method : {FrictionMethod::kFixedPoint, FrictionMethod::kConvex})
+    for (const int dimension : {2, 3})
+      for (const double gamma_min : {0.0, -2.0}) {
+        SCOPED_TRACE(testing::Message() << dimension << " dimensions, gamma_min " << gamma_min);
+        const auto expected = places_in_unit(1, dimension, method, gamma_min);
+        for (const double unit : {0x1p-20, 0x1p20})
+          EXPECT_EQ(places_in_unit(unit, dimension, method, gamma_min), expected) << unit;
+      }
 }
 
 TEST(JammedFriction, CoulombsLawConvergesInEveryStep) {

@@ -1,0 +1,129 @@
+// The factors of small dense blocks against the formula of Woodbury, where stiff contacts of 1e10 stand
+// beside masses of 1, and in other units.
+#include "viscontact/particles/constraints/block_factor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "tests/particles/systems.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+using Eigen::Index;
+
+/// Masses, and contacts of two neighbouring bodies in a ring that add left^T stiffness right.
+template <int K>
+struct Chain {
+  static constexpr std::size_t kBodies = 6;
+  Eigen::VectorXd masses;
+  Eigen::MatrixXd left, right;  // a row for each contact
+  Eigen::VectorXd stiffnesses;
+  Eigen::VectorXd sides;  // right side of the equation
+
+  /// With `unit` != 1 the last number of each body is one of an angle, in another unit of length.
+  Chain(bool is_symmetric, double unit, unsigned seed) {
+    Random random(seed);
+    const auto size = static_cast<Index>(K * kBodies), contacts = static_cast<Index>(kBodies);
+    masses.resize(size);
+    sides.resize(size);
+    stiffnesses.resize(contacts);
+    left = right = Eigen::MatrixXd::Zero(contacts, size);
+    for (Index c = 0; c < contacts; ++c) {
+      stiffnesses[c] = c % 2 == 0 ? 1e10 : 1;
+      for (Index k = 0; k < 2 * K; ++k) {
+        const Index at = (c * K + k) % size;
+        right(c, at) = random.uniform(-1, 1);
+        left(c, at) = right(c, at) + (is_symmetric ? 0 : random.uniform(-0.5, 0.5));
+      }
+    }
+    for (Index i = 0; i < size; ++i) {
+      const double scale = i % K == K - 1 ? unit : 1;
+      masses[i] = random.uniform(1, 2) * scale * scale;
+      sides[i] = random.uniform(-1, 1) * scale;
+      left.col(i) *= scale;
+      right.col(i) *= scale;
+    }
+  }
+
+  template <bool kIsSymmetric>
+  Eigen::VectorXd solved() const {
+    constexpr auto k = static_cast<std::size_t>(K);
+    BlockFactor<K, kIsSymmetric> factor;
+    std::vector<std::array<std::int32_t, 2>> edges;
+    for (std::int32_t c = 0; c < static_cast<std::int32_t>(kBodies); ++c)
+      edges.push_back({c, (c + 1) % static_cast<std::int32_t>(kBodies)});
+    factor.analyse(kBodies, edges);
+    factor.clear();
+    const Eigen::MatrixXd all = left.transpose() * stiffnesses.asDiagonal() * right;
+    const auto add = [&](auto& block, std::size_t rows, std::size_t columns) {
+      for (std::size_t i = 0; i < k; ++i)
+        for (std::size_t j = 0; j < k; ++j)
+          block[i * k + j] +=
+              all(static_cast<Index>(rows * k + i), static_cast<Index>(columns * k + j));
+    };
+    for (std::size_t b = 0; b < kBodies; ++b) {
+      add(factor.diagonal(b), b, b);
+      for (std::size_t i = 0; i < k; ++i)
+        factor.diagonal(b)[i * k + i] += masses[static_cast<Index>(b * k + i)];
+      const std::size_t next = (b + 1) % kBodies;
+      for (const auto& [from, to] : {std::array{b, next}, std::array{next, b}})
+        if (!kIsSymmetric || factor.is_below(b, from)) add(factor.off_diagonal(b, from), from, to);
+    }
+    EXPECT_TRUE(factor.factorise());
+    std::vector<typename BlockFactor<K, kIsSymmetric>::Vec> values(kBodies);
+    for (std::size_t i = 0; i < k * kBodies; ++i)
+      values[i / k][i % k] = sides[static_cast<Index>(i)];
+    factor.solve(values);
+    Eigen::VectorXd solution(sides.size());
+    for (std::size_t i = 0; i < k * kBodies; ++i)
+      solution[static_cast<Index>(i)] = values[i / k][i % k];
+    return solution;
+  }
+
+  /// Woodbury (1950), "Inverting modified matrices": only sums of the order of 1 and of 1e-10 occur.
+  Eigen::VectorXd expected() const {
+    const Eigen::VectorXd free = sides.cwiseQuotient(masses);
+    const Eigen::MatrixXd moved = masses.cwiseInverse().asDiagonal() * left.transpose();
+    Eigen::MatrixXd small = right * moved;
+    small.diagonal() += stiffnesses.cwiseInverse();
+    return free - moved * small.fullPivLu().solve(right * free);
+  }
+};
+
+template <int K, bool kIsSymmetric>
+void expect_digits() {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Chain<K> chain(kIsSymmetric, 1, seed);
+    const auto expected = chain.expected();
+    // The matrix itself has rounding errors of 1e10 times 1e-16 along the stiff directions, which
+    // move a solution of the size 1 by 1e-6 of its part along them, 1e-10.
+    EXPECT_LE((chain.template solved<kIsSymmetric>() - expected).norm(), 1e-12 * expected.norm())
+        << seed;
+  }
+}
+
+TEST(BlockFactor, OfStiffContactsKeepsTheDigitsOfTheMasses) {
+  expect_digits<3, false>();
+  expect_digits<6, false>();
+  expect_digits<3, true>();
+  expect_digits<6, true>();
+}
+
+TEST(BlockFactor, HasTheSameBitsInUnitsThatArePowersOfTwo) {
+  for (unsigned seed = 1; seed <= 20; ++seed)
+    for (const double unit : {0x1p-20, 0x1p20}) {
+      const auto plain = Chain<3>(false, 1, seed).solved<false>();
+      const auto scaled = Chain<3>(false, unit, seed).solved<false>();
+      for (Index i = 0; i < plain.size(); ++i)
+        EXPECT_EQ(scaled[i] * (i % 3 == 2 ? unit : 1), plain[i]) << seed << " " << i;
+    }
+}
+
+}  // namespace
+}  // namespace viscontact::particles
