@@ -14,9 +14,6 @@
 # the magnet holds discs: True
 
 # %%
-import pathlib
-import tempfile
-
 import numpy as np
 
 import viscontact
@@ -24,41 +21,24 @@ import viscontact
 # %% [markdown]
 # ## The case
 #
-# The discs start on a lattice that is not quite regular. A file of particles has their places,
-# radii and masses.
+# The discs start on a lattice that is not quite regular. The sections of a case file are a
+# dictionary here, and the particles are arrays.
 
 # %%
 rng = np.random.default_rng(1)
 x, y = np.meshgrid(2.1 * np.arange(20) + 1.1, 2.1 * np.arange(20) + 1.1)
-places = np.column_stack([x.ravel(), y.ravel()]) + rng.uniform(-0.04, 0.04, (400, 2))
-radii = rng.uniform(0.8, 1.0, 400)
-folder = pathlib.Path(tempfile.mkdtemp())
-np.savetxt(folder / "discs.csv", np.column_stack([places, radii, np.ones(400)]), delimiter=",",
-           header="x,y,radius,mass", comments="")
-(folder / "box.toml").write_text("""
-title = "A box of discs"
-[space]
-dimension = 2
-gravity = [0.0, -1.0]
-[viscous_contact]
-time_step = 0.05
-end_time = 40.0
-gamma_min = -0.05
-[solver]
-impulse_tolerance = 1e-6
-[particles]
-file = "discs.csv"
-[[plane]]
-point = [0.0, 0.0]
-normal = [0.0, 1.0]
-[[plane]]
-point = [0.0, 0.0]
-normal = [1.0, 0.0]
-[[plane]]
-point = [43.0, 0.0]
-normal = [-1.0, 0.0]
-""")
-discs = viscontact.Particles(folder / "box.toml")
+x, y = np.array([x.ravel(), y.ravel()]) + rng.uniform(-0.04, 0.04, (400, 2)).T
+case = {
+    "title": "A box of discs",
+    "space": {"dimension": 2, "gravity": [0.0, -1.0]},
+    "viscous_contact": {"time_step": 0.05, "end_time": 40.0, "gamma_min": -0.05},
+    "solver": {"impulse_tolerance": 1e-6},
+    "plane": [{"point": [0.0, 0.0], "normal": [0.0, 1.0]},
+              {"point": [0.0, 0.0], "normal": [1.0, 0.0]},
+              {"point": [43.0, 0.0], "normal": [-1.0, 0.0]}],
+}
+discs = viscontact.Particles(
+    case, {"x": x, "y": y, "radius": rng.uniform(0.8, 1.0, 400), "mass": np.ones(400)})
 
 # %% [markdown]
 # ## They fall

@@ -172,6 +172,10 @@ void solver_keys(case_file::Keys& keys, SolverSettings& settings) {
 void output_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.optional("every", case_file::number(c.frame_interval, kModeratelyPositive),
                 {"time between frames", "a hundredth of `end_time`"});
+  keys.optional("average_from", case_file::number(c.average_from, kNotNegative),
+                {"time at which the means over time in run.json and in sweeps begin"});
+  keys.require(c.average_from < c.end_time, "average_from",
+               "is {}; it must be earlier than end_time, {}", c.average_from, c.end_time);
   keys.optional(
       "tables", case_file::texts(c.tables),
       {"tables with rows for each frame: `\"motion\"`, `\"contacts\"`, `\"walls\"`, "
@@ -226,10 +230,9 @@ void check_periods_of_plane(const case_file::TomlSection& section, const Plane& 
 
 void particles_sweep_keys(case_file::Keys& keys, case_file::SweepRequest& sweep) {
   keys.optional("vary", case_file::texts(sweep.vary), {"`KEY=RANGE` each, as on the command line"});
-  keys.optional("samples", case_file::number(sweep.samples, case_file::kWholeNumber),
-                {"number of random points", "the whole grid"});
   keys.optional("draws", case_file::number(sweep.draws, case_file::kWholeNumber),
                 {"number of random arrangements at each point", "that of the case"});
+  case_file::points_and_plot_keys(keys, sweep);
 }
 
 /// Reads [domain] and [fluid]. Needs c.path and the dimension of the case.

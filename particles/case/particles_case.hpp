@@ -30,7 +30,8 @@ struct ParticlesCase {
   std::filesystem::path particles_file;  ///< the CSV file; empty if there is none
   double end_time = 0;                   ///< time at which the run ends [T], > 0
   double frame_interval = 0;             ///< time between two frames [T], > 0
-  std::vector<std::string> tables;       ///< those that the case asks for, of kAskedTables
+  double average_from = 0;          ///< time at which means over time begin [T], >= 0, < end_time
+  std::vector<std::string> tables;  ///< those that the case asks for, of kAskedTables
   /// What [arrangement] asks for; its particles are the last ones.
   std::optional<Arrangement> arrangement;
   /// What the section [sweep] asks for; nothing if the case has no such section.

@@ -25,14 +25,15 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, failed, itera
                                    largest_overlap, largest_impulse_residual, divided, unresolved,
                                    seconds, peak_memory_mebibytes, fluid_seconds, unknowns,
                                    first_velocity_errors, last_velocity_errors, first_force_errors,
-                                   last_force_errors)
+                                   last_force_errors, averaged_time, mean_dissipation,
+                                   mean_apparent_viscosity)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
 
 namespace {
 constexpr const char* kRecordOf = "# record after step ";
 }  // namespace
 
-void StepTotals::add(const StepReport& report) {
+void StepTotals::add(const StepReport& report, double average_from) {
   ++steps;
   unconverged += report.converged ? 0 : 1;
   failed += report.converged || report.excess <= kStillAResult ? 0 : 1;
@@ -43,9 +44,18 @@ void StepTotals::add(const StepReport& report) {
   largest_impulse_residual = std::max(largest_impulse_residual, report.impulse_residual);
   divided += report.parts > 1 ? 1 : 0;
   unresolved += static_cast<std::int64_t>(report.unresolved);
-  last_time = report.time;
   const auto& fluid = report.fluid;
   fluid_seconds += fluid.seconds;
+  if (const double duration = report.time - std::max(last_time, average_from); duration > 0) {
+    averaged_time += duration;
+    // This form of the mean has no rounding error if all values are equal (Welford 1962).
+    const auto include = [&](double& mean, double value) {
+      mean += (value - mean) * (duration / averaged_time);
+    };
+    include(mean_dissipation, fluid.dissipation);
+    include(mean_apparent_viscosity, fluid.apparent_viscosity);
+  }
+  last_time = report.time;
   if (fluid.velocity_errors.best < 0) return;
   if (first_velocity_errors.best < 0) {
     first_velocity_errors = fluid.velocity_errors;
@@ -148,6 +158,9 @@ std::string run_json(const ParticlesCase& c, const StepTotals& totals, const Sta
     add_estimates("velocity_error_estimate", totals.first_velocity_errors,
                   totals.last_velocity_errors);
     add_estimates("force_error_estimate", totals.first_force_errors, totals.last_force_errors);
+    json["average_from"] = std::max(c.average_from, totals.first_time);
+    json["mean_dissipation"] = totals.mean_dissipation;
+    json["mean_apparent_viscosity"] = totals.mean_apparent_viscosity;
     json["unknowns"] = totals.unknowns;
     json["fluid_seconds"] = totals.fluid_seconds;
   }

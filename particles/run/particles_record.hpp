@@ -45,8 +45,13 @@ struct StepTotals {
   RelativeErrors first_velocity_errors, last_velocity_errors;
   RelativeErrors first_force_errors, last_force_errors;
 
-  /// Adds a step.
-  void add(const StepReport& report);
+  double averaged_time = 0;  ///< time over which the two means are taken [T]
+  /// Means over time of FluidStepReport::dissipation and ::apparent_viscosity; those of a step hold
+  /// from the end of the step before.
+  double mean_dissipation = 0, mean_apparent_viscosity = 0;
+
+  /// Adds a step; means are taken from the time `average_from` on [T].
+  void add(const StepReport& report, double average_from);
 };
 
 /// What a run has done when a state was reached. A file that a run needs to continue, beside the

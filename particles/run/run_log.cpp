@@ -85,7 +85,7 @@ void RunLog::add_step(const StepReport& report, const State& state,
   // A million rows are 50 MB.
   constexpr std::int64_t kMostRows = 1000000, kThen = 1000;
   constexpr std::uint64_t kMostRebounds = 1000000;
-  record_.totals.add(report);
+  record_.totals.add(report, case_.average_from);
   const auto steps = record_.totals.steps;
   if (steps <= kMostRows || steps % kThen == 0 || !report.converged) {
     files_.at("steps.csv").append(step_row(state.steps, report, case_.setting.fluid));

@@ -47,42 +47,16 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-/// Adds from steps.csv, whose first time is `from`, the values of the last step, and the means over
-/// time of the columns whose mean is asked for. A value holds from the end of the step before.
-void add_steps(const fs::path& path, double from, const std::vector<std::string>& columns,
-               Values& values) {
+/// Adds the values of the last row of steps.csv.
+void add_last_step(const fs::path& path, const std::vector<std::string>& columns, Values& values) {
   std::istringstream text(read_file(path));
-  std::vector<std::string> names;
-  std::vector<double> durations(columns.size());
-  double before = from;
-  for (std::string line; std::getline(text, line);) {
-    if (line.starts_with('#')) continue;
-    const auto fields = fields_of(line);
-    if (names.empty()) {
-      names = fields;
-      continue;
-    }
-    const auto field = [&](const std::string& name) -> std::optional<double> {
-      const auto at = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-      return at < fields.size() ? parse_number(fields[at]) : std::nullopt;
-    };
-    const double time = field("time").value_or(before);
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      constexpr std::string_view kMean = "mean_";
-      const bool is_mean = columns[i].starts_with(kMean);
-      const auto value = field(is_mean ? columns[i].substr(kMean.size()) : columns[i]);
-      if (!value) continue;
-      if (is_mean && time > before) {
-        // This form of the mean has no rounding error if all values are equal.
-        durations[i] += time - before;
-        auto& mean = values[columns[i]];
-        mean += (*value - mean) * ((time - before) / durations[i]);
-      } else if (!is_mean) {
-        values[columns[i]] = *value;
-      }
-    }
-    before = time;
-  }
+  std::vector<std::string> names, last;
+  for (std::string line; std::getline(text, line);)
+    if (!line.starts_with('#')) (names.empty() ? names : last) = fields_of(line);
+  for (std::size_t i = 0; i < std::min(names.size(), last.size()); ++i)
+    if (const auto value = parse_number(last[i]);
+        value && std::ranges::find(columns, names[i]) != columns.end())
+      values[names[i]] = *value;
 }
 
 /// The values of the columns of a run, from the files in its folder.
@@ -90,7 +64,7 @@ Values values_of(const ParticlesCase& c, const std::vector<std::string>& columns
                  const fs::path& run) {
   Values values;
   const auto json = Json::parse(read_file(run / "run.json"));
-  add_steps(run / "steps.csv", json.value("from_time", 0.0), columns, values);
+  add_last_step(run / "steps.csv", columns, values);
   // run.json decides if both files have a value, because its values are those of the whole run.
   for (const auto& column : columns)
     if (json.contains(column))

@@ -14,9 +14,10 @@ long ones. docs/python.md shows how to use the module, and docs/physics.md has t
 """
 
 from ._core import (Error, ExternalProgramError, Fit, InputError, NotConvergedError, PairFit,
-                    Particles, StepReport, __version__, _tabulate, fit, fit_pair, rolling, simulate,
+                    StepReport, __version__, _tabulate, fit, fit_pair, rolling, simulate,
                     swimmer)
 from .columns import Columns
+from .particles import Particles
 from .results import Folder, Frames, read
 
 __all__ = ["Columns", "Error", "ExternalProgramError", "Fit", "Folder", "Frames", "InputError",

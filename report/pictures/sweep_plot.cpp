@@ -46,10 +46,11 @@ class SweepRows {
     std::size_t column;
     std::optional<std::size_t> divisor;
   };
-  Place find(const std::string& name) const {
+  /// Those of "COLUMN" or "COLUMN/KEY", where the file calls the column COLUMN and `ending`.
+  Place find(const std::string& name, const std::string& ending = "") const {
     const auto slash = name.find('/');
-    if (slash == std::string::npos) return {index_of(name), {}};
-    return {index_of(name.substr(0, slash)), index_of(name.substr(slash + 1))};
+    if (slash == std::string::npos) return {index_of(name + ending), {}};
+    return {index_of(name.substr(0, slash) + ending), index_of(name.substr(slash + 1))};
   }
 
   /// Reads the next row; returns false at the end. Blank lines are skipped.
@@ -94,7 +95,8 @@ bool is_logarithmic(const std::vector<double>& values) {
   return low > 0 && high >= 10 * low;
 }
 
-constexpr int kSweepWidth = 860;  // [pixels]
+constexpr int kSweepWidth = 860;                                     // [pixels]
+constexpr const char *kMean = ".mean", *kError = ".standard_error";  // endings of columns of means
 
 /// Throws Error(kBadInput) if no value can be drawn.
 void check_has_value(const std::filesystem::path& path, const std::vector<double>& values,
@@ -109,8 +111,11 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
                        const StopToken& stop) {
   SweepRows rows(path);
   const auto x = rows.find(plot.x);
-  std::vector<SweepRows::Place> places;
-  for (const auto& column : plot.columns) places.push_back(rows.find(column));
+  std::vector<SweepRows::Place> places, errors;
+  for (const auto& column : plot.columns) {
+    places.push_back(rows.find(column, plot.is_of_means ? kMean : ""));
+    if (plot.is_of_means) errors.push_back(rows.find(column, kError));
+  }
   constexpr std::array kColours = {kBlue,   kVermilion, kBluishGreen, kReddishPurple,
                                    kOrange, kSkyBlue,   kBlack};
   Panel panel{"",    plot.x, plot.columns.size() == 1 ? plot.columns[0] : "",
@@ -122,17 +127,30 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
          fmt::format("linespoints pointtype 7 pointsize 0.4 linewidth 2 linecolor rgb '{}'",
                      kColours[i % kColours.size()]),
          {}});
+  std::vector<Curve> bars;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    bars.push_back(
+        {"",
+         fmt::format("linespoints pointtype 2 pointsize 0.3 linewidth 1 linecolor rgb '{}'",
+                     kColours[i % kColours.size()]),
+         {}});
   std::vector<double> xs, ys;
   while (rows.next())
     for (std::size_t i = 0; i < places.size(); ++i) {
-      panel.curves[i].points.emplace_back(rows.value(x), rows.value(places[i]));
-      xs.push_back(rows.value(x));
-      ys.push_back(rows.value(places[i]));
+      const double at = rows.value(x), y = rows.value(places[i]);
+      panel.curves[i].points.emplace_back(at, y);
+      xs.push_back(at);
+      ys.push_back(y);
+      if (errors.empty()) continue;
+      const double error = rows.value(errors[i]);
+      bars[i].points.insert(bars[i].points.end(),
+                            {{at, y - error}, {at, y + error}, {at, kNoValue}});
     }
   check_has_value(path, ys, false);
   // The rows of random samples are not in the order of x.
   for (auto& curve : panel.curves)
     std::ranges::sort(curve.points, {}, &std::pair<double, double>::first);
+  panel.curves.insert(panel.curves.end(), bars.begin(), bars.end());
   panel.x_log = is_logarithmic(xs);
   panel.y_log = is_logarithmic(ys);
   for (const auto& [axis, logarithmic] : {std::pair('x', panel.x_log), std::pair('y', panel.y_log)})
@@ -197,7 +215,8 @@ std::vector<std::string> map_colours(double low, double high) {
 std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot, TextKind kind,
                      const StopToken& stop) {
   SweepRows rows(path);
-  const auto x = rows.find(plot.x), y = rows.find(plot.y), column = rows.find(plot.columns[0]);
+  const auto x = rows.find(plot.x), y = rows.find(plot.y);
+  const auto column = rows.find(plot.columns[0], plot.is_of_means ? kMean : "");
   std::map<std::pair<double, double>, double> cells;
   std::set<double> xs, ys;
   std::vector<double> values;

@@ -47,7 +47,7 @@ class PageTest(unittest.TestCase):
 
     def test_examples(self):
         examples = sorted((SOURCE / "examples/python").glob("*.py"))
-        self.assertGreaterEqual(len(examples), 2)
+        self.assertGreaterEqual(len(examples), 3)
         for example in examples:
             with self.subTest(example.name):
                 text = example.read_text()

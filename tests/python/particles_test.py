@@ -67,6 +67,49 @@ class ParticlesTest(unittest.TestCase):
             expected = values("particles", case, 60)
             np.testing.assert_array_equal(np.column_stack([p.positions, p.velocities]), expected)
 
+    def test_arrays_give_the_bits_of_a_file(self):
+        rng = np.random.default_rng(3)
+        x, y = np.meshgrid(2.1 * np.arange(5), 1.1 + 2.1 * np.arange(4))
+        table = {"x": x.ravel() + rng.uniform(-0.05, 0.05, 20), "y": y.ravel(),
+                 "radius": rng.uniform(0.7, 1.0, 20), "mass": np.ones(20),
+                 "vx": rng.normal(size=20), "vy": np.zeros(20), "id": np.arange(20, 40)}
+        case = {"space": {"dimension": 2, "gravity": (0.0, -1.0)},
+                "viscous_contact": {"end_time": 2, "time_step": 0.01, "gamma_min": np.float64(-0.5)},
+                "plane": [{"point": np.zeros(2), "normal": [0.0, 1.0]}],
+                "title": 'From "arrays"'}
+        one = viscontact.Particles(case, table)
+        self.assertEqual(one.ids.tolist(), table["id"].tolist())
+        np.testing.assert_array_equal(one.positions, np.column_stack([table["x"], table["y"]]))
+        np.savetxt(self.folder / "table.csv", np.column_stack(list(table.values())), fmt="%.17g",
+                   delimiter=",", header=",".join(table), comments="")
+        text = (falling().split("[friction]")[0].replace("end_time = 3.0", "end_time = 2")
+                + '[particles]\nfile = "table.csv"\n'
+                "[[plane]]\npoint = [0.0, 0.0]\nnormal = [0.0, 1.0]\n")
+        two = self.open(text)
+        self.assertEqual(one.run(), two.run())
+        np.testing.assert_array_equal(one.positions, two.positions)
+        # The case as a file, without its particles.
+        path = self.folder / "bare.toml"
+        path.write_text(text.replace('[particles]\nfile = "table.csv"\n', ""))
+        three = viscontact.Particles(path, table, threads=2)
+        three.run()
+        np.testing.assert_array_equal(one.positions, three.positions)
+
+    def test_wrong_arrays_are_refused(self):
+        case = {"space": {"dimension": 2}, "viscous_contact": {"end_time": 1, "time_step": 0.1,
+                                                               "gamma_min": -1}}
+        good = {"x": [0.0, 3.0], "y": [0.0, 0.0], "radius": [1.0, 1.0], "mass": [1.0, 1.0]}
+        viscontact.Particles(case, good)
+        for wrong, words in [({"mass": [1.0]}, "the lengths 2, 2, 2, 1"),
+                             ({"mass": [1.0, -1.0]}, "mass is -1"), ({"u": [0, 0]}, "'u'"),
+                             ({"x": [0.0, 1.0]}, "overlap")]:
+            with self.assertRaisesRegex(viscontact.InputError, words):
+                viscontact.Particles(case, {**good, **wrong})
+        with self.assertRaisesRegex(viscontact.InputError, "leave one of both out"):
+            viscontact.Particles({**case, "particles": {"file": "x.csv"}}, good)
+        with self.assertRaisesRegex(viscontact.InputError, "is not possible in a case"):
+            viscontact.Particles({**case, "title": None}, good)
+
     def test_threads_change_no_bit(self):
         one, two = viscontact.Particles(RAFT), viscontact.Particles(RAFT, threads=2)
         self.assertEqual(one.run(0.5), two.run(0.5))

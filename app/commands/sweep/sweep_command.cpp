@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,13 +45,16 @@ void add_picture_options(CLI::App& command, SweepOptions& o) {
 report::SweepPlot picture_of(const SweepOptions& o, const CaseStudy& s) {
   const auto& request = s.request;
   const auto& points = s.study.points;
+  if (points.variations.empty())
+    throw Error(ErrorKind::kWrongUsage,
+                "a picture needs a varied key for its horizontal axis; give --vary");
   const auto columns = s.study.columns();
   const auto is_there = [&](const std::string& column) {
     const auto slash = column.find('/');
     return std::ranges::find(columns, column.substr(0, slash)) != columns.end() &&
            (slash == std::string::npos || points.is_varied(column.substr(slash + 1)));
   };
-  report::SweepPlot picture{o.x, o.y, o.columns};
+  report::SweepPlot picture{o.x, o.y, o.columns, points.draws > 0};
   for (auto* axis : {&picture.x, &picture.y})
     if (*axis == "motion.mass") *axis = "sphere.mass";
   if (picture.x.empty() && picture.y.empty()) {
@@ -104,10 +109,36 @@ void check_columns(const report::SweepPlot& picture, const sweep::Study& study) 
   }
 }
 
+/// The picture that is asked for, if any, checked before rows are computed.
+std::optional<report::SweepPlot> checked_picture(const SweepOptions& o, const CaseStudy& s) {
+  if (o.plot.empty()) return {};
+  auto picture = picture_of(o, s);
+  check_columns(picture, s.study);
+  return picture;
+}
+
+/// Draws the picture of the rows, or of their means, in `file`.
+void draw(const SweepOptions& o, const CaseStudy& s, const report::SweepPlot& picture,
+          const std::filesystem::path& file) {
+  const auto kind = results::picture_kind(o.plot)->kind;
+  results::write_output(o.plot, kind, report::plot_sweep(file, picture, kind, interrupt_token()),
+                        results::provenance_of(results::Inputs{s.files, {file}}));
+}
+
+void run_particles_sweep(const SweepOptions& o) {
+  const auto sweep = sweep_of_particles(o);
+  const auto s = study_of_particles(sweep);
+  const auto picture = checked_picture(o, s);
+  sweep_many_particles(o, sweep);
+  if (picture && !o.dry_run)
+    draw(o, s, *picture,
+         picture->is_of_means ? particles::path_of_means(o.output)
+                              : std::filesystem::path(o.output));
+}
+
 /// Computes the rows of a study and draws its picture, or says how long that takes.
 void run_study(const SweepOptions& o, const CaseStudy& s) {
-  const auto picture = o.plot.empty() ? report::SweepPlot{} : picture_of(o, s);
-  if (!o.plot.empty()) check_columns(picture, s.study);
+  const auto picture = checked_picture(o, s);
   if (o.dry_run) {
     fmt::print("{}",
                pipeline::dry_run_text({pipeline::dry_run(s.study, o.output, interrupt_token())},
@@ -115,11 +146,7 @@ void run_study(const SweepOptions& o, const CaseStudy& s) {
     return;
   }
   pipeline::run_sweep(s.study, {o.output, o.jobs, interrupt_token()}, {s.files, {}}, s.part);
-  if (o.plot.empty()) return;
-  const auto kind = results::picture_kind(o.plot)->kind;
-  results::write_output(o.plot, kind,
-                        report::plot_sweep(o.output, picture, kind, interrupt_token()),
-                        results::provenance_of(results::Inputs{s.files, {o.output}}));
+  if (picture) draw(o, s, *picture, o.output);
 }
 
 void run_sweep(const SweepOptions& o) {
@@ -131,7 +158,7 @@ void run_sweep(const SweepOptions& o) {
   check_picture(o.plot);
   switch (case_file::kind_of_case(o.case_file)) {
     case case_file::CaseKind::kParticles:
-      return sweep_many_particles(o);
+      return run_particles_sweep(o);
     case case_file::CaseKind::kSwimmer:
       return run_study(o, study_of_swimmer(o));
     case case_file::CaseKind::kRolling:

@@ -11,6 +11,7 @@
 #include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/array_options.hpp"
 #include "viscontact/case_file/case_template.hpp"
+#include "viscontact/particles/case/particles_study.hpp"
 #include "viscontact/sweep/study.hpp"
 
 namespace viscontact::app {
@@ -51,8 +52,12 @@ CaseStudy study_of_sphere(const SweepOptions& o);
 CaseStudy study_of_swimmer(const SweepOptions& o);
 CaseStudy study_of_rolling_sphere(const SweepOptions& o);
 
-/// Computes the sweep of a case of many particles here, submits it to a cluster, or collects the
-/// rows that the cluster has finished.
-void sweep_many_particles(const SweepOptions& o);
+/// The rows of a sweep of a case of many particles. Throws the errors of study_of_sphere().
+particles::ParticlesSweep sweep_of_particles(const SweepOptions& o);
+/// What a picture of these rows needs; it cannot compute them.
+CaseStudy study_of_particles(const particles::ParticlesSweep& sweep);
+/// Computes the rows here, submits them to a cluster, or collects those that the cluster has
+/// finished.
+void sweep_many_particles(const SweepOptions& o, const particles::ParticlesSweep& sweep);
 
 }  // namespace viscontact::app

@@ -130,12 +130,14 @@ CaseStudy study_of_rolling_sphere(const SweepOptions& o) {
   return s;
 }
 
-void sweep_many_particles(const SweepOptions& o) {
-  if (!o.models.empty() || !o.reference.empty() || !o.fit.empty() || !o.plot.empty() ||
-      !o.x.empty() || !o.y.empty() || !o.columns.empty())
+particles::ParticlesSweep sweep_of_particles(const SweepOptions& o) {
+  if (!o.models.empty() || !o.reference.empty() || !o.fit.empty())
     throw Error(ErrorKind::kWrongUsage,
-                "--models, --reference, --fit and the options of pictures are for cases of one "
-                "sphere; leave them out");
+                "--models, --reference and --fit are for cases of one sphere; leave them out");
+  if (!o.plot.empty() && (o.array.is_slurm() || !o.array.task.empty()))
+    throw Error(
+        ErrorKind::kWrongUsage,
+        "--plot needs the rows of all tasks; give it with --gather, when they are finished");
   const auto means = particles::path_of_means(o.output);
   results::refuse_other_kind(o.output, "# viscontact: sweep of particles", "sweep of particles");
   results::refuse_other_kind(means, "# viscontact: means of a sweep", "table of means");
@@ -145,7 +147,19 @@ void sweep_many_particles(const SweepOptions& o) {
   if (points.variations.empty() && points.draws == 0)
     throw Error(ErrorKind::kWrongUsage,
                 "there is nothing to vary; give --vary KEY=FROM:TO:COUNT or --draws N");
-  const particles::ParticlesSweep sweep(o.case_file, std::move(points));
+  return {o.case_file, std::move(points)};
+}
+
+CaseStudy study_of_particles(const particles::ParticlesSweep& sweep) {
+  const auto c = particles::read_particles_case(sweep.case_path());
+  return {.study = sweep.study(VISCONTACT_VERSION, {}),
+          .files = {sweep.case_path()},
+          .part = "run",
+          .request = c.sweep.value_or(case_file::SweepRequest{}),
+          .columns = {c.setting.fluid ? "mean_apparent_viscosity" : "contacts"}};
+}
+
+void sweep_many_particles(const SweepOptions& o, const particles::ParticlesSweep& sweep) {
   const particles::ParticlesSweepRequest request{
       o.output, o.jobs, o.keep_runs, freefem_flow::start_fluid_solver, interrupt_token()};
   if (o.dry_run) {

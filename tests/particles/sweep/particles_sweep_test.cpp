@@ -12,6 +12,7 @@
 #include "tests/particles/sweep/particles_case.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particles/case/particles_study.hpp"
+#include "viscontact/particles/run/particles_record.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -219,6 +220,23 @@ TEST_F(ParticlesSweepTest, SectionOfTheCaseGivesThePlan) {
                "[sweep]\nvary = [\"arrangement.area_fraction=0.1:0.3:3\"]\ndraws = 4\n"));
   const auto plan = planned_particles(path("case.toml"));
   EXPECT_EQ(ParticlesSweep(path("case.toml"), plan).points().rows(), 12U);
+}
+
+TEST(StepTotals, MeansOverTimeBeginAtTheTimeThatIsAsked) {
+  StepTotals all, late;
+  double time = 0;
+  for (const double viscosity : {8.0, 2.0, 3.0}) {
+    StepReport report;
+    report.time = time += 0.5;
+    report.fluid.apparent_viscosity = viscosity;
+    report.fluid.dissipation = -viscosity;
+    all.add(report, 0);
+    late.add(report, 0.75);  // in the middle of the second step
+  }
+  EXPECT_DOUBLE_EQ(all.mean_apparent_viscosity, 13.0 / 3);
+  EXPECT_DOUBLE_EQ(late.mean_apparent_viscosity, (0.25 * 2 + 0.5 * 3) / 0.75);
+  EXPECT_DOUBLE_EQ(late.mean_dissipation, -late.mean_apparent_viscosity);
+  EXPECT_DOUBLE_EQ(late.averaged_time, 0.75);
 }
 
 TEST(PathOfMeans, IsBesideTheRows) {

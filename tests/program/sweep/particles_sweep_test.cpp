@@ -184,6 +184,29 @@ TEST_F(SweepOfParticles, KeepsAllFilesOfTheRunsIfAsked) {
     EXPECT_TRUE(std::filesystem::exists(path(std::string("rows.csv.runs/0-0/run/") + name)));
 }
 
+TEST_F(SweepOfParticles, DrawsRowsOrTheMeansOfDrawsWithTheirErrors) {
+  const auto plot = [&](const std::string& name) {
+    return std::vector<std::string>{"--plot", path(name), "--column", "contacts,iterations"};
+  };
+  expect_done(run("rows.csv", plot("means.svg")));
+  const auto means = read_file(path("means.svg"));
+  EXPECT_THAT(means, AllOf(HasSubstr("rows_means.csv"), HasSubstr(">contacts<"),
+                           HasSubstr(">arrangement.area\\_fraction<")));
+  // A curve, and a curve of bars, for each column.
+  expect_done(sweep(path("case.toml"),
+                    {"--vary", "arrangement.area_fraction=0.2,0.4", "--plot", path("rows.svg"),
+                     "--column", "contacts,iterations"},
+                    "single.csv"));
+  const auto count = [](const std::string& text, std::string_view part) {
+    std::size_t found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+  };
+  const auto curve = "<g id=\"gnuplot_plot_";
+  EXPECT_EQ(count(read_file(path("rows.svg")), curve), 2U);
+  EXPECT_EQ(count(means, curve), 4U);
+}
+
 TEST_F(SweepOfParticles, OptionsOfTheOtherKindOfCaseAreRefused) {
   const auto refused = [&](const std::vector<std::string>& options, const std::string& words) {
     expect_refused(path("case.toml"), options, ErrorKind::kWrongUsage, HasSubstr(words));
@@ -192,6 +215,10 @@ TEST_F(SweepOfParticles, OptionsOfTheOtherKindOfCaseAreRefused) {
   refused({}, "give --vary KEY=FROM:TO:COUNT or --draws N");
   refused({"--draws", "2", "--task", "2/2"}, "--task is '2/2'");
   refused({"--draws", "2", "--tasks", "2"}, "need --launcher slurm");
+  refused({"--draws", "2", "--plot", path("x.svg")}, "a picture needs a varied key");
+  refused({"--draws", "2", "--task", "0/2", "--plot", path("x.svg")}, "give it with --gather");
+  refused({"--vary", "arrangement.area_fraction=0.2,0.4", "--plot", path("x.svg"), "--column", "u"},
+          "there is no column 'u' to plot");
   expect_refused(data("cases/vanishing_viscosity.toml"), {"--draws", "2"}, ErrorKind::kWrongUsage,
                  HasSubstr("for cases of many particles"));
   expect_refused(data("cases/vanishing_viscosity.toml"), {"--launcher", "slurm"},
