@@ -354,7 +354,6 @@ CaseKind kind_of_case(const fs::path& path) {
 template <>
 Case case_of_root(const TomlSection& root, std::string text, const fs::path& path) {
   auto c = titled_case<Case>(root, std::move(text), path, true);
-  read_units(root, c.units);
   read_keys(root.section("fluid"), fluid_keys, c.viscosity, c.fluid_density);
   double mass = 1;  // only the motion depends on it
   const bool needs_mass = root.has("motion");

@@ -13,7 +13,7 @@
 
 #include "viscontact/case_file/case_template.hpp"
 #include "viscontact/case_file/keys.hpp"
-#include "viscontact/case_file/units.hpp"
+#include "viscontact/common/text/units.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 #include "viscontact/lubrication/fit.hpp"

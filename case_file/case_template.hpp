@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "viscontact/case_file/toml_section.hpp"
+#include "viscontact/case_file/units_key.hpp"
 
 namespace viscontact::case_file {
 
@@ -34,8 +35,8 @@ struct SweepRequest {
 template <class CaseType>
 CaseType case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
 
-/// A case with the text, the path and the title of its file. Only with `needs_title` it must have a
-/// title.
+/// A case with the text, the path, the title and the units of its file. Only with `needs_title` it
+/// must have a title.
 template <class CaseType>
 CaseType titled_case(const TomlSection& root, std::string text, const std::filesystem::path& path,
                      bool needs_title = false) {
@@ -43,6 +44,7 @@ CaseType titled_case(const TomlSection& root, std::string text, const std::files
   c.text = std::move(text);
   c.path = path;
   if (needs_title || root.has("title")) c.title = root.text("title");
+  read_units(root, c.units);
   return c;
 }
 

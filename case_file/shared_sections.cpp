@@ -23,23 +23,6 @@ using freefem_axi::Tabulation;
 // double precision.
 constexpr double kSmallestGap = 1e-8;
 
-/// The word for a unit: 1 to 20 bytes, without blanks and characters that pages and gnuplot read as
-/// commands.
-void read_unit(const TomlSection& section, std::string_view key, std::string& word) {
-  word = section.text(key);
-  constexpr std::size_t kLongest = 20;
-  section.require(!word.empty() && word.size() <= kLongest &&
-                      word.find_first_of(" \t\n\r\"'`\\\\{}<>&$@^_~,;:") == std::string::npos,
-                  key, "is '{}'; it must be a word of 1 to {} letters, such as \"mm\"", word,
-                  kLongest);
-}
-
-void unit_keys(Keys& keys, Units& units) {
-  keys.required("length", custom("a word", read_unit, units.length), {"such as `\"m\"`"});
-  keys.required("time", custom("a word", read_unit, units.time), {"such as `\"s\"`"});
-  keys.required("mass", custom("a word", read_unit, units.mass), {"such as `\"kg\"`"});
-}
-
 double ball_volume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
 /// Gaps from `from` to `to` [L], with equal ratios or equal differences.
@@ -230,12 +213,6 @@ void points_and_plot_keys(Keys& keys, SweepRequest& sweep) {
   keys.optional("y", text(sweep.y), {"key of the vertical axis of a map", "lines over `x`"});
   keys.optional("plot", texts(sweep.plot), {"columns to draw", "that of the command"});
 }
-
-void read_units(const TomlSection& root, Units& units) {
-  if (root.has("units")) read_keys(root.section("units"), unit_keys, units);
-}
-
-KeyTable table_of_units() { return describe_keys("units", unit_keys); }
 
 void fluid_keys(Keys& keys, double& viscosity, double& density) {
   viscosity_keys(keys, viscosity);

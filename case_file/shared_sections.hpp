@@ -7,7 +7,6 @@
 
 #include "viscontact/case_file/case_template.hpp"
 #include "viscontact/case_file/keys.hpp"
-#include "viscontact/case_file/units.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact::case_file {
@@ -20,12 +19,6 @@ freefem_axi::Tabulation read_tabulation(const TomlSection& section, double visco
 
 /// What docs/case-file.md says about the keys of [tabulation].
 std::vector<KeyTable> tables_of_tabulation();
-
-/// Reads the units of a case, which its root table may have; otherwise they stay empty.
-void read_units(const TomlSection& root, Units& units);
-
-/// What docs/case-file.md says about the keys of units.
-KeyTable table_of_units();
 
 /// Declares the keys of [fluid] of a case of one sphere: its viscosity [M/(L T)], > 0, and its
 /// density [M/L^3], >= 0, which is 0 if the case does not give it.

@@ -138,8 +138,7 @@ std::string parameters_table(const results::RunResults& run) {
 /// The unit of the quantity with these powers of mass, length and time, for a heading: " [m/s]";
 /// empty if the case does not say its units.
 std::string in_brackets(const results::RunResults& run, int mass, int length, int time) {
-  const auto& units = run.c.units;
-  return units.are_said() ? fmt::format(" [{}]", escaped(units.unit_of(mass, length, time))) : "";
+  return escaped(run.c.units.in_brackets(mass, length, time));
 }
 
 /// Smallest gap, times of contact, when solids touch, and distance to the reference of each model.
@@ -298,7 +297,7 @@ std::string origin_section(const results::RunResults& run) {
 }
 
 /// Adds its unit to the label of an axis, if the case says its units.
-void add_unit(std::string& label, const case_file::Units& units) {
+void add_unit(std::string& label, const Units& units) {
   struct Dimension {
     std::string_view label;
     int mass, length, time;  // powers
@@ -310,8 +309,8 @@ void add_unit(std::string& label, const case_file::Units& units) {
                                                          {"lubrication force", 1, 1, -2},
                                                          {"force of the solids", 1, 1, -2}});
   const auto* found = std::ranges::find(kDimensions, label, &Dimension::label);
-  if (found == kDimensions.end() || !units.are_said()) return;
-  label += fmt::format(" [{}]", units.unit_of(found->mass, found->length, found->time));
+  if (found == kDimensions.end()) return;
+  label += units.in_brackets(found->mass, found->length, found->time);
 }
 
 std::vector<Plot> plots_of(const results::RunResults& run) {

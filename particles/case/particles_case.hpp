@@ -22,6 +22,7 @@ struct ParticlesCase {
   std::filesystem::path path;  ///< the case file
   std::string text;            ///< content of the file
   std::string title;           ///< a title for pages and pictures; may be empty
+  Units units{};               ///< words for pages and pictures; may be empty
   /// Everything that the simulation needs besides the particles.
   Setting setting;
   /// The particles of the CSV file, followed by those of the tables [[particle]] and by the random

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "viscontact/common/text/units.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/domain/plane.hpp"
 
@@ -44,6 +45,7 @@ struct DrawnLinks {
 /// All frames that a page or a picture shows.
 struct Playback {
   int dimension = 2;         ///< of space: 1, 2 or 3
+  Units units{};             ///< of the case; may be empty
   std::vector<float> radii;  ///< [L]
   /// Semi-axes of each particle in the plane, the first one along its angle [L]; empty: all are
   /// discs.

@@ -390,8 +390,11 @@ FlowOfPage flow_of_page(const Scene& scene) {
                  {"flow-lines", lines},
                  {"flow-offsets", offsets}};
   const auto& window = flows.grid.window;
-  const auto speed = report::speed_scale(flows.top_speed, kScaleColours);
-  const auto pressure = flows.pressure_colours.scale(kScaleColours);
+  const auto& units = scene.playback.units;
+  const auto speed =
+      report::speed_scale(flows.top_speed, kScaleColours, units.unit_or_dimension(0, 1, -1));
+  const auto pressure = flows.pressure_colours.scale(
+      kScaleColours, units.are_said() ? units.unit_of(1, -1, -2) : "viscosity/time");
   const auto list = [](const auto& colours) {
     return fmt::format("{}", fmt::join(colours, "\",\""));
   };
@@ -460,7 +463,7 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
       "\"bytes\":{},\"low\":{},\"step\":{},\"roomLow\":{},\"roomHigh\":{},\"lowest\":{},"
       "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{}],\"hasAxis\":{},\"flow\":{},"
       "\"friction\":[{}],\"hasForces\":{},\"meanRadius\":{},\"hinges\":[{}],\"springs\":[{}],"
-      "\"arms\":[{}],\"style\":{}}}"
+      "\"arms\":[{}],\"unitOfLength\":\"{}\",\"unitOfTime\":\"{}\",\"style\":{}}}"
       "</script>\n",
       playback.dimension, data.every_particle, data.position_bytes, list(data.low), list(data.step),
       list(scene.box.low), list(scene.box.high), scene.lowest_gamma, report::kTouchingColour,
@@ -468,7 +471,7 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
       scene.has_axis, flow.settings,
       playback.friction_coefficient ? listed(report::friction_scale(kFrictionColours, "")) : "",
       scene.top_force > 0, scene.mean_radius, hinges, ends_of(links.springs), ends_of(links.arms),
-      style_of_page());
+      playback.units.length, playback.units.time, style_of_page());
   for (const auto* blocks : {&data.blocks, &flow.blocks})
     for (const auto& [name, bytes] : *blocks)
       text += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", name,
@@ -481,9 +484,12 @@ std::string words_for(const Playback& playback, const PageData& data) {
   std::string words = fmt::format("{} {}{}", count, playback.dimension == 2 ? "disc" : "sphere",
                                   count == 1 ? "" : "s");
   if (frames == 0) return words + ", no frames.";
+  const auto unit = playback.units.are_said() ? " " + playback.units.time : "";
   words += fmt::format(", t = {:.4g}", playback.frames.front().time);
   if (frames > 1)
-    words += fmt::format(" to {:.4g} in {} frames", playback.frames.back().time, frames);
+    words += fmt::format(" to {:.4g}{} in {} frames", playback.frames.back().time, unit, frames);
+  else
+    words += unit;
   words += ".";
   if (data.every_frame > 1)
     words += fmt::format(" Every {}{} frame is shown.", data.every_frame,

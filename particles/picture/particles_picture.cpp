@@ -220,6 +220,7 @@ std::string opening(const std::string& title, double height, bool has_bodies) {
 /// The panels of the chosen frames with their times, in rows of `columns`.
 std::string panels_of(const PanelSettings& panel, const std::vector<std::size_t>& chosen,
                       int columns) {
+  const auto& units = panel.scene.playback.units;
   std::string text;
   // If the height limits the scale, the panels are spread over the width.
   const double place = kPictureWidth / columns;
@@ -233,10 +234,11 @@ std::string panels_of(const PanelSettings& panel, const std::vector<std::size_t>
         "<svg x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\">\n{}"
         "<rect width=\"100%\" height=\"100%\" fill=\"none\" stroke=\"#ccc\"/>\n</svg>\n"
         "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"14\" text-anchor=\"middle\">t = "
-        "{:.4g}</text>\n",
+        "{:.4g}{}{}</text>\n",
         left, top, panel.width, panel.height,
         frame_picture(panel, frame, flow_behind(panel.scene.flows, f, panel.view)),
-        left + panel.width / 2, top + panel.height + 20, frame.time);
+        left + panel.width / 2, top + panel.height + 20, frame.time, units.are_said() ? " " : "",
+        units.time);
   }
   return text;
 }
@@ -263,7 +265,8 @@ std::string particles_picture(const Playback& original, const std::string& title
   const double bottom = kTitle + rows * (panel.height + kCaption) + 6;
   std::vector<report::ColourScale> bars;
   if (scene.flows.top_speed > 0) {
-    bars.push_back(report::speed_scale(scene.flows.top_speed, kBands));
+    bars.push_back(report::speed_scale(scene.flows.top_speed, kBands,
+                                       scene.playback.units.unit_or_dimension(0, 1, -1)));
     bars.back().words += "; equal flow between streamlines";
   }
   if (scene.lowest_gamma < 0) {

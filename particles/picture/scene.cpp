@@ -315,10 +315,10 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
     for (const auto& contact : frame.contacts)
       if (std::isfinite(contact.gamma))
         scene.lowest_gamma = std::min(scene.lowest_gamma, contact.gamma);
-  scene.film_words =
-      motion.dimension == 2 && scene.is_in_fluid
-          ? "gamma: minus the impulse per length that the film has absorbed [mass/time]"
-          : "gamma: minus the impulse that the film has absorbed [mass × length/time]";
+  const int is_per_length = motion.dimension == 2 && scene.is_in_fluid ? 1 : 0;
+  scene.film_words = fmt::format("gamma: minus the impulse{} that the film has absorbed [{}]",
+                                 is_per_length > 0 ? " per length" : "",
+                                 motion.units.unit_or_dimension(1, 1 - is_per_length, -1));
   std::vector<double> forces;
   for (const auto f : frames)
     for (const auto& contact : playback.frames[f].contacts) {
@@ -336,9 +336,8 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
   const auto top = forces.end() - 1 - static_cast<std::ptrdiff_t>(forces.size() / kOneIn);
   std::ranges::nth_element(forces, top);
   scene.top_force = *top;
-  scene.force_words = fmt::format(
-      "line width: normal force, widest from {:.3g} [{}] on", *top,
-      motion.dimension == 2 && scene.is_in_fluid ? "mass/time²" : "mass × length/time²");
+  scene.force_words = fmt::format("line width: normal force, widest from {:.3g} [{}] on", *top,
+                                  motion.units.unit_or_dimension(1, 1 - is_per_length, -2));
   return scene;
 }
 

@@ -110,11 +110,11 @@ struct Scene {
   /// the particles can be seen in its domain, all of it. In the directions of periods it is the
   /// cell. It has a positive size in each direction of the playback's dimension.
   ViewBox box;
-  FlowFrames flows;             ///< the flow in the box
-  double lowest_gamma = 0;      ///< the most negative gamma of all frames; 0: no gamma < 0
-  const char* film_words = "";  ///< what the scale of gamma shows, with its dimension
-  bool touches = false;         ///< a contact of the shown frames has gamma = 0
-  bool slides = false;          ///< a contact of the shown frames slides
+  FlowFrames flows;         ///< the flow in the box
+  double lowest_gamma = 0;  ///< the most negative gamma of all frames; 0: no gamma < 0
+  std::string film_words;   ///< what the scale of gamma shows, with its unit or dimension
+  bool touches = false;     ///< a contact of the shown frames has gamma = 0
+  bool slides = false;      ///< a contact of the shown frames slides
   /// The normal force that the widest lines show [M L/T^2], of discs in a fluid per length [M/T^2]:
   /// 98 of 100 loaded contacts of the shown frames have less. 0: no contact has a force.
   double top_force = 0;

@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 Playback without_frames(const ParticlesCase& c) {
   Playback playback;
   playback.dimension = c.particles.dimension;
+  playback.units = c.units;
   playback.radii.assign(c.particles.radii.begin(), c.particles.radii.end());
   if (c.setting.fluid) playback.semi_axes = c.setting.fluid->semi_axes;
   if (c.setting.fluid) playback.plates = c.setting.fluid->plates;

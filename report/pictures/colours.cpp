@@ -138,8 +138,8 @@ std::string speed_colour(double share) {
   return colour_between(kBlues, share);
 }
 
-ColourScale speed_scale(double top, int colours) {
-  return {"speed of the fluid [length/time]", evenly_spaced(colours, speed_colour),
+ColourScale speed_scale(double top, int colours, const std::string& unit) {
+  return {"speed of the fluid [" + unit + "]", evenly_spaced(colours, speed_colour),
           round_ticks(top)};
 }
 
@@ -177,9 +177,9 @@ double PressureColours::share_of(double pressure) const {
   return (at(pressure) - at(low)) / (at(high) - at(low));
 }
 
-ColourScale PressureColours::scale(int colours) const {
+ColourScale PressureColours::scale(int colours, const std::string& unit) const {
   ColourScale scale{
-      "pressure less its mean [viscosity/time]",
+      "pressure less its mean [" + unit + "]",
       evenly_spaced(colours,
                     [&](double share) { return colour_at(std::lerp(at(low), at(high), share)); }),
       {}};

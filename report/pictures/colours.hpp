@@ -61,8 +61,9 @@ ColourScale friction_scale(int colours, const std::string& words);
 /// colours are evenly spaced in lightness, and dark lines can be seen on all of them.
 std::string speed_colour(double share);
 
-/// The scale of the speed of a fluid from 0 to `top` >= 0 [L/T] with `colours` colours.
-ColourScale speed_scale(double top, int colours);
+/// The scale of the speed of a fluid from 0 to `top` >= 0 [L/T] with `colours` colours; its words
+/// have `unit` in brackets.
+ColourScale speed_scale(double top, int colours, const std::string& unit = "length/time");
 
 inline constexpr const char* kStreamLineColour = "#12233f";
 
@@ -84,8 +85,8 @@ struct PressureColours {
   std::vector<std::pair<double, std::string>> ticks() const;
 
   /// The scale from `low` to `high` with `colours` colours, without numbers that would touch
-  /// another one, for a pressure less its mean.
-  ColourScale scale(int colours) const;
+  /// another one, for a pressure less its mean; its words have `unit` in brackets.
+  ColourScale scale(int colours, const std::string& unit = "viscosity/time") const;
 
   /// The place of a pressure on that scale, from 0 to 1.
   double share_of(double pressure) const;

@@ -20,6 +20,7 @@ namespace viscontact::rolling {
 /// Content of a case file of a sphere that rolls along a plane.
 struct RollingCase {
   std::string title;      ///< a title for pages; may be empty
+  Units units{};          ///< words for pages; may be empty
   double viscosity = 0,   ///< mu of the fluid [M/(L T)], > 0
       radius = 0,         ///< r of the sphere [L], > 0
       fluid_density = 0;  ///< rho_f [M/L^3], >= 0; only buoyancy depends on it

@@ -28,7 +28,8 @@ template <class Value>
 report::Plot plot_of(const RollingResults& results, const std::string& name,
                      const std::string& title, const std::string& label, bool logarithmic,
                      const Value& value) {
-  report::PlotPanel panel{title, {"time"}, {label, logarithmic}, {}};
+  report::PlotPanel panel{
+      title, {"time" + results.c.units.in_brackets(0, 0, 1)}, {label, logarithmic}, {}};
   for (const auto& [model, rows] : results.trajectories) {
     report::PlotCurve curve{model, {report::curve_colour(place_of(model))}, {}};
     for (const auto& row : rows) curve.points.emplace_back(row.time, value(row));
@@ -88,18 +89,22 @@ std::string parameters_of_rolling(const RollingResults& results) {
 /// Gap, velocities and slip over time, with a curve for each model.
 std::vector<report::Plot> rolling_plots(const RollingResults& results) {
   const double radius = results.c.radius, plane = results.c.motion.plane_velocity;
+  const auto& units = results.c.units;
+  const auto velocity = "velocity" + units.in_brackets(0, 1, -1);
   std::vector<report::Plot> plots = {
-      plot_of(results, "gap", "Gap", "gap", true, [](const RollingRow& row) { return row.gap; }),
-      plot_of(results, "velocity", "Velocity along the plane", "velocity", false,
+      plot_of(results, "gap", "Gap", "gap" + units.in_brackets(0, 1, 0), true,
+              [](const RollingRow& row) { return row.gap; }),
+      plot_of(results, "velocity", "Velocity along the plane", velocity, false,
               [](const RollingRow& row) { return row.velocity; }),
-      plot_of(results, "rotation", "Angular velocity times radius", "velocity", false,
+      plot_of(results, "rotation", "Angular velocity times radius", velocity, false,
               [=](const RollingRow& row) { return radius * row.angular_velocity; }),
-      plot_of(results, "slip", "Slip of the lowest point", "velocity", false,
+      plot_of(results, "slip", "Slip of the lowest point", velocity, false,
               [=](const RollingRow& row) {
                 return row.velocity - plane - radius * row.angular_velocity;
               })};
   if (results.c.motion.friction > 0)
-    plots.push_back(plot_of(results, "friction", "Friction of the solids", "force", false,
+    plots.push_back(plot_of(results, "friction", "Friction of the solids",
+                            "force" + units.in_brackets(1, 1, -2), false,
                             [](const RollingRow& row) { return row.friction_force; }));
   return plots;
 }
@@ -127,6 +132,7 @@ void check_rolling_report(const std::filesystem::path& folder) {
 
 void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop) {
+  const auto& units = results.c.units;
   report::Report report(folder, kRollingPictures);
   report.draw(rolling_plots(results), stop);
   std::string opening =
@@ -137,12 +143,14 @@ void write_rolling_report(const RollingResults& results, const std::filesystem::
   std::string models;
   for (const auto& model : rolling_models())
     models += fmt::format("<li>{}: {}</li>\n", model.name, model.description);
-  report.write(results.c.title.empty() ? "Rolling sphere" : results.c.title,
-               opening + report::warnings_box(warnings),
-               report::section("At the end", end_table(results) + "<ul>\n" + models + "</ul>\n") +
-                   report::section("Motion", report.figures()) +
-                   report::section("Parameters", parameters_of_rolling(results)),
-               provenance);
+  report.write(
+      results.c.title.empty() ? "Rolling sphere" : results.c.title,
+      opening + report::warnings_box(warnings),
+      report::section("At the end",
+                      units.in_brackets_of(end_table(results)) + "<ul>\n" + models + "</ul>\n") +
+          report::section("Motion", report.figures()) +
+          report::section("Parameters", units.in_brackets_of(parameters_of_rolling(results))),
+      provenance);
 }
 
 }  // namespace viscontact::rolling

@@ -21,6 +21,7 @@ namespace viscontact::swimmer {
 /// Content of a case file of a swimmer: spheres in a line, connected by arms.
 struct SwimmerCase {
   std::string title;  ///< a title for pages; may be empty
+  Units units{};      ///< words for pages; may be empty
   /// The spheres, and the fluid and container for which their resistances are tabulated.
   CollinearSpheres spheres;
   /// For each arm, the gaps of the table between its two spheres [L], > 0, rising.

@@ -97,7 +97,10 @@ report::Plot plot_of_components(const SwimmerResults& results, const std::string
   report::Plot plot{name, 360, {}};
   for (const auto& shown : strokes_of(results)) {
     const auto* stroke = shown.result;
-    report::PlotPanel panel{fmt::format("{} of the {}", title, shown.name), {"time"}, {label}, {}};
+    report::PlotPanel panel{fmt::format("{} of the {}", title, shown.name),
+                            {"time" + results.c.units.in_brackets(0, 0, 1)},
+                            {label},
+                            {}};
     const auto count = values(stroke->rows.front()).size();
     for (Eigen::Index i = 0; i < count; ++i) {
       report::PlotCurve curve{fmt::format("{} {}", component, i + 1),
@@ -151,9 +154,10 @@ double tic_step(double range) {
 /// (displacement_curl), as an SVG.
 std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
   const Swimmer swimmer(results.fit);
+  const auto length = results.c.units.in_brackets(0, 1, 0);
   report::Panel panel{"Loops of the strokes over the displacement of a small loop per area",
-                      "arm x1",
-                      "arm x2",
+                      "arm x1" + length,
+                      "arm x2" + length,
                       false,
                       false,
                       {"set size ratio -1",
@@ -182,19 +186,21 @@ std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
 std::vector<report::Plot> swimmer_plots(const SwimmerResults& results) {
   std::vector<report::Plot> plots;
   if (strokes_of(results).empty()) return plots;
+  const auto& units = results.c.units;
+  const auto length = units.in_brackets(0, 1, 0);
   plots.push_back({"position",
                    400,
-                   {panel_of_strokes(results, "Position of the middle sphere", "position",
+                   {panel_of_strokes(results, "Position of the middle sphere", "position" + length,
                                      [](const SwimRow& row) { return row.position; })}});
-  auto power =
-      panel_of_strokes(results, "Power", "power", [](const SwimRow& row) { return row.power; });
+  auto power = panel_of_strokes(results, "Power", "power" + units.in_brackets(1, 2, -3),
+                                [](const SwimRow& row) { return row.power; });
   power.y.low = 0;
   plots.push_back({"power", 400, {power}});
-  plots.push_back(plot_of_components(results, "arms", "Arms", "distance of centres", "x", kFirstArm,
-                                     [](const SwimRow& row) { return row.arms; }));
-  plots.push_back(plot_of_components(results, "forces", "Forces on the fluid", "force", "sphere",
-                                     first_sphere(results),
-                                     [](const SwimRow& row) { return row.forces; }));
+  plots.push_back(plot_of_components(results, "arms", "Arms", "distance of centres" + length, "x",
+                                     kFirstArm, [](const SwimRow& row) { return row.arms; }));
+  plots.push_back(plot_of_components(
+      results, "forces", "Forces on the fluid", "force" + units.in_brackets(1, 1, -2), "sphere",
+      first_sphere(results), [](const SwimRow& row) { return row.forces; }));
   if (!results.convergence.empty())
     plots.push_back(plot_convergence(results.convergence, place_after_spheres(results)));
   return plots;
@@ -313,6 +319,7 @@ void check_swimmer_report(const std::filesystem::path& folder) {
 
 void write_swimmer_report(const SwimmerResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop) {
+  const auto& units = results.c.units;
   report::Report report(folder, kPictureNames);
   report.draw(swimmer_plots(results), stop);
   if (report.is_drawn() && results.c.gaps.size() == 2)
@@ -322,15 +329,17 @@ void write_swimmer_report(const SwimmerResults& results, const std::filesystem::
       fmt::format(
           "<p class=summary>A swimmer of {} spheres on a line in a fluid without inertia</p>\n",
           results.c.spheres.radii.size()),
-      report::section("Strokes", strokes_of(results).empty()
-                                     ? ""
-                                     : strokes_table(results) + search_words(results)) +
+      report::section("Strokes",
+                      strokes_of(results).empty()
+                          ? ""
+                          : units.in_brackets_of(strokes_table(results)) + search_words(results)) +
           loops_section(report) +
           report::section("Displacement and power", report.figures({"position", "power"})) +
           report::section("Arms and forces", report.figures({"arms", "forces"})) +
           report::section("How the optimal stroke converges", report.figures({"convergence"})) +
           report::section("Resistance matrices and their fit", fit_table_of(results)) +
-          report::section("Parameters", parameters_of(results) + files_words(results)),
+          report::section("Parameters",
+                          units.in_brackets_of(parameters_of(results)) + files_words(results)),
       provenance);
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tests/case_file/edited_case.hpp"
-#include "viscontact/case_file/units.hpp"
+#include "viscontact/common/text/units.hpp"
 
 namespace viscontact::case_file {
 namespace {
@@ -29,6 +29,17 @@ TEST(UnitsOfACase, ReplaceDimensions) {
   EXPECT_EQ(kSi.in_place_of_dimensions("1"), "1");
   EXPECT_EQ(kSi.in_place_of_dimensions(""), "");
   EXPECT_EQ(Units{}.in_place_of_dimensions("M L"), "M L");
+}
+
+TEST(UnitsOfACase, StandInBracketsInPlaceOfDimensions) {
+  EXPECT_EQ(kSi.in_brackets(1, 2, -3), " [kg m²/s³]");
+  EXPECT_EQ(Units{}.in_brackets(1, 2, -3), "");
+  EXPECT_EQ(kSi.unit_or_dimension(1, 1, -2), "kg m/s²");
+  EXPECT_EQ(Units{}.unit_or_dimension(1, 1, -2), "mass × length/time²");
+  EXPECT_EQ(kSi.in_brackets_of("<td>gap [L]</td><td>a [M/(L T)] b [M L<sup>2</sup>] [x] [1]</td>"),
+            "<td>gap [m]</td><td>a [kg/(m s)] b [kg m<sup>2</sup>] [x] [1]</td>");
+  EXPECT_EQ(Units{}.in_brackets_of("gap [L]"), "gap [L]");
+  EXPECT_EQ(kSi.in_brackets_of("open [L"), "open [L");
 }
 
 TEST(UnitsOfACase, AreReadAndChangeNothing) {

@@ -6,6 +6,9 @@
 const readout = document.getElementById('readout');
 const pointer = {x: 0, y: 0, inside: false};
 let hovered = -1;  // the particle at the pointer; -1 if there is none
+// The units that the case says, each after a blank; empty if it says none.
+const [lengthUnit, timeUnit] =
+    [motion.unitOfLength, motion.unitOfTime].map(unit => (unit ? ` ${unit}` : ''));
 const number = x => String(Number(x.toPrecision(4))).replace('-', '\u2212');
 
 function readPointer() {
@@ -29,7 +32,8 @@ function readPointer() {
   const place = [...positions.subarray(first, hovered * dim + dim)].map(number).join(', ');
   const name = ids ? ids[hovered] : hovered * motion.every;
   const body = isInBody(hovered) ? ` of body ${bodies[hovered]}` : '';
-  readout.textContent = `particle ${name}${body}: radius ${number(radii[hovered])}, at (${place}), ` +
+  readout.textContent = `particle ${name}${body}: radius ${number(radii[hovered])}` +
+      `${lengthUnit}, at (${place})${lengthUnit}, ` +
       `${contacts} contact${contacts === 1 ? '' : 's'}`;
 }
 
@@ -104,7 +108,7 @@ const player = {
   seek(time) {
     player.time = Math.min(lastTime, Math.max(firstTime, time));
     slider.value = player.time;
-    clock.textContent = `t = ${player.time.toFixed(digits).replace('-', '\u2212')}`;
+    clock.textContent = `t = ${player.time.toFixed(digits).replace('-', '\u2212')}` + timeUnit;
     slider.setAttribute('aria-valuetext', clock.textContent);
     if (frames) setTime(player.time);
     redraw();

@@ -190,6 +190,24 @@ setTimeout(() => {
   EXPECT_THAT(found["legend"].get<std::string>(), HasSubstr("widest from 4 [mass × length/time²]"));
 }
 
+TEST_P(ParticlesInBrowser, TheUnitsOfTheCaseStandBesideItsNumbers) {
+  auto motion = loaded_row(GetParam());
+  motion.units = {"mm", "s", "g"};
+  const auto found = read_page(particles_page(motion, "Loaded"), R"JS(
+setTimeout(() => {
+  tell({legend: document.querySelector('.legend').textContent,
+        clock: document.getElementById('clock').textContent,
+        words: document.querySelector('header p').textContent});
+}, 100);
+)JS",
+                               700);
+  ASSERT_TRUE(found.is_object());
+  EXPECT_THAT(found["legend"].get<std::string>(), HasSubstr("widest from 4 [g mm/s²]"));
+  EXPECT_THAT(found["clock"].get<std::string>(), ::testing::EndsWith(" s"));
+  EXPECT_THAT(found["words"].get<std::string>(), HasSubstr(" s in "));
+  EXPECT_THAT(particles_picture(motion, "Loaded", 2), HasSubstr(" s</text>"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Dimensions, ParticlesInBrowser, ::testing::Values(2, 3));
 
 TEST(ParticlesPage, OneParticleInOneFrameStands) {

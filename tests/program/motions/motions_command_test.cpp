@@ -282,6 +282,18 @@ TEST_F(MotionsCommand, RollingWritesTrajectoriesResultsAndAReport) {
               AllOf(HasSubstr("A sphere rolls down an incline"), HasSubstr("plots/slip.svg")));
 }
 
+TEST_F(MotionsCommand, TheReportOfARollingSphereHasTheUnitsOfItsCase) {
+  put_text(path("case.toml"),
+           "units = { length = \"mm\", time = \"s\", mass = \"g\" }\n" +
+               replaced(read_file(kIncline), "file = \"", "file = \"" + kData + "cases/rolling/"));
+  expect_done(run_viscontact({"rolling", path("case.toml"), "-o", path("out")}));
+  EXPECT_THAT(read_file(path("out/report.html")),
+              AllOf(HasSubstr("gap [mm]"), HasSubstr("viscosity [g/(mm s)]"),
+                    HasSubstr("torque [g mm<sup>2</sup>/s<sup>2</sup>]")));
+  EXPECT_THAT(read_file(path("out/plots/velocity.svg")),
+              AllOf(HasSubstr("time [s]"), HasSubstr("velocity [mm/s]")));
+}
+
 TEST_F(MotionsCommand, RollingSaysWhereItContinuesTheFit) {
   // The smooth sphere sinks for ever; the fit begins at the smallest gap of its table.
   const auto result = run_viscontact({"rolling", kIncline, "-o", path("out")});

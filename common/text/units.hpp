@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace viscontact::case_file {
+namespace viscontact {
 
 /// The words for the units of length, time and mass, such as "m", "s" and "kg"; all empty if the
 /// case does not say them.
@@ -21,9 +21,16 @@ struct Units {
   /// The unit of the quantity with these powers, such as "kg m/s²" for (1, 1, -2); empty without
   /// units. Powers are from -9 to 9.
   std::string unit_of(int mass_power, int length_power, int time_power) const;
+  /// The same in brackets for the end of a label, such as " [m/s]"; empty without units.
+  std::string in_brackets(int mass_power, int length_power, int time_power) const;
+  /// The unit, or without units its dimension in words, such as "mass × length/time²".
+  std::string unit_or_dimension(int mass_power, int length_power, int time_power) const;
+  /// A text with dimensions in brackets, such as "[M L/T]" or "[M/(L T)]", in which the letters are
+  /// replaced by the units; unchanged without units. Exponents may stand in <sup>.
+  std::string in_brackets_of(std::string text) const;
   /// A text with dimensions as "M", "L<sup>-1</sup>" and "T<sup>-2</sup>" between blanks, in which
   /// the letters are replaced by the units; unchanged without units.
   std::string in_place_of_dimensions(const std::string& html) const;
 };
 
-}  // namespace viscontact::case_file
+}  // namespace viscontact
