@@ -204,7 +204,7 @@ setTimeout(() => {
   ASSERT_TRUE(found.is_object());
   EXPECT_THAT(found["legend"].get<std::string>(), HasSubstr("widest from 4 [g mm/s²]"));
   EXPECT_THAT(found["clock"].get<std::string>(), ::testing::EndsWith(" s"));
-  EXPECT_THAT(found["words"].get<std::string>(), HasSubstr(" s in "));
+  EXPECT_THAT(found["words"].get<std::string>(), HasSubstr(", t = 0 s."));
   EXPECT_THAT(particles_picture(motion, "Loaded", 2), HasSubstr(" s</text>"));
 }
 
