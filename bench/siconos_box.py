@@ -13,6 +13,7 @@ process, without its start. Residuals are measured in the same way for all: the 
 import json
 import math
 import multiprocessing
+import os
 import pathlib
 import random
 import resource
@@ -161,7 +162,9 @@ def report(name, parts, mean, iterations, failed, steps, residual):
 
 
 def run_siconos(count, until, dimension, is_convex, done):
-    sn.numerics_set_verbose(0)
+    # The solvers print each iteration, which would cost time in a terminal.
+    sys.stdout = os.fdopen(os.dup(1), "w")
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     if is_convex:
         options = sn.SolverOptions(sn.SICONOS_GLOBAL_FRICTION_3D_IPM)
     else:
