@@ -47,6 +47,8 @@ struct Playback {
   int dimension = 2;         ///< of space: 1, 2 or 3
   Units units{};             ///< of the case; may be empty
   std::vector<float> radii;  ///< [L]
+  /// Masses, of discs in a fluid per length [M, M/L]; empty: not known.
+  std::vector<float> masses{};
   /// Semi-axes of each particle in the plane, the first one along its angle [L]; empty: all are
   /// discs.
   std::vector<std::array<double, 2>> semi_axes{};

@@ -115,6 +115,10 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
     content.ids = reader.array<std::int32_t>("PointData", "id");
     if (content.ids.size() != content.radii.size()) reader.refuse();
   }
+  if (reader.has_array("PointData", "mass")) {
+    content.masses = reader.array<double>("PointData", "mass");
+    if (content.masses.size() != content.radii.size()) reader.refuse();
+  }
   if (reader.has_array("PointData", "angle")) {
     content.angles = reader.array<double>("PointData", "angle");
     content.angular_velocities = reader.array<double>("PointData", "angular_velocity");

@@ -236,11 +236,12 @@ PageData page_data(const Scene& scene, std::size_t other_bytes) {
   PageData data;
   choose_position_bytes(data, playback);
   auto contacts = choose_content(data, scene, other_bytes);
-  Bytes radii, semi_axes, plates, ids, bodies, times, positions, turns, planes;
+  Bytes radii, masses, semi_axes, plates, ids, bodies, times, positions, turns, planes;
   const auto turn_numbers = numbers_of_turn(playback);
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle) {
     append(radii, playback.radii[k]);
+    if (!playback.masses.empty()) append(masses, playback.masses[k]);
     if (!playback.semi_axes.empty())
       for (const double axis : playback.semi_axes[k]) append(semi_axes, static_cast<float>(axis));
     if (!playback.plates.empty()) append(plates, playback.plates[k]);
@@ -278,6 +279,7 @@ PageData page_data(const Scene& scene, std::size_t other_bytes) {
     for (const auto frame : data.first_frames) append(first_frames, frame);
     data.blocks.emplace_back("firstFrames", first_frames);
   }
+  if (!masses.empty()) data.blocks.emplace_back("masses", masses);
   if (!semi_axes.empty()) data.blocks.emplace_back("semiAxes", semi_axes);
   if (!plates.empty()) data.blocks.emplace_back("plates", plates);
   if (!ids.empty()) data.blocks.emplace_back("ids", ids);
@@ -437,6 +439,19 @@ std::string style_of_page() {
       .dump();
 }
 
+/// The units of what the page shows as JSON, or their dimensions in words.
+std::string units_of_page(const Scene& scene) {
+  const auto& units = scene.playback.units;
+  const int is_per_length = scene.is_per_length() ? 1 : 0;
+  return nlohmann::ordered_json{{"areSaid", units.are_said()},
+                                {"length", units.unit_or_dimension(0, 1, 0)},
+                                {"time", units.unit_or_dimension(0, 0, 1)},
+                                {"mass", units.unit_or_dimension(1, -is_per_length, 0)},
+                                {"speed", units.unit_or_dimension(0, 1, -1)},
+                                {"force", units.unit_or_dimension(1, 1 - is_per_length, -2)}}
+      .dump();
+}
+
 /// The JSON and the blocks of numbers that the script reads.
 std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& flow) {
   const auto& playback = scene.playback;
@@ -463,7 +478,7 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
       "\"bytes\":{},\"low\":{},\"step\":{},\"roomLow\":{},\"roomHigh\":{},\"lowest\":{},"
       "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{}],\"hasAxis\":{},\"flow\":{},"
       "\"friction\":[{}],\"hasForces\":{},\"meanRadius\":{},\"hinges\":[{}],\"springs\":[{}],"
-      "\"arms\":[{}],\"unitOfLength\":\"{}\",\"unitOfTime\":\"{}\",\"style\":{}}}"
+      "\"arms\":[{}],\"topForce\":{},\"units\":{},\"style\":{}}}"
       "</script>\n",
       playback.dimension, data.every_particle, data.position_bytes, list(data.low), list(data.step),
       list(scene.box.low), list(scene.box.high), scene.lowest_gamma, report::kTouchingColour,
@@ -471,7 +486,7 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
       scene.has_axis, flow.settings,
       playback.friction_coefficient ? listed(report::friction_scale(kFrictionColours, "")) : "",
       scene.top_force > 0, scene.mean_radius, hinges, ends_of(links.springs), ends_of(links.arms),
-      playback.units.length, playback.units.time, style_of_page());
+      scene.top_force, units_of_page(scene), style_of_page());
   for (const auto* blocks : {&data.blocks, &flow.blocks})
     for (const auto& [name, bytes] : *blocks)
       text += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", name,
@@ -519,7 +534,10 @@ std::string legend(const Scene& scene, const FlowOfPage& flow) {
     text += fmt::format(
         "<div class=touching><span class=line style=\"background:{}\"></span> sliding</div>\n",
         report::kSlidingColour);
-  return text.empty() ? "" : "<div class=legend>\n" + text + "</div>\n";
+  return "<div class=legend>\n"
+         "<div id=particle-scale class=films hidden><span></span>\n<div class=scale><div "
+         "class=bar></div>\n<div class=ticks></div></div></div>\n" +
+         text + "</div>\n";
 }
 
 }  // namespace
@@ -547,11 +565,13 @@ std::string particles_page(const Playback& original, const std::string& title) {
       "<label>Speed <select id=speed><option value=.1>× 0.1<option value=.25>× 0.25<option "
       "value=.5>× 0.5<option value=1 selected>× 1<option value=2>× 2<option value=4>× 4</select>"
       "</label>\n<label><input type=checkbox id=films checked> Contacts</label>\n{}"
-      "<button type=button id=whole>Whole view</button>\n</div>\n{}</main>\n"
+      "<label>Colour <select id=colour><option value=\"\" selected>none<option value=speed>speed"
+      "<option value=radius>radius<option value=mass>mass<option value=force>force</select></label>\n"
+      "<button type=button id=whole>Whole view</button>\n"
+      "<button type=button id=film>Save film</button>\n</div>\n{}</main>\n"
       "<p class=hint>The space bar plays and pauses. The keys ← and → go back and forward "
       "by one frame; Home and End go to the first and the last frame. {} Point at a particle to "
-      "see "
-      "its values.</p>\n",
+      "see its values. The address of the page keeps time, view and colours.</p>\n",
       report::escaped(words), flow.controls, legend(scene, flow),
       scene.playback.dimension == 2
           ? "Drag to move the picture; use the wheel or pinch to zoom."

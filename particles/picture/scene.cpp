@@ -315,7 +315,7 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
     for (const auto& contact : frame.contacts)
       if (std::isfinite(contact.gamma))
         scene.lowest_gamma = std::min(scene.lowest_gamma, contact.gamma);
-  const int is_per_length = motion.dimension == 2 && scene.is_in_fluid ? 1 : 0;
+  const int is_per_length = scene.is_per_length() ? 1 : 0;
   scene.film_words = fmt::format("gamma: minus the impulse{} that the film has absorbed [{}]",
                                  is_per_length > 0 ? " per length" : "",
                                  motion.units.unit_or_dimension(1, 1 - is_per_length, -1));

@@ -30,6 +30,7 @@ Playback without_frames(const ParticlesCase& c) {
   playback.dimension = c.particles.dimension;
   playback.units = c.units;
   playback.radii.assign(c.particles.radii.begin(), c.particles.radii.end());
+  playback.masses.assign(c.particles.masses.begin(), c.particles.masses.end());
   if (c.setting.fluid) playback.semi_axes = c.setting.fluid->semi_axes;
   if (c.setting.fluid) playback.plates = c.setting.fluid->plates;
   playback.ids = c.particles.ids;
@@ -76,6 +77,7 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
     // The last frame has all particles that were poured in.
     const auto last = read_vtp(folder / files.back().second, c.particles.dimension);
     playback.radii.assign(last.radii.begin(), last.radii.end());
+    playback.masses.assign(last.masses.begin(), last.masses.end());
     if (!playback.ids.empty()) playback.ids = last.ids;
     if (!playback.bodies.empty()) playback.bodies.resize(last.radii.size(), -1);
   }

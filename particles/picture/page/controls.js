@@ -7,9 +7,8 @@ const readout = document.getElementById('readout');
 const pointer = {x: 0, y: 0, inside: false};
 let hovered = -1;  // the particle at the pointer; -1 if there is none
 // The units that the case says, each after a blank; empty if it says none.
-const [lengthUnit, timeUnit] =
-    [motion.unitOfLength, motion.unitOfTime].map(unit => (unit ? ` ${unit}` : ''));
-const number = x => String(Number(x.toPrecision(4))).replace('-', '\u2212');
+const [lengthUnit, timeUnit] = motion.units.areSaid
+  ? [` ${motion.units.length}`, ` ${motion.units.time}`] : ['', ''];
 
 function readPointer() {
   hovered = -1;
@@ -126,6 +125,10 @@ const player = {
     button.textContent = 'Play';
   },
   draw,
+  makeFilm,
+  address: addressOfView,
+  /** The quantity that colours show, the ends of its scale, and its values in the shown frame. */
+  colouring: () => ({...colouring, values: [...colouring.values]}),
   /** Width [device pixels] and colour of the line of each contact of the shown frame. */
   contacts: () => Array.from({length: lines.count},
                              (_, i) => ({width: widthOf(i), colour: colours[colourOf(i)]})),
@@ -169,6 +172,9 @@ if (flow) {
   });
   streamlines.addEventListener('change', redraw);
 }
+colourChoice.addEventListener('change', () => { setColouring(colourChoice.value); redraw(); });
+if (!masses) colourChoice.querySelector('[value=mass]').remove();
+if (!motion.hasForces) colourChoice.querySelector('[value=force]').remove();
 document.getElementById('whole').addEventListener('click', () => {
   Object.assign(view, {turn: Math.PI / 6, above: Math.PI / 9});
   showAll();
@@ -194,5 +200,7 @@ document.addEventListener('keydown', event => {
 
 player.seek(firstTime);
 resize();
+showAddress();
+window.addEventListener('hashchange', showAddress);
 new ResizeObserver(() => { if (!matchMedia('print').matches) resize(); }).observe(canvas);
 window.viscontactPlayer = player;

@@ -3,6 +3,7 @@
 // layout must be changed there and here together. This file and those that report/CMakeLists.txt
 // lists after it are one script, so each may use the names of all.
 
+const number = x => String(Number(x.toPrecision(4))).replace('-', '\u2212');  // for readers
 const text = id => document.getElementById(id).textContent;
 function bytes(id) {
   const binary = atob(text(id)), array = new Uint8Array(binary.length);

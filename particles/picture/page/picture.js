@@ -6,12 +6,12 @@ const kLargestSprite = 512;  // [device pixels]
 const disc = motion.flow ? style.discInFluid : style.disc;
 const isInBody = k => bodies !== null && bodies[k] >= 0;
 
-function paintParticle(p, x, y, r, inBody) {
+function paintParticle(p, x, y, r, look) {
   const rim = Math.min(2 * dots, Math.max(0.5, 0.07 * r));
   if (flat) {
-    [p.fillStyle, p.strokeStyle] = inBody ? style.discOfBody : disc;
+    [p.fillStyle, p.strokeStyle] = discColours(look);
   } else {
-    const ball = inBody ? style.ballOfBody : style.ball;
+    const ball = ballColours(look);
     const lightX = x - 0.28 * r, lightY = y - 0.36 * r;
     const light = p.createRadialGradient(lightX, lightY, 0, lightX, lightY, 1.44 * r);
     for (let i = 0; i < 3; ++i) light.addColorStop(i / 2, ball[i]);
@@ -26,32 +26,29 @@ function paintParticle(p, x, y, r, inBody) {
 }
 
 // Copying a picture is faster than drawing thousands of spheres. There is one picture for each
-// power of two in size, so that none is reduced to less than half its size; negative sizes are
-// those of particles of bodies.
+// power of two in size, so that none is reduced to less than half its size, and for each colour.
 const sprites = new Map();
-function spriteFor(size, inBody) {
+function spriteFor(size, look) {
   const side = 2 ** Math.ceil(Math.log2(Math.max(4, size)));
-  const key = inBody ? -side : side;
+  const key = 1024 * (look + 2) + side;
   if (!sprites.has(key)) {
     const sprite = document.createElement('canvas');
     sprite.width = sprite.height = side;
-    paintParticle(sprite.getContext('2d'), side / 2, side / 2, side / 2,
-                  inBody);
+    paintParticle(sprite.getContext('2d'), side / 2, side / 2, side / 2, look);
     sprites.set(key, sprite);
   }
   return sprites.get(key);
 }
 
-function particle(x, y, r, inBody) {
+function particle(x, y, r, look) {
   if (r < 1) {
-    pen.fillStyle = flat ? (inBody ? style.discOfBody : disc)[0]
-                         : (inBody ? style.ballOfBody : style.ball)[1];
+    pen.fillStyle = flat ? discColours(look)[0] : ballColours(look)[1];
     const half = Math.max(r, 0.35);
     pen.fillRect(x - half, y - half, 2 * half, 2 * half);
   } else if (2 * r > kLargestSprite) {
-    paintParticle(pen, x, y, r, inBody);
+    paintParticle(pen, x, y, r, look);
   } else {
-    pen.drawImage(spriteFor(2 * r, inBody), x - r, y - r, 2 * r, 2 * r);
+    pen.drawImage(spriteFor(2 * r, look), x - r, y - r, 2 * r, 2 * r);
   }
 }
 
@@ -115,7 +112,7 @@ function drawSpheres() {
   for (let j = 0; j < count; ++j) {
     const k = order[j];
     if (isSeen(k)) {
-      particle(pageX[k], pageY[k], pageRadius[k], isInBody(k));
+      particle(pageX[k], pageY[k], pageRadius[k], lookOf(k));
       if (orientations.length) drawAxes(k);
     }
     for (let i = chain[k]; i >= 0; i = chained[i]) {
@@ -143,7 +140,7 @@ function drawDiscs() {
         if (pageAtX < -size || pageAtX > canvas.width + size) continue;
         if (pageAtY < -size || pageAtY > canvas.height + size) continue;
         if (semiAxes) drawEllipse(k, pageAtX, pageAtY);
-        else particle(pageAtX, pageAtY, size, isInBody(k));
+        else particle(pageAtX, pageAtY, size, lookOf(k));
         if (angles.length && !(plates && plates[k])) drawMark(k, pageAtX, pageAtY);
       }
   }
@@ -163,7 +160,7 @@ function drawEllipse(k, x, y) {
   } else {
     pen.ellipse(x, y, a, b, -angles[k], 0, 2 * Math.PI);
   }
-  [pen.fillStyle, pen.strokeStyle] = disc;
+  [pen.fillStyle, pen.strokeStyle] = colouring.name ? discColours(lookOf(k)) : disc;
   pen.lineWidth = Math.max(1, Math.min(a, b) / 20);
   pen.fill();
   pen.stroke();
@@ -448,6 +445,7 @@ function draw() {
   pen.fillRect(0, 0, canvas.width, canvas.height);
   if (!frames) return;
   setAxes();
+  readColours();
   pen.lineCap = 'round';
   placeParticles();
   if (flat) {
@@ -477,6 +475,7 @@ function draw() {
   }
   canvas.dataset.time = player.time;
   canvas.dataset.contacts = withContacts ? lines.count : 0;
+  keepAddress();
 }
 
 let asked = false;

@@ -190,6 +190,110 @@ setTimeout(() => {
   EXPECT_THAT(found["legend"].get<std::string>(), HasSubstr("widest from 4 [mass × length/time²]"));
 }
 
+TEST_P(ParticlesInBrowser, ColoursAreThoseOfTheQuantityThatIsChosen) {
+  auto motion = loaded_row(GetParam());
+  motion.masses = {1, 2, 3, 4};
+  // The second half of the particles moves by 4 in one unit of time.
+  motion.frames.resize(1);
+  motion.frames.push_back(motion.frames[0]);
+  motion.frames[1].time = motion.frames[0].time + 1;
+  const auto dimension = static_cast<std::size_t>(GetParam());
+  for (const std::size_t k : {2U, 3U}) motion.frames[1].positions[k * dimension] += 4;
+  const auto found = read_page(particles_page(motion, "Coloured"), R"JS(
+(async () => {
+  const pause = () => new Promise(done => setTimeout(done, 60));
+  const player = window.viscontactPlayer, list = document.getElementById('colour');
+  const found = {choices: [...list.options].map(o => o.value)};
+  for (const name of ['speed', 'radius', 'mass', 'force', '']) {
+    list.value = name;
+    list.dispatchEvent(new Event('change'));
+    await pause();
+    found[name || 'none'] = {...player.colouring(),
+                             hidden: document.getElementById('particle-scale').hidden,
+                             words: document.querySelector('#particle-scale span').textContent};
+  }
+  tell(found);
+})();
+)JS",
+                               700);
+  ASSERT_TRUE(found.is_object());
+  EXPECT_EQ(found["choices"], (nlohmann::json{"", "speed", "radius", "mass", "force"}));
+  const auto near = [&](const char* name, std::vector<double> expected) {
+    ASSERT_EQ(found[name]["values"].size(), 4U);
+    // Positions have 16 bits, forces 8.
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(found[name]["values"][k].get<double>(), expected[k], 0.02) << name << k;
+    EXPECT_EQ(found[name]["hidden"], false);
+  };
+  near("speed", {0, 0, 4, 4});
+  near("radius", {1, 1, 1, 1});
+  near("mass", {1, 2, 3, 4});
+  near("force", {4, 6, 3, 1});
+  EXPECT_EQ(found["mass"]["low"], 1);
+  EXPECT_EQ(found["mass"]["high"], 4);
+  EXPECT_EQ(found["speed"]["words"], "speed [length/time]");
+  EXPECT_EQ(found["none"]["hidden"], true);
+}
+
+TEST_P(ParticlesInBrowser, TheAddressKeepsTimeViewAndColours) {
+  const auto found =
+      read_page(particles_page(falling_row(GetParam(), 5, 5), "Five in a row"), R"JS(
+(async () => {
+  const pause = ms => new Promise(done => setTimeout(done, ms));
+  const player = window.viscontactPlayer, canvas = document.getElementById('stage');
+  await pause(500);
+  const found = {begin: location.hash};
+  player.seek(1.25);
+  canvas.dispatchEvent(new WheelEvent('wheel', {
+    bubbles: true, cancelable: true, clientX: 100, clientY: 150, deltaY: -300}));
+  await pause(600);
+  found.changed = location.hash;
+  // The address of another time and view, and back.
+  location.replace('#t=0.5&colour=speed');
+  await pause(600);
+  found.time = player.time;
+  found.colour = document.getElementById('colour').value;
+  location.replace(found.changed);
+  await pause(600);
+  found.back = player.address();
+  location.replace('#t=nothing&zoom=-3&colour=u');
+  await pause(600);
+  found.wrong = {time: player.time, colour: document.getElementById('colour').value};
+  found.history = history.length;
+  tell(found);
+})();
+)JS",
+                700);
+  ASSERT_TRUE(found.is_object());
+  EXPECT_THAT(found["begin"].get<std::string>(), ::testing::StartsWith("#t=0"));
+  EXPECT_THAT(found["changed"].get<std::string>(),
+              ::testing::AllOf(HasSubstr("t=1.25"), HasSubstr("zoom=")));
+  EXPECT_EQ(found["time"], 0.5);
+  EXPECT_EQ(found["colour"], "speed");
+  EXPECT_EQ(found["back"], found["changed"]);
+  EXPECT_EQ(found["wrong"]["time"], 1.25);
+  EXPECT_EQ(found["wrong"]["colour"], "");
+  EXPECT_EQ(found["history"], 1);
+}
+
+TEST_P(ParticlesInBrowser, TheMotionIsSavedAsAFilm) {
+  const auto found =
+      read_page(particles_page(falling_row(GetParam(), 5, 5), "Five in a row"), R"JS(
+(async () => {
+  document.getElementById('speed').value = 4;
+  const film = await window.viscontactPlayer.makeFilm();
+  const head = new Uint8Array(await film.slice(0, 4).arrayBuffer());
+  tell({size: film.size, type: film.type, head: [...head], time: window.viscontactPlayer.time});
+})();
+)JS",
+                700);
+  ASSERT_TRUE(found.is_object());
+  EXPECT_GT(found["size"], 1000);
+  EXPECT_EQ(found["type"], "video/webm");
+  EXPECT_EQ(found["head"], (nlohmann::json{0x1A, 0x45, 0xDF, 0xA3}));  // of EBML, WebM's container
+  EXPECT_EQ(found["time"], 2);
+}
+
 TEST_P(ParticlesInBrowser, TheUnitsOfTheCaseStandBesideItsNumbers) {
   auto motion = loaded_row(GetParam());
   motion.units = {"mm", "s", "g"};

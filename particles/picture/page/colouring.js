@@ -1,0 +1,109 @@
+// Colours of particles by their speed, radius, mass or force (the sum of the normal forces of their
+// contacts), chosen by the list #colour. The scale goes from 0, or from the least radius or mass, to
+// the largest value; a few speeds and forces may be above its end.
+
+const kColours = 64;
+/** A colour of the scale: level 0 to kColours - 1, darkened or lightened for the rims of balls. */
+function scaleColour(level, light = 0) {
+  // The lightness of this scale (cividis, Nunez et al. 2018) rises from end to end, so that
+  // colour-blind readers can read it.
+  const nodes = [[0, 34, 78], [53, 69, 108], [124, 123, 120], [188, 174, 108], [254, 232, 56]];
+  const at = level / (kColours - 1) * (nodes.length - 1), i = Math.min(nodes.length - 2, Math.floor(at));
+  const paper = light > 0 ? 255 : 0;
+  const mixed = [0, 1, 2].map(c => nodes[i][c] + (at - i) * (nodes[i + 1][c] - nodes[i][c]));
+  return `rgb(${mixed.map(c => Math.round(c + Math.abs(light) * (paper - c))).join(',')})`;
+}
+
+/** The displacement of coordinate i = k dim + d of the written positions between two frames. */
+function movedBetween(frame, next, i) {
+  const d = i % dim, n = count * dim, period = [periodX, periodY, periodZ][d];
+  const move = motion.step[d] * (written[next * n + i] - written[frame * n + i]);
+  return period ? move - period * Math.round(move / period) : move;
+}
+
+const masses = optional('masses', Float32Array);
+/** For each choice: the values in a frame, in `values`, and whether they differ between frames. */
+const quantities = {
+  speed: {
+    words: 'speed', unit: motion.units.speed, changes: true,
+    read(frame, values) {
+      const next = Math.min(frames - 1, frame + 1), from = next > 0 ? next - 1 : 0;
+      for (let k = 0; k < count; ++k) {
+        let square = 0;
+        for (let d = 0; d < dim; ++d) square += movedBetween(from, next, k * dim + d) ** 2;
+        const wasThere = !firstFrames || from >= firstFrames[k];
+        values[k] = wasThere && next > from ? Math.sqrt(square) / (times[next] - times[from]) : 0;
+      }
+    },
+  },
+  radius: {words: 'radius', unit: motion.units.length, read: (_, values) => values.set(radii)},
+  mass: {words: 'mass', unit: motion.units.mass, read: (_, values) => values.set(masses)},
+  force: {
+    words: 'sum of normal forces', unit: motion.units.force, changes: true,
+    read(frame, values) {
+      readContacts(frame);
+      values.fill(0);
+      for (let i = 0; i < lines.count; ++i)
+        for (const k of [pairs[2 * lines.pair[i]], pairs[2 * lines.pair[i] + 1]])
+          if (k >= 0) values[k] += lines.force[i] / 255 * motion.topForce;
+    },
+  },
+};
+
+const colouring = {name: '', low: 0, high: 0, frame: -1, values: new Float32Array(count)};
+const colourChoice = document.getElementById('colour');
+const particleScale = document.getElementById('particle-scale');
+
+/** Finds the ends of the scale from at most 40 frames, and shows it. */
+function setColouring(name) {
+  const quantity = quantities[name];
+  colouring.name = quantity ? name : '';
+  colouring.frame = -1;
+  colourChoice.value = colouring.name;
+  particleScale.hidden = !quantity;
+  if (!quantity) return;
+  const every = quantity.changes ? Math.max(1, Math.ceil(frames / 40)) : frames;
+  let all = [];
+  for (let frame = 0; frame < frames; frame += every) {
+    quantity.read(frame, colouring.values);
+    const sorted = colouring.values.slice().sort();
+    all.push(sorted[quantity.changes ? Math.floor(0.98 * (count - 1)) : count - 1]);
+    if (!quantity.changes) colouring.low = sorted[0];
+  }
+  if (quantity.changes) colouring.low = 0;
+  colouring.high = Math.max(...all);
+  readContacts(presentFrame);
+  const [title, bar, ticks] = ['span', '.bar', '.ticks'].map(x => particleScale.querySelector(x));
+  title.textContent = `${quantity.words} [${quantity.unit}]`;
+  const colours = Array.from({length: kColours}, (_, level) => scaleColour(level));
+  bar.style.background = `linear-gradient(to right,${colours.join(',')})`;
+  ticks.replaceChildren(...[0, 0.5, 1].map(share => {
+    const tick = document.createElement('span');
+    tick.style.left = `${100 * share}%`;
+    tick.textContent = number(colouring.low + share * (colouring.high - colouring.low));
+    return tick;
+  }));
+}
+
+/** Computes the values of the present frame. */
+function readColours() {
+  if (!colouring.name || colouring.frame === presentFrame) return;
+  const shown = lines.frame;
+  quantities[colouring.name].read(presentFrame, colouring.values);
+  readContacts(shown);
+  colouring.frame = presentFrame;
+}
+
+/** The colour of a particle: a level of the scale; -1 without one, and -2 for one of a body. */
+function lookOf(k) {
+  if (!colouring.name) return isInBody(k) ? -2 : -1;
+  const share = (colouring.values[k] - colouring.low) / (colouring.high - colouring.low || 1);
+  return Math.round((kColours - 1) * Math.min(1, Math.max(0, share)));
+}
+/** Fill and edge of a disc with this colour. */
+const discColours = look =>
+  look >= 0 ? [scaleColour(look), scaleColour(look, -0.45)] : look === -2 ? style.discOfBody : disc;
+/** Colours of a ball with this colour, from its brightest point to its rim, then of its edge. */
+const ballColours = look =>
+  look >= 0 ? [scaleColour(look, 0.6), scaleColour(look), scaleColour(look, -0.3), scaleColour(look, -0.5)]
+            : look === -2 ? style.ballOfBody : style.ball;
