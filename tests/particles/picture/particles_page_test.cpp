@@ -236,8 +236,7 @@ TEST_P(ParticlesInBrowser, ColoursAreThoseOfTheQuantityThatIsChosen) {
 }
 
 TEST_P(ParticlesInBrowser, TheAddressKeepsTimeViewAndColours) {
-  const auto found =
-      read_page(particles_page(falling_row(GetParam(), 5, 5), "Five in a row"), R"JS(
+  const auto found = read_page(particles_page(falling_row(GetParam(), 5, 5), "Five in a row"), R"JS(
 (async () => {
   const pause = ms => new Promise(done => setTimeout(done, ms));
   const player = window.viscontactPlayer, canvas = document.getElementById('stage');
@@ -263,7 +262,7 @@ TEST_P(ParticlesInBrowser, TheAddressKeepsTimeViewAndColours) {
   tell(found);
 })();
 )JS",
-                700);
+                               700);
   ASSERT_TRUE(found.is_object());
   EXPECT_THAT(found["begin"].get<std::string>(), ::testing::StartsWith("#t=0"));
   EXPECT_THAT(found["changed"].get<std::string>(),
@@ -277,8 +276,7 @@ TEST_P(ParticlesInBrowser, TheAddressKeepsTimeViewAndColours) {
 }
 
 TEST_P(ParticlesInBrowser, TheMotionIsSavedAsAFilm) {
-  const auto found =
-      read_page(particles_page(falling_row(GetParam(), 5, 5), "Five in a row"), R"JS(
+  const auto found = read_page(particles_page(falling_row(GetParam(), 5, 5), "Five in a row"), R"JS(
 (async () => {
   document.getElementById('speed').value = 4;
   const film = await window.viscontactPlayer.makeFilm();
@@ -286,7 +284,7 @@ TEST_P(ParticlesInBrowser, TheMotionIsSavedAsAFilm) {
   tell({size: film.size, type: film.type, head: [...head], time: window.viscontactPlayer.time});
 })();
 )JS",
-                700);
+                               700);
   ASSERT_TRUE(found.is_object());
   EXPECT_GT(found["size"], 1000);
   EXPECT_EQ(found["type"], "video/webm");
