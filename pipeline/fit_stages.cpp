@@ -44,7 +44,8 @@ void fit_stage(const fs::path& table_path, const fs::path& fit_path,
 }
 
 void compare_bases_stage(const fs::path& table_path, const fitting::FitSettings& settings,
-                         const fs::path& plot_path, bool json, const StopToken& stop) {
+                         const results::PictureRequest& picture, bool json,
+                         const StopToken& stop) {
   const auto provenance = results::provenance_of({{table_path}, {}});
   const auto table = lubrication::read_force_table(table_path);
   const auto results = fitting::compare_bases(table, settings, stop);
@@ -53,13 +54,13 @@ void compare_bases_stage(const fs::path& table_path, const fitting::FitSettings&
     throw_bad_input({table_path.string()}, results.front().failure);
   // The numbers come first because the picture needs gnuplot, which may be missing.
   fmt::print("{}", json ? report::basis_json(results) : report::basis_table(results));
-  const auto kind = results::picture_kind(plot_path)->kind;
-  results::write_output(plot_path, kind, report::plot_bases(table, results, kind, stop),
-                        provenance);
+  const auto format = picture.format();
+  results::write_output(picture.path, format.kind,
+                        report::plot_bases(table, results, format, stop), provenance);
 }
 
 void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs::path& shift_path,
-                 const fs::path& plot_path, const StopToken& stop) {
+                 const results::PictureRequest& picture, const StopToken& stop) {
   const auto provenance = results::provenance_of({{table_path, fit_path}, {}});
   const auto rough = lubrication::read_force_table(table_path);
   const auto shift = with_place(table_path.string() + ", " + fit_path.string(), [&] {
@@ -84,10 +85,10 @@ void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs:
   fmt::print("shift {:.6g}; relative residual: largest {:.2g}, rms {:.2g}\n", shift.shift,
              shift.largest_relative_residual, shift.rms_relative_residual);
   // The picture comes last because it needs gnuplot, which may be missing.
-  if (plot_path.empty()) return;
-  const auto kind = results::picture_kind(plot_path)->kind;
-  results::write_output(plot_path, kind, report::plot_wall_shift(shift, rough.geometry, kind, stop),
-                        provenance);
+  if (picture.path.empty()) return;
+  const auto format = picture.format();
+  results::write_output(picture.path, format.kind,
+                        report::plot_wall_shift(shift, rough.geometry, format, stop), provenance);
 }
 
 }  // namespace viscontact::pipeline

@@ -8,6 +8,7 @@
 
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/results/picture_kind.hpp"
 #include "viscontact/results/provenance.hpp"
 
 namespace viscontact::pipeline {
@@ -19,18 +20,19 @@ void fit_stage(const std::filesystem::path& table_path, const std::filesystem::p
                const fitting::FitSettings& settings, const results::Provenance& provenance,
                const StopToken& stop);
 
-/// Fits a table in every basis, prints the fits side by side and draws their residuals (SVG).
+/// Fits a table in every basis, prints the fits side by side and draws their residuals.
 /// Throws Error(kBadInput) if no basis can be fitted, Error(kExternalProgram) if gnuplot fails.
 void compare_bases_stage(const std::filesystem::path& table_path,
                          const fitting::FitSettings& settings,
-                         const std::filesystem::path& plot_path, bool json, const StopToken& stop);
+                         const results::PictureRequest& picture, bool json,
+                         const StopToken& stop);
 
 /// Fits the shift of a rough wall: the depth below its crests at which a smooth wall has the same
 /// drag (fitting/wall_shift.hpp). Uses the rough wall's table and the smooth wall's fit. Prints the
-/// shift [L], writes the shift of each row (CSV) and, unless `plot_path` is empty, a picture.
+/// shift [L], writes the shift of each row (CSV) and, unless its path is empty, a picture.
 /// Throws Error(kBadInput) for a wrong table or fit, Error(kExternalProgram) if gnuplot fails.
 void shift_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path,
-                 const std::filesystem::path& shift_path, const std::filesystem::path& plot_path,
+                 const std::filesystem::path& shift_path, const results::PictureRequest& picture,
                  const StopToken& stop);
 
 }  // namespace viscontact::pipeline

@@ -89,7 +89,7 @@ std::string basis_json(const std::vector<fitting::BasisResult>& results) {
 }
 
 std::string plot_bases(const lubrication::MotionTable& table,
-                       const std::vector<fitting::BasisResult>& results, TextKind kind,
+                       const std::vector<fitting::BasisResult>& results, const results::PictureFormat& format,
                        const StopToken& stop) {
   constexpr std::array kColours = {kVermilion, kBlue, kBluishGreen, kReddishPurple};
   Panel panel{"Relative residuals of the fits",
@@ -130,7 +130,7 @@ std::string plot_bases(const lubrication::MotionTable& table,
     if (const auto& row = table.rows[i]; row.relative_error_estimate > 0)
       estimate.points.emplace_back(row.gap, row.relative_error_estimate);
   if (!estimate.points.empty()) panel.curves.push_back(estimate);
-  return draw_picture(kind, {panel}, 860, 520, stop);
+  return draw_picture(format, {panel}, 860, 520, stop);
 }
 
 std::string comparison_table(const reduced_model::Comparison& comparison) {
@@ -163,7 +163,7 @@ std::string comparison_table(const reduced_model::Comparison& comparison) {
   return text;
 }
 
-std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall, TextKind kind,
+std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall, const results::PictureFormat& format,
                             const StopToken& stop) {
   Curve own{
       "shift of the row alone", "points pointtype 7 pointsize 0.7 linecolor rgb '#0072B2'", {}};
@@ -202,8 +202,8 @@ std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& 
   for (const auto& curve : {residual, estimate})
     if (!curve.points.empty()) residuals.curves.push_back(curve);
   constexpr int kWidth = 860, kPanelHeight = 360;  // [pixels]
-  if (residuals.curves.empty()) return draw_picture(kind, {shifts}, kWidth, kPanelHeight, stop);
-  return draw_picture(kind, {shifts, residuals}, kWidth, 2 * kPanelHeight, stop);
+  if (residuals.curves.empty()) return draw_picture(format, {shifts}, kWidth, kPanelHeight, stop);
+  return draw_picture(format, {shifts, residuals}, kWidth, 2 * kPanelHeight, stop);
 }
 
 }  // namespace viscontact::report

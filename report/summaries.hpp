@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/common/text/text_kind.hpp"
+#include "viscontact/results/picture_kind.hpp"
 #include "viscontact/fitting/basis_comparison.hpp"
 #include "viscontact/fitting/wall_shift.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
@@ -24,17 +24,17 @@ std::string basis_table(const std::vector<fitting::BasisResult>& results);
 /// file; if the fit failed, it has only the keys "basis" and "failure".
 std::string basis_json(const std::vector<fitting::BasisResult>& results);
 
-/// A picture of the `kind` kSvg, kPdf or kPng: the relative residuals of every basis over the gap,
+/// A picture: the relative residuals of every basis over the gap,
 /// beside the table's error estimates. Throws Error(kExternalProgram) if gnuplot is missing or
 /// fails.
 std::string plot_bases(const lubrication::MotionTable& table,
-                       const std::vector<fitting::BasisResult>& results, TextKind kind,
+                       const std::vector<fitting::BasisResult>& results, const results::PictureFormat& format,
                        const StopToken& stop = {});
 
-/// A picture of the `kind` kSvg, kPdf or kPng with two panels over the gap: the shift of each row
+/// A picture with two panels over the gap: the shift of each row
 /// beside the common shift [L], and the relative residuals with the common shift. `wall` names the
 /// wall in the title. Throws Error(kExternalProgram) if gnuplot is missing or fails.
-std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall, TextKind kind,
+std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall, const results::PictureFormat& format,
                             const StopToken& stop = {});
 
 /// One line per model: smallest gap and its time, recovered film, times of contact, largest

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "viscontact/common/named.hpp"
@@ -20,14 +21,34 @@ struct PictureKind {
       marker;  ///< text in every such file, by which refuse_other_kind() knows the kind
 };
 
-/// The kinds, the default first.
-inline constexpr std::array kPictureKinds = {PictureKind{".svg", TextKind::kSvg, "<svg"},
-                                             PictureKind{".pdf", TextKind::kPdf, "%PDF-"},
-                                             PictureKind{".png", TextKind::kPng, "PNG\r\n"}};
+/// The kinds, the default first. The last one is gnuplot's script with its data.
+inline constexpr std::array kPictureKinds = {
+    PictureKind{".svg", TextKind::kSvg, "<svg"}, PictureKind{".pdf", TextKind::kPdf, "%PDF-"},
+    PictureKind{".png", TextKind::kPng, "PNG\r\n"},
+    PictureKind{".gp", TextKind::kHashComment, "# gnuplot script by Viscontact"}};
 
 /// The kind of picture that the ending of a path asks for; nullptr if it asks for none of them.
 inline const PictureKind* picture_kind(const std::filesystem::path& path) {
   return find_named(kPictureKinds, path.extension().string());
 }
+
+/// How a picture is written.
+struct PictureFormat {
+  TextKind kind = TextKind::kSvg;  ///< of kPictureKinds
+  /// Width in pixels of an SVG; a PDF has a point for each of them, and a PNG two pixels. The height
+  /// follows it. 0: the width that the picture has by itself.
+  int width = 0;
+  double font_size = 14;  ///< in the same unit, > 0
+};
+
+/// A picture that a command is asked for.
+struct PictureRequest {
+  std::string path;       ///< its ending is that of one of kPictureKinds; empty: no picture
+  int width = 0;          ///< PictureFormat::width
+  double font_size = 14;  ///< PictureFormat::font_size
+
+  /// Needs a path.
+  PictureFormat format() const { return {picture_kind(path)->kind, width, font_size}; }
+};
 
 }  // namespace viscontact::results

@@ -58,6 +58,18 @@ void check_picture(const std::string& path) {
   results::refuse_other_kind(path, kind->marker, "picture");
 }
 
+void add_picture(CLI::App& command, results::PictureRequest& picture, const std::string& help) {
+  auto* plot = add_value(command, "--plot", picture.path, kFile, help);
+  add_value(command, "--width", picture.width, "N",
+            "width of the picture: pixels of an SVG, points of a PDF; default: its own")
+      ->check(CLI::Range(100, 10000))
+      ->needs(plot);
+  command.add_option("--font-size", picture.font_size, "of the picture, in the unit of its width")
+      ->check(CLI::Range(2.0, 200.0))
+      ->capture_default_str()
+      ->needs(plot);
+}
+
 void check_models(std::string_view option, const std::vector<std::string>& names) {
   for (const auto& name : names)
     from_option(option, [&] { return reduced_model::find_model(name); });

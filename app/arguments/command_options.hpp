@@ -10,6 +10,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/results/foreign_files.hpp"
+#include "viscontact/results/picture_kind.hpp"
 
 namespace viscontact::app {
 
@@ -53,6 +54,9 @@ void check_outputs(const std::vector<std::string>& paths);
 /// picture (results::kPictureKinds), and Error(kBadInput) if there is such a file that is not a
 /// picture of this kind by Viscontact. An empty name is no picture.
 void check_picture(const std::string& path);
+
+/// Adds the options --plot, whose help is `help`, --width and --font-size.
+void add_picture(CLI::App& command, results::PictureRequest& picture, const std::string& help);
 
 /// The default of --jobs: one process or thread for each core.
 int default_jobs();

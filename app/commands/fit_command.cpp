@@ -60,7 +60,8 @@ void read_fix(const std::string& word, fitting::FitSettings& settings) {
 struct FitOptions {
   std::string basis{lubrication::default_basis().name};
   std::vector<std::string> tables;
-  std::string table, fit, terms, weights = "relative", loss = "none", fix, plot;
+  std::string table, fit, terms, weights = "relative", loss = "none", fix;
+  results::PictureRequest plot;
   bool compare_bases = false, json = false;
   /// CLI11's objects of some options, which tell whether the option was given.
   const CLI::Option *output_option = nullptr, *terms_option = nullptr, *fix_option = nullptr,
@@ -69,7 +70,7 @@ struct FitOptions {
 
 void fit_tables_of_pair(const FitOptions& o, const std::vector<std::filesystem::path>& files) {
   if (o.terms_option->count() + o.fix_option->count() + o.weights_option->count() > 0 ||
-      !o.plot.empty())
+      !o.plot.path.empty())
     throw Error(ErrorKind::kWrongUsage,
                 "--terms, --fix, --weights and --plot are options of a single table of forces; the "
                 "tables of a pair take --basis, --loss and --compare-bases");
@@ -104,17 +105,19 @@ void fit_table(FitOptions& o) {
   const bool fits = o.output_option->count() > 0;
   if (!fits && !o.compare_bases)
     throw Error(ErrorKind::kWrongUsage, "--output is required unless --compare-bases is given");
-  if (!o.plot.empty() && !o.compare_bases)
+  if (!o.plot.path.empty() && !o.compare_bases)
     throw Error(ErrorKind::kWrongUsage, "--plot needs --compare-bases");
-  std::filesystem::path plot = o.plot;
-  if (plot.empty() && fits) plot = std::filesystem::path(o.fit).replace_extension(".bases.svg");
-  if (plot.empty()) plot = std::filesystem::path(o.table).stem().string() + ".bases.svg";
+  auto plot = o.plot;
+  if (plot.path.empty() && fits)
+    plot.path = std::filesystem::path(o.fit).replace_extension(".bases.svg").string();
+  if (plot.path.empty())
+    plot.path = std::filesystem::path(o.table).stem().string() + ".bases.svg";
   auto outputs = std::vector<std::string>{};
   if (fits) outputs.push_back(o.fit);
-  if (o.compare_bases) outputs.push_back(plot.string());
+  if (o.compare_bases) outputs.push_back(plot.path);
   check_outputs(outputs);
   if (fits) results::refuse_other_kind(o.fit, "\"gap_interval\"", "fit");
-  if (o.compare_bases) check_picture(plot);
+  if (o.compare_bases) check_picture(plot.path);
   std::optional<Error> without_picture;
   try {
     if (o.compare_bases)
@@ -196,16 +199,17 @@ void add_fit(CLI::App& app) {
       command->add_flag("--compare-bases", o->compare_bases,
                         "print the fits in all bases side by side, and draw their residuals");
   add_json(*command, o->json)->needs(bases);
-  add_value(*command, "--plot", o->plot, kFile,
-            "picture of --compare-bases (SVG, PDF or PNG); default: FIT.bases.svg beside the fit, "
-            "or without a "
-            "fit TABLE.bases.svg in the current folder");
+  add_picture(*command, o->plot,
+              "picture of --compare-bases (SVG, PDF, PNG or gnuplot's script, .gp); default: "
+              "FIT.bases.svg beside the fit, or without a fit TABLE.bases.svg in the current "
+              "folder");
   command->callback([o] { fit_table(*o); });
 }
 
 void add_shift(CLI::App& app) {
   struct Options {
-    std::string table, fit, shift, plot;
+    std::string table, fit, shift;
+    results::PictureRequest plot;
   };
   auto* command = app.add_subcommand(
       "shift", "fit the depth below a rough wall's crests at which a smooth wall has equal drag");
@@ -214,13 +218,13 @@ void add_shift(CLI::App& app) {
   add_value(*command, "--fit", o->fit, kFile, "fit of the smooth wall's force (JSON)")->required();
   add_value(*command, "-o,--output", o->shift, kFile, "shifts to write, row by row (CSV)")
       ->required();
-  add_value(*command, "--plot", o->plot, kFile, "picture to write (SVG, PDF or PNG)");
+  add_picture(*command, o->plot, "picture to write (SVG, PDF, PNG or gnuplot's script, .gp)");
   command->callback([o] {
     auto outputs = std::vector{o->shift};
-    if (!o->plot.empty()) outputs.push_back(o->plot);
+    if (!o->plot.path.empty()) outputs.push_back(o->plot.path);
     check_outputs(outputs);
     results::refuse_other_kind(o->shift, "# viscontact: wall shift", "file of wall shifts");
-    check_picture(o->plot);
+    check_picture(o->plot.path);
     pipeline::shift_stage(o->table, o->fit, o->shift, o->plot, interrupt_token());
   });
 }

@@ -124,11 +124,13 @@ std::vector<std::string> with_output(const RerunOptions& o, const results::Prove
                     "a folder for all of them, but it is '{}'",
                     o.file, command[1], value_at(command, *output), o.output));
   put(*output);
-  // The picture of --plot would replace the earlier picture, so the option is left out.
-  if (const auto plot = value_of(command, '\0', "--plot"); plot && command[1] != "tabulate") {
-    const auto begin = command.begin() + static_cast<std::ptrdiff_t>(plot->word);
-    command.erase(plot->begin == 0 ? begin - 1 : begin, begin + 1);
-  }
+  // The picture of --plot would replace the earlier picture, so the option is left out, and with it
+  // those that need it.
+  for (const auto* option : {"--plot", "--width", "--font-size"})
+    if (const auto place = value_of(command, '\0', option); place && command[1] != "tabulate") {
+      const auto begin = command.begin() + static_cast<std::ptrdiff_t>(place->word);
+      command.erase(place->begin == 0 ? begin - 1 : begin, begin + 1);
+    }
   return command;
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -84,16 +85,17 @@ std::string panel_script(const Panel& panel, std::size_t index) {
 
 /// The command that sets the terminal of a picture. Letters, lines and points have the same size
 /// relative to the picture in all kinds.
-std::string terminal_of(TextKind kind, int width, int height) {
-  constexpr const char* kCommon = "noenhanced font 'sans-serif,14' background 'white'";
+std::string terminal_of(TextKind kind, double font_size, int width, int height) {
+  const auto common =
+      fmt::format("noenhanced font 'sans-serif,{:g}' background 'white'", font_size);
   constexpr double kPointsPerInch = 72;
   if (kind == TextKind::kPdf)
     return fmt::format("set terminal pdfcairo size {:.6g}in,{:.6g}in {} fontscale 0.75 linewidth 2",
-                       width / kPointsPerInch, height / kPointsPerInch, kCommon);
+                       width / kPointsPerInch, height / kPointsPerInch, common);
   if (kind == TextKind::kPng)
     return fmt::format("set terminal pngcairo size {},{} {} fontscale 1.5 linewidth 2 pointscale 2",
-                       2 * width, 2 * height, kCommon);
-  return fmt::format("set terminal svg size {},{} dynamic {}", width, height, kCommon);
+                       2 * width, 2 * height, common);
+  return fmt::format("set terminal svg size {},{} dynamic {}", width, height, common);
 }
 
 /// Where a picture ends in the output of gnuplot, after which warnings follow, and where it begins.
@@ -127,18 +129,25 @@ std::string quoted_for_gnuplot(const std::string& text) {
 
 std::string draw_svg(const std::vector<Panel>& panels, int width, int height,
                      const StopToken& stop) {
-  return draw_picture(TextKind::kSvg, panels, width, height, stop);
+  return draw_picture({}, panels, width, height, stop);
 }
 
-std::string draw_picture(TextKind kind, const std::vector<Panel>& panels, int width, int height,
-                         const StopToken& stop) {
+std::string draw_picture(const results::PictureFormat& format, const std::vector<Panel>& panels,
+                         int width, int height, const StopToken& stop) {
+  const auto kind = format.kind;
+  if (format.width > 0) {
+    height = std::max(1, height * format.width / width);
+    width = format.width;
+  }
   std::string script = fmt::format(
       "set encoding utf8\n{}\nset grid linecolor '#dddddd'\nset border linecolor '#444444'\nset "
       "key opaque spacing 1.15\n",
-      terminal_of(kind, width, height));
+      terminal_of(kind, format.font_size, width, height));
   if (panels.size() > 1) script += fmt::format("set multiplot layout {},1\n", panels.size());
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);
   if (panels.size() > 1) script += "unset multiplot\n";
+  if (kind == TextKind::kHashComment)
+    return "# gnuplot script by Viscontact, with its data: gnuplot FILE > PICTURE.svg\n" + script;
   // A picture takes about one second. If gnuplot needs ten minutes, it hangs.
   constexpr std::chrono::seconds kLongest = std::chrono::minutes(10);
   // The shell command puts gnuplot's warnings after the picture; they could stand in the middle.

@@ -10,7 +10,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/common/text/text_kind.hpp"
+#include "viscontact/results/picture_kind.hpp"
 
 namespace viscontact::report {
 
@@ -55,13 +55,14 @@ inline constexpr const char* kLegendBelow =
 /// nothing in it as a command.
 std::string quoted_for_gnuplot(const std::string& text);
 
-/// Draws the panels one below the other. `kind` is kSvg (one element, which may stand in an HTML
-/// page), kPdf or kPng. `width` and `height` are in pixels of an SVG; a PDF has a point for each of
-/// them, and a PNG two pixels along each axis. Throws GnuplotMissing(kExternalProgram) if gnuplot
+/// Draws the panels one below the other, as an SVG (one element, which may stand in an HTML page), a
+/// PDF, a PNG, or as gnuplot's script with the data, which gnuplot turns into an SVG. `width` and
+/// `height` are those of the picture by itself, in the unit of PictureFormat::width. Throws
+/// GnuplotMissing(kExternalProgram) if gnuplot
 /// cannot be run, Error(kExternalProgram) if gnuplot fails or has not ended after ten minutes,
 /// and Error(kInterrupted) if `stop` requests a stop.
-std::string draw_picture(TextKind kind, const std::vector<Panel>& panels, int width, int height,
-                         const StopToken& stop = {});
+std::string draw_picture(const results::PictureFormat& format, const std::vector<Panel>& panels,
+                         int width, int height, const StopToken& stop = {});
 
 /// draw_picture() of the kind kSvg.
 std::string draw_svg(const std::vector<Panel>& panels, int width, int height,

@@ -107,7 +107,7 @@ void check_has_value(const std::filesystem::path& path, const std::vector<double
                                : "has no value to draw in the columns that were asked for");
 }
 
-std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot, TextKind kind,
+std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot, const results::PictureFormat& format,
                        const StopToken& stop) {
   SweepRows rows(path);
   const auto x = rows.find(plot.x);
@@ -155,7 +155,7 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
   panel.y_log = is_logarithmic(ys);
   for (const auto& [axis, logarithmic] : {std::pair('x', panel.x_log), std::pair('y', panel.y_log)})
     if (logarithmic) panel.settings.push_back(fmt::format("set format {} '1e%T'", axis));
-  return draw_picture(kind, {panel}, kSweepWidth, 520, stop);
+  return draw_picture(format, {panel}, kSweepWidth, 520, stop);
 }
 
 double scaled(double value, bool logarithmic) { return logarithmic ? std::log10(value) : value; }
@@ -212,7 +212,7 @@ std::vector<std::string> map_colours(double low, double high) {
       "'#fee838')"};
 }
 
-std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot, TextKind kind,
+std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot, const results::PictureFormat& format,
                      const StopToken& stop) {
   SweepRows rows(path);
   const auto x = rows.find(plot.x), y = rows.find(plot.y);
@@ -259,15 +259,15 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot, T
               {}};
   std::ranges::move(map_colours(low, high), std::back_inserter(panel.settings));
   panel.field = std::move(field);
-  return draw_picture(kind, {panel}, kSweepWidth, 620, stop);
+  return draw_picture(format, {panel}, kSweepWidth, 620, stop);
 }
 
 }  // namespace
 
 std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot& plot,
-                       TextKind kind, const StopToken& stop) {
-  return plot.y.empty() ? plot_lines(sweep_file, plot, kind, stop)
-                        : plot_map(sweep_file, plot, kind, stop);
+                       const results::PictureFormat& format, const StopToken& stop) {
+  return plot.y.empty() ? plot_lines(sweep_file, plot, format, stop)
+                        : plot_map(sweep_file, plot, format, stop);
 }
 
 }  // namespace viscontact::report

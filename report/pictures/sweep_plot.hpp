@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/common/text/text_kind.hpp"
+#include "viscontact/results/picture_kind.hpp"
 
 namespace viscontact::report {
 
@@ -22,12 +22,12 @@ struct SweepPlot {
   bool is_of_means = false;
 };
 
-/// A picture of the `kind` kSvg, kPdf or kPng with lines, or with a heat map over the grid of two
+/// A picture with lines, or with a heat map over the grid of two
 /// keys. Axes and colours are logarithmic if all values are positive and span a decade or more.
 /// Throws Error(kBadInput) that lists the columns of the file if a column does not exist,
 /// Error(kBadInput) if there is nothing to draw, and Error(kExternalProgram) if gnuplot is missing
 /// or fails.
 std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot& plot,
-                       TextKind kind, const StopToken& stop = {});
+                       const results::PictureFormat& format, const StopToken& stop = {});
 
 }  // namespace viscontact::report

@@ -27,8 +27,9 @@ namespace viscontact::app {
 namespace {
 
 void add_picture_options(CLI::App& command, SweepOptions& o) {
-  add_value(command, "--plot", o.plot, kFile,
-            "picture to write (SVG, PDF or PNG): lines over one key, or a map over two");
+  add_picture(command, o.plot,
+              "picture to write (SVG, PDF, PNG or gnuplot's script, .gp): lines over one key, or a "
+              "map over two");
   add_value(command, "--x", o.x, "KEY",
             "key of the horizontal axis; default: the first varied key");
   add_value(command, "--y", o.y, "KEY", "key of the vertical axis, for a map");
@@ -111,7 +112,7 @@ void check_columns(const report::SweepPlot& picture, const sweep::Study& study) 
 
 /// The picture that is asked for, if any, checked before rows are computed.
 std::optional<report::SweepPlot> checked_picture(const SweepOptions& o, const CaseStudy& s) {
-  if (o.plot.empty()) return {};
+  if (o.plot.path.empty()) return {};
   auto picture = picture_of(o, s);
   check_columns(picture, s.study);
   return picture;
@@ -120,8 +121,9 @@ std::optional<report::SweepPlot> checked_picture(const SweepOptions& o, const Ca
 /// Draws the picture of the rows, or of their means, in `file`.
 void draw(const SweepOptions& o, const CaseStudy& s, const report::SweepPlot& picture,
           const std::filesystem::path& file) {
-  const auto kind = results::picture_kind(o.plot)->kind;
-  results::write_output(o.plot, kind, report::plot_sweep(file, picture, kind, interrupt_token()),
+  const auto format = o.plot.format();
+  results::write_output(o.plot.path, format.kind,
+                        report::plot_sweep(file, picture, format, interrupt_token()),
                         results::provenance_of(results::Inputs{s.files, {file}}));
 }
 
@@ -154,8 +156,8 @@ void run_sweep(const SweepOptions& o) {
   // A name that no kind of case has is wrong whatever the case is.
   for (const auto& model : o.models)
     if (find_named(rolling::rolling_models(), model) == nullptr) check_models("--models", {model});
-  check_outputs(o.plot.empty() ? std::vector{o.output} : std::vector{o.output, o.plot});
-  check_picture(o.plot);
+  check_outputs(o.plot.path.empty() ? std::vector{o.output} : std::vector{o.output, o.plot.path});
+  check_picture(o.plot.path);
   switch (case_file::kind_of_case(o.case_file)) {
     case case_file::CaseKind::kParticles:
       return run_particles_sweep(o);

@@ -23,11 +23,11 @@ struct SweepOptions {
       fit,                        ///< path of a fit file
       output,                     ///< path of the CSV file of the rows
       reference,                  ///< name of the model with which the others are compared
-      plot,                       ///< path of the picture
       x, y;                       ///< keys of the axes of the picture
   std::vector<std::string> vary,  ///< "KEY=RANGE" each (sweep/variation.hpp)
       models,                     ///< names of models
       columns;                    ///< columns that are drawn
+  results::PictureRequest plot;   ///< the picture
   std::uint64_t samples = 0,      ///< number of random points
       seed = 1,                   ///< of the random points
       draws = 0;                  ///< number of random arrangements at each point

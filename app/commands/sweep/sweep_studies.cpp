@@ -134,7 +134,7 @@ particles::ParticlesSweep sweep_of_particles(const SweepOptions& o) {
   if (!o.models.empty() || !o.reference.empty() || !o.fit.empty())
     throw Error(ErrorKind::kWrongUsage,
                 "--models, --reference and --fit are for cases of one sphere; leave them out");
-  if (!o.plot.empty() && (o.array.is_slurm() || !o.array.task.empty()))
+  if (!o.plot.path.empty() && (o.array.is_slurm() || !o.array.task.empty()))
     throw Error(
         ErrorKind::kWrongUsage,
         "--plot needs the rows of all tasks; give it with --gather, when they are finished");

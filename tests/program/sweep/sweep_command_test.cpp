@@ -8,6 +8,7 @@
 #include "tests/program/sample_files.hpp"
 #include "tests/program/undisturbed.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/results/exit_code.hpp"
 #include "viscontact/results/provenance.hpp"
@@ -74,6 +75,39 @@ TEST_F(SweepCommand, DrawsPdfAndPngAsWell) {
     expect_refusal(sweep(kVanishing, options), ErrorKind::kBadInput,
                    HasSubstr("is not a picture that Viscontact wrote"));
   }
+}
+
+TEST_F(SweepCommand, PictureHasTheWidthAndLettersThatAreAskedFor) {
+  const auto with = [](std::vector<std::string> more) {
+    auto options = kTwoRows;
+    options.insert(options.end(), more.begin(), more.end());
+    return options;
+  };
+  expect_done(sweep(kVanishing, with({"--plot", path("plain.svg")})));
+  EXPECT_THAT(read_file(path("plain.svg")),
+              AllOf(HasSubstr("viewBox=\"0 0 860 520\""), HasSubstr("font-size=\"14.00\"")));
+  const auto wide = with({"--plot", path("wide.svg"), "--width", "1720", "--font-size", "20"});
+  expect_done(sweep(kVanishing, wide));
+  EXPECT_THAT(read_file(path("wide.svg")),
+              AllOf(HasSubstr("viewBox=\"0 0 1720 1040\""), HasSubstr("font-size=\"20.00\"")));
+  expect_done(run_viscontact({"rerun", path("wide.svg")}));
+  expect_done(run_viscontact({"rerun", path("rows.csv"), "-o", path("again.csv")}));
+  expect_refusal(sweep(kVanishing, with({"--width", "900"})), ErrorKind::kWrongUsage,
+                 HasSubstr("--plot"));
+}
+
+TEST_F(SweepCommand, ScriptOfAPictureDrawsIt) {
+  auto options = kTwoRows;
+  options.insert(options.end(), {"--plot", path("picture.gp")});
+  expect_done(sweep(kVanishing, options));
+  const auto script = read_file(path("picture.gp"));
+  EXPECT_THAT(script, AllOf(HasSubstr("# provenance"), HasSubstr("END_OF_CURVE")));
+  options.back() = path("picture.svg");
+  expect_done(sweep(kVanishing, options));
+  const auto drawn = run_process({"gnuplot", path("picture.gp")}, {"LC_ALL=C"});
+  EXPECT_EQ(drawn.exit_status, 0) << drawn.output;
+  EXPECT_THAT(rest_of(path("picture.svg")), HasSubstr(drawn.output.substr(
+                                                drawn.output.find("<svg"), 2000)));
 }
 
 TEST_F(SweepCommand, DrawsAMapOfTwoKeys) {
