@@ -11,8 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "viscontact/case_file/keys.hpp"
 #include "viscontact/case_file/toml_section.hpp"
-#include "viscontact/case_file/units_key.hpp"
+#include "viscontact/common/text/units.hpp"
 
 namespace viscontact::case_file {
 
@@ -29,6 +30,16 @@ struct SweepRequest {
   /// Number of random arrangements of particles at each point; 0: that of the case.
   std::uint64_t draws = 0;
 };
+
+/// Declares the keys of [sweep] that choose points and what is drawn of them.
+void points_and_plot_keys(Keys& keys, SweepRequest& sweep);
+
+/// Reads the key `units` of the root table, if it is there. Throws Error(kBadInput) with the line if
+/// a word is missing, empty or longer than 20 bytes, or has a character that pages or gnuplot would
+/// read as a command.
+void read_units(const TomlSection& root, Units& units);
+/// What docs/case-file.md says about that key.
+KeyTable table_of_units();
 
 /// The case whose root table is `root`. `text` is the content of the file at `path`. Throws
 /// Error(kBadInput) with the file, the line, the key, its value and what is allowed.

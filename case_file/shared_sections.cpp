@@ -205,15 +205,6 @@ std::vector<KeyTable> tables_of_tabulation() {
           describe_keys("tabulation.container", container_keys)};
 }
 
-void points_and_plot_keys(Keys& keys, SweepRequest& sweep) {
-  keys.optional("samples", number(sweep.samples, kWholeNumber),
-                {"number of random points", "the whole grid"});
-  keys.optional("x", text(sweep.x),
-                {"key of the horizontal axis of the plot", "the first varied key"});
-  keys.optional("y", text(sweep.y), {"key of the vertical axis of a map", "lines over `x`"});
-  keys.optional("plot", texts(sweep.plot), {"columns to draw", "that of the command"});
-}
-
 void fluid_keys(Keys& keys, double& viscosity, double& density) {
   viscosity_keys(keys, viscosity);
   keys.optional("density", number(density, kNotNegative),

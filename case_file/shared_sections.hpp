@@ -33,7 +33,4 @@ void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool
 /// (physics.md (4.15)). The volume of the sphere is in [L^3]. It is 0 if both densities are equal.
 double mass_less_displaced_fluid(double mass, double fluid_density, double radius);
 
-/// Declares the keys of [sweep] that choose points and what is drawn of them.
-void points_and_plot_keys(Keys& keys, SweepRequest& sweep);
-
 }  // namespace viscontact::case_file

@@ -44,8 +44,7 @@ void fit_stage(const fs::path& table_path, const fs::path& fit_path,
 }
 
 void compare_bases_stage(const fs::path& table_path, const fitting::FitSettings& settings,
-                         const results::PictureRequest& picture, bool json,
-                         const StopToken& stop) {
+                         const results::PictureRequest& picture, bool json, const StopToken& stop) {
   const auto provenance = results::provenance_of({{table_path}, {}});
   const auto table = lubrication::read_force_table(table_path);
   const auto results = fitting::compare_bases(table, settings, stop);
@@ -55,8 +54,8 @@ void compare_bases_stage(const fs::path& table_path, const fitting::FitSettings&
   // The numbers come first because the picture needs gnuplot, which may be missing.
   fmt::print("{}", json ? report::basis_json(results) : report::basis_table(results));
   const auto format = picture.format();
-  results::write_output(picture.path, format.kind,
-                        report::plot_bases(table, results, format, stop), provenance);
+  results::write_output(picture.path, format.kind, report::plot_bases(table, results, format, stop),
+                        provenance);
 }
 
 void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs::path& shift_path,

@@ -24,8 +24,7 @@ void fit_stage(const std::filesystem::path& table_path, const std::filesystem::p
 /// Throws Error(kBadInput) if no basis can be fitted, Error(kExternalProgram) if gnuplot fails.
 void compare_bases_stage(const std::filesystem::path& table_path,
                          const fitting::FitSettings& settings,
-                         const results::PictureRequest& picture, bool json,
-                         const StopToken& stop);
+                         const results::PictureRequest& picture, bool json, const StopToken& stop);
 
 /// Fits the shift of a rough wall: the depth below its crests at which a smooth wall has the same
 /// drag (fitting/wall_shift.hpp). Uses the rough wall's table and the smooth wall's fit. Prints the

@@ -89,8 +89,8 @@ std::string basis_json(const std::vector<fitting::BasisResult>& results) {
 }
 
 std::string plot_bases(const lubrication::MotionTable& table,
-                       const std::vector<fitting::BasisResult>& results, const results::PictureFormat& format,
-                       const StopToken& stop) {
+                       const std::vector<fitting::BasisResult>& results,
+                       const results::PictureFormat& format, const StopToken& stop) {
   constexpr std::array kColours = {kVermilion, kBlue, kBluishGreen, kReddishPurple};
   Panel panel{"Relative residuals of the fits",
               "gap q",
@@ -163,8 +163,8 @@ std::string comparison_table(const reduced_model::Comparison& comparison) {
   return text;
 }
 
-std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall, const results::PictureFormat& format,
-                            const StopToken& stop) {
+std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall,
+                            const results::PictureFormat& format, const StopToken& stop) {
   Curve own{
       "shift of the row alone", "points pointtype 7 pointsize 0.7 linecolor rgb '#0072B2'", {}};
   Curve common{fmt::format("common shift {:.4g}", shift.shift),

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/results/picture_kind.hpp"
 #include "viscontact/fitting/basis_comparison.hpp"
 #include "viscontact/fitting/wall_shift.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/results/picture_kind.hpp"
 
 namespace viscontact::report {
 
@@ -28,14 +28,14 @@ std::string basis_json(const std::vector<fitting::BasisResult>& results);
 /// beside the table's error estimates. Throws Error(kExternalProgram) if gnuplot is missing or
 /// fails.
 std::string plot_bases(const lubrication::MotionTable& table,
-                       const std::vector<fitting::BasisResult>& results, const results::PictureFormat& format,
-                       const StopToken& stop = {});
+                       const std::vector<fitting::BasisResult>& results,
+                       const results::PictureFormat& format, const StopToken& stop = {});
 
 /// A picture with two panels over the gap: the shift of each row
 /// beside the common shift [L], and the relative residuals with the common shift. `wall` names the
 /// wall in the title. Throws Error(kExternalProgram) if gnuplot is missing or fails.
-std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall, const results::PictureFormat& format,
-                            const StopToken& stop = {});
+std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall,
+                            const results::PictureFormat& format, const StopToken& stop = {});
 
 /// One line per model: smallest gap and its time, recovered film, times of contact, largest
 /// distance to the reference.

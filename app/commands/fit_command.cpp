@@ -110,8 +110,7 @@ void fit_table(FitOptions& o) {
   auto plot = o.plot;
   if (plot.path.empty() && fits)
     plot.path = std::filesystem::path(o.fit).replace_extension(".bases.svg").string();
-  if (plot.path.empty())
-    plot.path = std::filesystem::path(o.table).stem().string() + ".bases.svg";
+  if (plot.path.empty()) plot.path = std::filesystem::path(o.table).stem().string() + ".bases.svg";
   auto outputs = std::vector<std::string>{};
   if (fits) outputs.push_back(o.fit);
   if (o.compare_bases) outputs.push_back(plot.path);

@@ -114,23 +114,21 @@ std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
   return pool_.sum_of_blocks<ConcatenatedBlocks<std::size_t>>(pair_count(), in_block).values;
 }
 
-/// Whether pair k may be chosen before its gap closes. The convex relaxation holds dry particles that
-/// slide apart, (5.9), also where they would not meet.
+/// Whether pair k has a film that can absorb an impulse.
 template <int D>
-bool StepProjection<D>::can_hold_early(std::size_t k) {
-  const auto& laws = step_->laws;
-  return laws.friction->method != FrictionMethod::kConvex ||
-         laws.lowest_gamma(pair(k), state_.memories.of(pair(k).memory),
-                           radii_of(pair(k), state_.particles, step_->obstacles)) < 0;
+bool StepProjection<D>::has_film(std::size_t k) {
+  return step_->laws.lowest_gamma(pair(k), state_.memories.of(pair(k).memory),
+                                  radii_of(pair(k), state_.particles, step_->obstacles)) < 0;
 }
 
 /// The pairs that a solution may have closed, whose gaps the displacements make smaller than
-/// margin_.
+/// margin_; all of them, or those with a film.
 template <int D>
-std::vector<std::size_t> StepProjection<D>::nearly_closed() {
+std::vector<std::size_t> StepProjection<D>::nearly_closed(bool are_films_only) {
   std::vector<std::size_t> pairs;
   for (std::size_t k = 0; k < pair_count(); ++k)
-    if (may_have_closed(k) && gap_would_close(k, margin_) && can_hold_early(k)) pairs.push_back(k);
+    if (may_have_closed(k) && gap_would_close(k, margin_) && (!are_films_only || has_film(k)))
+      pairs.push_back(k);
   return pairs;
 }
 
@@ -203,11 +201,18 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   // Tolerate half of the allowed overlap. The other half is for the overlap that this step may add.
   tolerated_ = settings.tolerance * mean_radius / 2;
   // With friction a solution costs more than contacts that stay open. Therefore pairs whose gaps are
-  // nearly closed are chosen together with the first ones that a solution has closed, but not
-  // before: a tower that stands by itself would lean on neighbours that it only touches.
+  // nearly closed are chosen early. Pairs with a film are chosen at once. Dry ones are chosen with
+  // the first ones that a solution has closed: otherwise a tower that stands by itself would lean on
+  // neighbours that it only touches. With the convex relaxation they are not chosen early, because it
+  // holds particles that slide apart, (5.9), also where they would not meet.
   constexpr double kMargin = 5e-3;
-  if (step_ != nullptr && step_->laws.friction) margin_ = kMargin * mean_radius;
+  const bool has_friction = step_ != nullptr && step_->laws.friction;
+  const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
   choose(closed_by_free_motion());
+  if (has_friction) {
+    margin_ = kMargin * mean_radius;
+    choose(nearly_closed(true));
+  }
   // Tolerances of the rough solution: of the gaps in mean radii, and of the impulses as a fraction
   // of the impulses at work. For bench/box2d.cpp with 1000 discs, gaps of 5e-4 to 2e-3 take equally
   // long, 3e-3 a tenth longer. The fraction is 1, because the rounding errors that limit it are
@@ -243,7 +248,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     if (!is_rough) least_excess = std::min(least_excess, result.residuals.excess);
     if (more.empty()) is_rough = false;
     choose(with_connected_pairs(more, ++rounds));
-    if (margin_ > 0 && !more.empty()) choose(nearly_closed());
+    if (margin_ > 0 && !more.empty()) choose(nearly_closed(is_convex));
   }
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     result.pairs.push_back(&pair(chosen_[c]));

@@ -107,8 +107,8 @@ class StepProjection {
   bool may_have_closed(std::size_t k) {
     return is_chosen_[k] == 0 && (takes_part(pair(k).second) || takes_part(pair(k).first));
   }
-  bool can_hold_early(std::size_t k);
-  std::vector<std::size_t> nearly_closed();
+  bool has_film(std::size_t k);
+  std::vector<std::size_t> nearly_closed(bool are_films_only);
   std::vector<std::size_t> closed_by_free_motion();
   void choose(const std::vector<std::size_t>& pairs);
   SolverResult solve_contacts(bool is_rough, double length, int max_iterations);

@@ -107,8 +107,8 @@ void check_has_value(const std::filesystem::path& path, const std::vector<double
                                : "has no value to draw in the columns that were asked for");
 }
 
-std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot, const results::PictureFormat& format,
-                       const StopToken& stop) {
+std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
+                       const results::PictureFormat& format, const StopToken& stop) {
   SweepRows rows(path);
   const auto x = rows.find(plot.x);
   std::vector<SweepRows::Place> places, errors;
@@ -212,8 +212,8 @@ std::vector<std::string> map_colours(double low, double high) {
       "'#fee838')"};
 }
 
-std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot, const results::PictureFormat& format,
-                     const StopToken& stop) {
+std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot,
+                     const results::PictureFormat& format, const StopToken& stop) {
   SweepRows rows(path);
   const auto x = rows.find(plot.x), y = rows.find(plot.y);
   const auto column = rows.find(plot.columns[0], plot.is_of_means ? kMean : "");

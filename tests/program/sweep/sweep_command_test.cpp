@@ -106,8 +106,8 @@ TEST_F(SweepCommand, ScriptOfAPictureDrawsIt) {
   expect_done(sweep(kVanishing, options));
   const auto drawn = run_process({"gnuplot", path("picture.gp")}, {"LC_ALL=C"});
   EXPECT_EQ(drawn.exit_status, 0) << drawn.output;
-  EXPECT_THAT(rest_of(path("picture.svg")), HasSubstr(drawn.output.substr(
-                                                drawn.output.find("<svg"), 2000)));
+  EXPECT_THAT(rest_of(path("picture.svg")),
+              HasSubstr(drawn.output.substr(drawn.output.find("<svg"), 2000)));
 }
 
 TEST_F(SweepCommand, DrawsAMapOfTwoKeys) {

@@ -1,5 +1,6 @@
-// Reads the key `units` (units_key.hpp).
-#include "viscontact/case_file/units_key.hpp"
+// The keys that all kinds of cases have (case_template.hpp). A wrong value is an Error(kBadInput). A
+// change must keep accepting users' cases.
+#include "viscontact/case_file/case_template.hpp"
 
 #include "viscontact/case_file/keys.hpp"
 
@@ -27,6 +28,15 @@ void unit_keys(Keys& keys, Units& units) {
 
 void read_units(const TomlSection& root, Units& units) {
   if (root.has("units")) read_keys(root.section("units"), unit_keys, units);
+}
+
+void points_and_plot_keys(Keys& keys, SweepRequest& sweep) {
+  keys.optional("samples", number(sweep.samples, kWholeNumber),
+                {"number of random points", "the whole grid"});
+  keys.optional("x", text(sweep.x),
+                {"key of the horizontal axis of the plot", "the first varied key"});
+  keys.optional("y", text(sweep.y), {"key of the vertical axis of a map", "lines over `x`"});
+  keys.optional("plot", texts(sweep.plot), {"columns to draw", "that of the command"});
 }
 
 KeyTable table_of_units() { return describe_keys("units", unit_keys); }
