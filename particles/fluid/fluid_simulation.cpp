@@ -298,6 +298,51 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
   return forces;
 }
 
+/// Solves the contacts of a step again until bodies are rigid, and hinges and arms hold, after the
+/// finite turns of the motion with contacts, which differ from those without. Changes the velocities
+/// without contact, and adds the forces of this to those in the rows. Springs keep their forces.
+void FluidSimulation::hold_with_contacts(const StepEquation& equation, const HeldMotion& held,
+                                         double h, double next, Motion& motion,
+                                         std::vector<double>& row_forces) {
+  // Each round gains about a factor of the angle by which contacts change a turn of the step.
+  constexpr int kMostRounds = 20;
+  constexpr double kOfTolerance = 1e-3;
+  const double allowed = kOfTolerance * setting_.solver.tolerance * mean_radius_;
+  const auto rows = held.rows();
+  auto& contact = motion.contact;
+  for (int round = 0; round < kMostRounds && largest_of(contact.loads) > 0; ++round) {
+    auto velocities = motion.linear;
+    for (std::size_t i = 0; i < velocities.size(); ++i)
+      velocities[i] += contact.velocities[i] - motion.free[i];
+    const auto before = velocities;
+    double off = 0;  // [L]
+    for (int n = 0; n <= kMostRounds; ++n) {
+      auto missing = held.missing(velocities, row_forces, held_->thetas());
+      for (std::size_t r = 0; r < missing.size(); ++r)
+        if (rows[r].stiffness > 0) missing[r] = 0;
+      off = h * largest_of(missing);
+      if (off <= allowed || n == kMostRounds) break;
+      add(held_->change(velocities, missing, false), row_forces);
+    }
+    motion.links_hold = motion.links_hold && off <= allowed / kOfTolerance;
+    const auto moved = held.with_finite_turns(velocities);
+    double change = 0;  // [L/T]
+    for (std::size_t i = 0; i < velocities.size(); ++i) {
+      const double by = moved[i] - contact.velocities[i];
+      const double lever = i % layout_.components < layout_.directions() ? 1 : mean_radius_;
+      change = largest_or_nan(change, lever * std::abs(by));
+      motion.linear[i] += velocities[i] - before[i];
+      motion.free[i] += by;
+      contact.velocities[i] += by;
+    }
+    if (!(h * change > allowed)) return;
+    const int iterations = contact.iterations;
+    motion.blow = solve_contacts_of(equation, motion.free, h, next, contact);
+    contact.iterations += iterations;
+    if (motion.blow) return;
+  }
+}
+
 /// Changes the velocities at the end of a step, after which particles have moved with `moved`,
 /// until hinges and arms hold at that time: a velocity across a link that is left would change its
 /// sign in each step. Only accelerating particles change. Returns the mean forces in the rows.
@@ -363,6 +408,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
       motion.free = held->with_finite_turns(motion.linear);
     }
     motion.blow = solve_contacts_of(equation, motion.free, h, next, motion.contact);
+    if (held && !motion.blow)
+      hold_with_contacts(equation, *held, h, next, motion, further_row_forces);
     iterations += motion.contact.iterations + (motion.blow ? motion.blow->iterations : 0);
     motion.contact.iterations = iterations;
     if (!equation.put_in_contact(motion.blow ? motion.blow->contacts : motion.contact.contacts))

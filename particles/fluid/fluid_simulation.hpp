@@ -132,6 +132,8 @@ class FluidSimulation {
   std::vector<double> hold_after_step(const StepEquation& equation, const HeldMotion& held,
                                       std::span<const double> flow, std::vector<double>& velocities,
                                       double h, bool& holds) const;
+  void hold_with_contacts(const StepEquation& equation, const HeldMotion& held, double h,
+                          double next, Motion& motion, std::vector<double>& row_forces);
   std::vector<double> hold_at_end(const StepEquation& equation, const HeldMotion& held,
                                   std::span<const double> moved, std::vector<double>& at_end) const;
   void move_bodies(const Motion& motion, double h, double next);

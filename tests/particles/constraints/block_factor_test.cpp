@@ -39,7 +39,7 @@ struct Chain {
       for (Index k = 0; k < 2 * K; ++k) {
         const Index at = (c * K + k) % size;
         right(c, at) = random.uniform(-1, 1);
-        left(c, at) = right(c, at) + (is_symmetric ? 0 : random.uniform(-0.5, 0.5));
+        left(c, at) = right(c, at) + (is_symmetric ? 0 : random.uniform(-0.1, 0.1));
       }
     }
     for (Index i = 0; i < size; ++i) {

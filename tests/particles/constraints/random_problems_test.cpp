@@ -153,7 +153,8 @@ TEST(InteriorPointsOfFriction, BeginWithTheImpulsesOfTheFilms) {
     problem.add_row(unit == 0 ? 0 : 0.4, parts, 5);
   }
   problem.is_convex = true;
-  InteriorPoints<2> interior(problem, row_mobilities<2>(problem));
+  const auto w = row_mobilities<2>(problem);
+  InteriorPoints<2> interior(problem, w);
   interior.solve(1e-9, 100);
   EXPECT_NEAR(interior.impulses()[0], 0, 1e-8);
   EXPECT_NEAR(interior.impulses()[1], -0.3, 1e-8);

@@ -382,6 +382,38 @@ TEST(FrictionInFluid, ThatPassesThroughAHingeIsNone) {
   }
 }
 
+/// A body of two discs on a hinge that falls on the floor: in the step in which it meets the floor it
+/// turns by another angle than without contact, and the hinge and the body hold all the same.
+TEST(HeldInFluid, BodiesAndHingesHoldWhereAContactStopsTheirTurn) {
+  const double load = 30;
+  auto system = in_fluid(2, 20, 0.1, kThreshold);
+  system.setting.laws.film.gamma_min = 0;
+  add_pushed(system, {4, 3, 0}, kRadius, 0, {0, -load, 0});
+  add_pushed(system, {6, 3, 0}, kRadius, 0, {0, -load, 0});
+  add_rotation(system.state.particles);
+  add_rigid_body(system.state.particles, {{0, 1}});
+  auto& body = system.state.particles.bodies.bodies[0];
+  Hinge hinge;
+  hinge.body = 0;
+  hinge.at = {3, 3, 0};
+  hinge.point = {0, hinge.at - body.centre};
+  system.setting.links.hinges = {hinge};
+  auto simulation = system.simulation(drag_of_discs);
+  int in_contact = 0;
+  for (int n = 0; n < 20; ++n) {
+    EXPECT_TRUE(simulation.step(1e9).converged);
+    const auto& p = simulation.state().particles;
+    for (const auto& contact : contacts_of(simulation.setting(), simulation.state()))
+      in_contact += contact.normal_force > 0 ? 1 : 0;
+    // The tolerance of lengths is 1e-6 mean radii, and links are held to a thousandth of it.
+    EXPECT_NEAR(norm(p.position(0) - hinge.at), 1, 1e-9) << n;
+    EXPECT_NEAR(norm(p.position(1) - hinge.at), 3, 1e-9) << n;
+    EXPECT_NEAR(norm(p.position(1) - p.position(0)), 2, 1e-9) << n;
+    EXPECT_GE(p.positions[3], kRadius + kThreshold - 1e-6) << n;
+  }
+  EXPECT_GE(in_contact, 3);
+}
+
 /// The walls of a strain flow move with (s x, -s y). A plate whose left end alone touches the floor
 /// sticks to the point there, and not to the one below its centre.
 TEST(FrictionInFluid, OfAPlateIsThatOfTheWallAtItsEnd) {
