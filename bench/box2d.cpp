@@ -98,6 +98,13 @@ int main(int argc, char** argv) {
     }
     o[argv[i]] = argv[i + 1];
   }
+  const auto refuse = [&](const std::string& option, const char* allowed) {
+    fmt::print(stderr, "box2d: {} is '{}'; it must be {}\n", option, o[option], allowed);
+    return 2;
+  };
+  if (o["--dimension"] != "2" && o["--dimension"] != "3") return refuse("--dimension", "2 or 3");
+  if (o["--method"] != "fixed_point" && o["--method"] != "convex")
+    return refuse("--method", "fixed_point or convex");
   const int count = std::stoi(o["--count"]);
   const bool is_in_space = o["--dimension"] == "3";
   auto setting = is_in_space ? box_in_space(count) : box(count);

@@ -68,6 +68,13 @@ struct ShownFlows {
 };
 ShownFlows shown_flows(const Playback& playback);
 
+/// How wide a line is drawn: in proportion to a radius, within limits.
+struct LineWidth {
+  double share = 0;  ///< width divided by the radius
+  double least = 0,
+         most = 0;  ///< limits of the width, 0 <= least <= most [units of the still picture]
+};
+
 /// Colours and proportions that the still picture and the page have in common. The page gets them
 /// as JSON, by the same names.
 struct SceneStyle {
@@ -90,9 +97,14 @@ struct SceneStyle {
   /// Widths of the lines that join the particles of a body, of arms, and half the width of springs,
   /// divided by the smaller radius of both ends.
   double body_line = 0.18, arm = 0.25, spring_width = 0.35;
-  /// Width of the line of a contact with the force Scene::top_force, divided by the mean radius; and
-  /// the least width of the line of a film, divided by the smaller radius of both ends.
-  double force_line = 0.9, film_line = 0.1;
+  /// Lines of contacts without forces, in proportion to the smaller radius of both ends: of a film or a
+  /// contact that slides, and of another contact.
+  LineWidth film_line{0.3, 0.8, 5}, touching_line{0.06, 0.3, 1};
+  /// If there are forces: the line of a contact with the force Scene::top_force, in proportion to the mean
+  /// radius; other lines have a share of this width, but at least that of film_with_force or
+  /// touching_with_force, in proportion to the smaller radius of both ends.
+  LineWidth force_line{0.9, 0, 12}, film_with_force{0.1, 0.8, 2}, touching_with_force{0, 0.3, 0.3};
+  double page_unit = 1.5;    ///< a unit of the still picture in limits of the page [CSS pixels]
   int spring_turns = 12;     ///< corners of the zigzag line of a spring
   double spring_end = 0.12;  ///< length of each straight end divided by that of the spring
 };
