@@ -75,7 +75,7 @@ Descriptor open_locked(const std::filesystem::path& path, const std::filesystem:
 template <class Write>
 std::filesystem::path put_in_place(const std::filesystem::path& path, bool is_flushed,
                                    const Write& write) {
-  const std::filesystem::path place = check_output_file(path);
+  std::filesystem::path place = check_output_file(path);
   if (place.has_parent_path()) make_folder(place.parent_path());
   // The process number in the name keeps the files of two processes that write to `path` apart.
   const std::filesystem::path beside =

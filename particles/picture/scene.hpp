@@ -133,8 +133,8 @@ struct Scene {
   /// The normal force that the widest lines show [M L/T^2], of discs in a fluid per length [M/T^2]:
   /// 98 of 100 loaded contacts of the shown frames have less. 0: no contact has a force.
   double top_force = 0;
-  double mean_radius = 0;        ///< [L]
-  std::string force_words = "";  ///< what the widths of lines show; empty if top_force is 0
+  double mean_radius = 0;   ///< [L]
+  std::string force_words;  ///< what the widths of lines show; empty if top_force is 0
 };
 
 /// The scene of these frames with the flows of `flow_frames`, as far as they have one, on grids of

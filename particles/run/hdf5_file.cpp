@@ -104,8 +104,8 @@ hid_t type_of() {
 template <class Number>
 class Rows {
  public:
-  Rows(hid_t group, const std::string& name, std::size_t columns, const fs::path& file)
-      : file_(file), columns_(columns), set_(create(group, name)) {}
+  Rows(hid_t group, const std::string& name, std::size_t columns, fs::path file)
+      : file_(std::move(file)), columns_(columns), set_(create(group, name)) {}
 
   void append(const std::vector<Number>& numbers) {
     const hsize_t count = numbers.size() / columns_;
