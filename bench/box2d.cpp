@@ -61,12 +61,15 @@ int main(int argc, char** argv) {
     }
     o[argv[i]] = argv[i + 1];
   }
+  const auto refuse = [&](const std::string& option, const char* allowed) {
+    fmt::print(stderr, "box2d: {} is '{}'; it must be {}\n", option, o[option], allowed);
+    return 2;
+  };
+  if (o["--dimension"] != "2" && o["--dimension"] != "3") return refuse("--dimension", "2 or 3");
+  if (o["--method"] != "fixed_point" && o["--method"] != "convex")
+    return refuse("--method", "fixed_point or convex");
   const int count = std::stoi(o["--count"]);
   const int dimension = std::stoi(o["--dimension"]);
-  if (dimension != 2 && dimension != 3) {
-    fmt::print(stderr, "box2d: --dimension is '{}'; it must be 2 or 3\n", o["--dimension"]);
-    return 2;
-  }
   auto setting = box(count, dimension);
   setting.solver = {std::stod(o["--tolerance"]), std::stod(o["--impulse-tolerance"]),
                     std::stoi(o["--max-iterations"])};

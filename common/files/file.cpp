@@ -60,26 +60,28 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// Writes a new file beside `path`, flushes it to disk if `is_flushed`, and renames it. Returns the
-/// path that it has then.
-std::filesystem::path replace_file(const std::filesystem::path& path, std::string_view content,
-                                   bool is_flushed) {
-  const std::filesystem::path place = check_output_file(path);
+/// Opens `beside`, a new file that takes the place of `path`, with these flags of open(2), and locks
+/// it. The lock tells remove_left_behind that the file is in use. Not every disk has locks.
+Descriptor open_locked(const std::filesystem::path& path, const std::filesystem::path& beside,
+                       int flags) {
+  Descriptor file(::open(beside.c_str(), flags | O_CLOEXEC, 0666));
+  if (file.get() < 0) throw_system_error(path, "written", errno);
+  (void)::flock(file.get(), LOCK_EX | LOCK_NB);
+  return file;
+}
+
+/// Makes a new file beside `path` by write(beside), which returns its descriptor, flushes it to disk
+/// if `is_flushed`, and renames it. Returns the path that it has then.
+template <class Write>
+std::filesystem::path put_in_place(const std::filesystem::path& path, bool is_flushed,
+                                   const Write& write) {
+  std::filesystem::path place = check_output_file(path);
   if (place.has_parent_path()) make_folder(place.parent_path());
   // The process number in the name keeps the files of two processes that write to `path` apart.
   const std::filesystem::path beside =
       place.string() + fmt::format("{}{}{}", kUnfinishedOf, ::getpid(), kUnfinished);
   try {
-    const Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (file.get() < 0) throw_system_error(path, "written", errno);
-    // The lock tells remove_left_behind that the file is in use. Not every disk has locks.
-    (void)::flock(file.get(), LOCK_EX | LOCK_NB);
-    while (!content.empty()) {
-      const ssize_t count = ::write(file.get(), content.data(), content.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) throw_system_error(path, "written", errno);
-      content.remove_prefix(static_cast<std::size_t>(count));
-    }
+    const Descriptor file = write(beside);
     if (is_flushed && ::fsync(file.get()) != 0) throw_system_error(path, "written", errno);
     if (::rename(beside.c_str(), place.c_str()) != 0) throw_system_error(path, "written", errno);
     return place;
@@ -87,6 +89,27 @@ std::filesystem::path replace_file(const std::filesystem::path& path, std::strin
     ::unlink(beside.c_str());
     throw;
   }
+}
+
+/// As put_in_place, for a file with these bytes.
+std::filesystem::path put_content(const std::filesystem::path& path, std::string_view content,
+                                  bool is_flushed) {
+  return put_in_place(path, is_flushed, [&](const std::filesystem::path& beside) {
+    auto file = open_locked(path, beside, O_WRONLY | O_CREAT | O_TRUNC);
+    while (!content.empty()) {
+      const ssize_t count = ::write(file.get(), content.data(), content.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) throw_system_error(path, "written", errno);
+      content.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return file;
+  });
+}
+
+/// What follows after the file at `place` was replaced.
+void finish_replacement(const std::filesystem::path& place) {
+  sync_folder_of(place);
+  remove_left_behind(folder_of(place), place.filename().string());
 }
 
 }  // namespace
@@ -154,13 +177,19 @@ std::filesystem::path check_output_file(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view content) {
-  const auto place = replace_file(path, content, true);
-  sync_folder_of(place);
-  remove_left_behind(folder_of(place), place.filename().string());
+  finish_replacement(put_content(path, content, true));
+}
+
+void write_file_by(const std::filesystem::path& path,
+                   const std::function<void(const std::filesystem::path&)>& write) {
+  finish_replacement(put_in_place(path, true, [&](const std::filesystem::path& beside) {
+    write(beside);
+    return open_locked(path, beside, O_RDWR);
+  }));
 }
 
 void write_unflushed(const std::filesystem::path& path, std::string_view content) {
-  (void)replace_file(path, content, false);
+  (void)put_content(path, content, false);
 }
 
 void flush_files(std::span<const std::filesystem::path> paths) {

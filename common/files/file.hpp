@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,12 @@ std::string read_file(const std::filesystem::path& path);
 /// the path. An old file is then unchanged, unless the error came from flushing the folder, after
 /// the new file had taken its place.
 void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// As write_file, for a file that a library writes: `write` must make a file at the path that it is
+/// given, and close it. Throws what `write` throws, too. An old file at `path` is then unchanged, and
+/// what `write` has made is removed.
+void write_file_by(const std::filesystem::path& path,
+                   const std::function<void(const std::filesystem::path&)>& write);
 
 /// As write_file, for one of many files: it is on disk only after flush_files(), and what killed
 /// processes have left stays until remove_unfinished(), which reads the whole folder.

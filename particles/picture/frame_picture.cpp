@@ -329,16 +329,17 @@ std::string colour_of(const Scene& scene, const CurrentContact& contact) {
 
 /// The width of the line of a contact whose smaller radius is `radius` page units [page units].
 double width_of(const PanelSettings& d, const CurrentContact& contact, double radius) {
+  const auto width = [](const LineWidth& line, double r) {
+    return std::clamp(line.share * r, line.least, line.most);
+  };
   const auto& scene = d.scene;
   const bool is_film = contact.gamma < 0;
-  if (scene.top_force > 0) {
-    const double widest = std::min(kStyle.force_line * d.view.scale * scene.mean_radius, 12.0);
-    const double least = is_film ? std::clamp(kStyle.film_line * radius, 0.8, 2.0) : 0.3;
-    return std::max(least, widest * force_share(scene, contact));
-  }
-  return is_film || contact.friction == ContactFriction::kSlides
-             ? std::clamp(0.3 * radius, 0.8, 5.0)
-             : std::clamp(0.06 * radius, 0.3, 1.0);
+  if (scene.top_force > 0)
+    return std::max(
+        width(is_film ? kStyle.film_with_force : kStyle.touching_with_force, radius),
+        width(kStyle.force_line, d.view.scale * scene.mean_radius) * force_share(scene, contact));
+  const bool is_wide = is_film || contact.friction == ContactFriction::kSlides;
+  return width(is_wide ? kStyle.film_line : kStyle.touching_line, radius);
 }
 
 /// The line of a contact. In space it is drawn just after the nearer of its two particles: over

@@ -416,8 +416,11 @@ FlowOfPage flow_of_page(const Scene& scene) {
 
 constexpr int kPageColours = 24;
 
-/// kStyle as JSON.
+/// kStyle as JSON. A LineWidth is [share, least, most].
 std::string style_of_page() {
+  const auto line = [](const LineWidth& width) {
+    return std::array{width.share, width.least, width.most};
+  };
   return nlohmann::ordered_json{{"disc", kStyle.disc},
                                 {"discInFluid", kStyle.disc_in_fluid},
                                 {"discOfBody", kStyle.disc_of_body},
@@ -430,8 +433,12 @@ std::string style_of_page() {
                                 {"axisRadius", kStyle.axis_radius},
                                 {"leastToward", kStyle.least_toward},
                                 {"bodyLine", kStyle.body_line},
-                                {"forceLine", kStyle.force_line},
-                                {"filmLine", kStyle.film_line},
+                                {"filmLine", line(kStyle.film_line)},
+                                {"touchingLine", line(kStyle.touching_line)},
+                                {"forceLine", line(kStyle.force_line)},
+                                {"filmWithForce", line(kStyle.film_with_force)},
+                                {"touchingWithForce", line(kStyle.touching_with_force)},
+                                {"pageUnit", kStyle.page_unit},
                                 {"arm", kStyle.arm},
                                 {"springWidth", kStyle.spring_width},
                                 {"springTurns", kStyle.spring_turns},

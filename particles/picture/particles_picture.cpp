@@ -269,17 +269,24 @@ std::string particles_picture(const Playback& original, const std::string& title
                                        scene.playback.units.unit_or_dimension(0, 1, -1)));
     bars.back().words += "; equal flow between streamlines";
   }
-  if (scene.lowest_gamma < 0) {
+  const bool has_films = scene.lowest_gamma < 0;
+  if (has_films)
     bars.push_back(report::film_scale(scene.lowest_gamma, kContactColours, scene.film_words));
-    if (scene.touches) bars.back().words += "; grey: touching, no film";
-  }
   const bool has_friction = scene.playback.friction_coefficient && scene.touches;
   if (has_friction) bars.push_back(report::friction_scale(kFrictionColours, kFrictionWords));
   // What has no scale stands in a line of words.
   auto words = scene.force_words;
-  if (scene.slides)
-    words += fmt::format("{}contacts that slide are orange", words.empty() ? "" : "; ");
-  auto svg = opening(title, bottom + (words.empty() ? 0 : 16) + (bars.empty() ? 0 : 60),
+  const auto say = [&](const char* more) {
+    words += (words.empty() ? "" : "; ") + std::string(more);
+  };
+  if (scene.slides) say("contacts that slide are orange");
+  if (has_films && scene.touches && !has_friction) say("contacts without a film are grey");
+  const double top_of_bars = bottom + (words.empty() ? 0 : 16);
+  constexpr double kHeightOfBars = 60;
+  // The words of two scales fit beside each other.
+  constexpr std::size_t kBarsInRow = 2;
+  const auto rows_of_bars = (bars.size() + kBarsInRow - 1) / kBarsInRow;
+  auto svg = opening(title, top_of_bars + kHeightOfBars * static_cast<double>(rows_of_bars),
                      !scene.playback.bodies.empty());
   svg += panels_of(panel, chosen, columns);
   if (panel.every > 1)
@@ -290,11 +297,13 @@ std::string particles_picture(const Playback& original, const std::string& title
   if (!words.empty())
     svg += fmt::format("<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"12\">{}</text>\n", kEdge,
                        bottom + 4, words);
-  const double kBar = bars.size() < 3 ? 360 : 280;  // width of a colour bar
+  constexpr double kBar = 360;  // width of a colour bar
   for (std::size_t b = 0; b < bars.size(); ++b) {
+    const auto row = b / kBarsInRow, in_row = std::min(kBarsInRow, bars.size() - kBarsInRow * row);
     const double middle =
-        kPictureWidth * (static_cast<double>(b) + 0.5) / static_cast<double>(bars.size());
-    svg += picture_of(bars[b], middle - kBar / 2, bottom + (words.empty() ? 0 : 16), kBar);
+        kPictureWidth * (static_cast<double>(b % kBarsInRow) + 0.5) / static_cast<double>(in_row);
+    svg += picture_of(bars[b], middle - kBar / 2,
+                      top_of_bars + kHeightOfBars * static_cast<double>(row), kBar);
   }
   return svg + "</svg>\n";
 }

@@ -68,6 +68,13 @@ struct ShownFlows {
 };
 ShownFlows shown_flows(const Playback& playback);
 
+/// How wide a line is drawn: in proportion to a radius, within limits.
+struct LineWidth {
+  double share = 0;  ///< width divided by the radius, >= 0
+  double least = 0;  ///< lower limit of the width, >= 0 [units of the still picture]
+  double most = 0;   ///< upper limit of the width, >= least [units of the still picture]
+};
+
 /// Colours and proportions that the still picture and the page have in common. The page gets them
 /// as JSON, by the same names.
 struct SceneStyle {
@@ -90,9 +97,17 @@ struct SceneStyle {
   /// Widths of the lines that join the particles of a body, of arms, and half the width of springs,
   /// divided by the smaller radius of both ends.
   double body_line = 0.18, arm = 0.25, spring_width = 0.35;
-  /// Width of the line of a contact with the force Scene::top_force, divided by the mean radius; and
-  /// the least width of the line of a film, divided by the smaller radius of both ends.
-  double force_line = 0.9, film_line = 0.1;
+  /// If no contact has a force: the line of a film or of a contact that slides, in proportion to the
+  /// smaller radius of both ends.
+  LineWidth film_line{0.3, 0.8, 5};
+  LineWidth touching_line{0.06, 0.3, 1};  ///< likewise, of another contact
+  /// If contacts have forces: the line of a contact with the force Scene::top_force, in proportion to
+  /// the mean radius. Lines of smaller forces have the same share of this width as of the force, but
+  /// at least the next two widths.
+  LineWidth force_line{0.9, 0, 12};
+  LineWidth film_with_force{0.1, 0.8, 2};  ///< least of a film, by the smaller radius of both ends
+  LineWidth touching_with_force{0, 0.3, 0.3};  ///< least of another contact, likewise
+  double page_unit = 1.5;    ///< a unit of the still picture in limits of the page [CSS pixels]
   int spring_turns = 12;     ///< corners of the zigzag line of a spring
   double spring_end = 0.12;  ///< length of each straight end divided by that of the spring
 };
@@ -120,8 +135,8 @@ struct Scene {
   /// The normal force that the widest lines show [M L/T^2], of discs in a fluid per length [M/T^2]:
   /// 98 of 100 loaded contacts of the shown frames have less. 0: no contact has a force.
   double top_force = 0;
-  double mean_radius = 0;        ///< [L]
-  std::string force_words = "";  ///< what the widths of lines show; empty if top_force is 0
+  double mean_radius = 0;   ///< [L]
+  std::string force_words;  ///< what the widths of lines show; empty if top_force is 0
 };
 
 /// The scene of these frames with the flows of `flow_frames`, as far as they have one, on grids of

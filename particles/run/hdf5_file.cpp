@@ -1,17 +1,18 @@
 // Copies the arrays of the frames into an HDF5 file (hdf5_file.hpp). Numbers are in the units of the case
-// and are copied without conversion. Each call of the C library is checked in one place (checked).
+// and are copied without conversion. Rows are counted in 64 bits. Each call of the C library whose failure
+// can lose data is checked in one place (checked), and a change must keep this.
 #include "viscontact/particles/run/hdf5_file.hpp"
 
 #include "viscontact/common/error.hpp"
 
 #ifdef VISCONTACT_HAS_HDF5
 
+#include <fmt/format.h>
 #include <hdf5.h>
 
 #include <array>
 #include <cstdint>
 #include <string_view>
-#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -26,18 +27,53 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// While it lives, the C library prints no errors, because they are thrown. Then the library does as
+/// before: other code of the process, such as h5py beside the Python module, may rely on it.
+class SilentErrors {
+ public:
+  SilentErrors() {
+    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  SilentErrors(const SilentErrors&) = delete;
+  SilentErrors& operator=(const SilentErrors&) = delete;
+  ~SilentErrors() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+
+ private:
+  H5E_auto2_t print_ = nullptr;
+  void* data_ = nullptr;
+};
+
+/// The cause of the last error of the C library: the message of the operating system, such as "No space
+/// left on device", or else what the library says itself.
+std::string cause_of_error() {
+  std::string cause;  // the innermost function that failed says it first
+  H5Ewalk2(
+      H5E_DEFAULT, H5E_WALK_UPWARD,
+      [](unsigned, const H5E_error2_t* error, void* text) -> herr_t {
+        auto& first = *static_cast<std::string*>(text);
+        if (first.empty() && error->desc != nullptr) first = error->desc;
+        return 0;
+      },
+      &cause);
+  return std::string(between(cause, "error message = '", "'").value_or(cause));
+}
+
 /// Throws Error(kBadInput) with the name of the file if the C library returned an error.
 template <class Result>
 Result checked(Result result, const fs::path& file) {
-  if (result < 0) throw_bad_input({file.string()}, "cannot be written as HDF5");
+  if (result < 0)
+    throw_bad_input({file.string()}, fmt::format("cannot be written ({})", cause_of_error()));
   return result;
 }
 
-/// An object of the C library, which is closed at the end.
+/// An object of the C library, which is closed at the end. Its data must have been flushed before, because
+/// an error of closing is then not seen.
 class Handle {
  public:
-  Handle(hid_t id, herr_t (*close)(hid_t), const fs::path& file)
-      : id_(checked(id, file)), close_(close) {}
+  /// `closing` is the function of the C library that closes it.
+  Handle(hid_t id, herr_t (*closing)(hid_t), const fs::path& file)
+      : id_(checked(id, file)), close_(closing) {}
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
@@ -45,6 +81,8 @@ class Handle {
   ~Handle() {
     if (id_ >= 0) close_(id_);
   }
+  /// Closes it now. Throws Error(kBadInput) if that fails.
+  void close(const fs::path& file) { checked(close_(std::exchange(id_, -1)), file); }
   operator hid_t() const { return id_; }  // NOLINT: the C library takes it
 
  private:
@@ -66,8 +104,8 @@ hid_t type_of() {
 template <class Number>
 class Rows {
  public:
-  Rows(hid_t group, const std::string& name, std::size_t columns, const fs::path& file)
-      : file_(file), columns_(columns), set_(create(group, name)) {}
+  Rows(hid_t group, const std::string& name, std::size_t columns, fs::path file)
+      : file_(std::move(file)), columns_(columns), set_(create(group, name)) {}
 
   void append(const std::vector<Number>& numbers) {
     const hsize_t count = numbers.size() / columns_;
@@ -89,7 +127,7 @@ class Rows {
     const std::array<hsize_t, 2> none = {0, columns_}, most = {H5S_UNLIMITED, columns_};
     const Handle space(H5Screate_simple(rank(), none.data(), most.data()), H5Sclose, file_);
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file_);
-    // Chunks of 64 kB are read fast, and small files stay small.
+    // Chunks of 64 kB (32 kB of whole numbers) are read fast, and small files stay small.
     const std::array<hsize_t, 2> chunk = {8192 / columns_, columns_};
     checked(H5Pset_chunk(properties, rank(), chunk.data()), file_);
     checked(H5Pset_shuffle(properties), file_);
@@ -107,12 +145,13 @@ class Rows {
 
 void add_text(hid_t object, const char* name, const std::string& text, const fs::path& file) {
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, file);
-  checked(H5Tset_size(type, text.size() + 1), file);
+  checked(H5Tset_size(type, H5T_VARIABLE), file);  // h5py then gives str in place of bytes
   checked(H5Tset_cset(type, H5T_CSET_UTF8), file);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, file);
   const Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
                          file);
-  checked(H5Awrite(attribute, type, text.c_str()), file);
+  const char* const begin = text.c_str();
+  checked(H5Awrite(attribute, type, &begin), file);
 }
 
 /// An array of the frames: its section and name there, and its name and columns in the file.
@@ -122,7 +161,8 @@ struct Array {
   std::size_t columns;
 };
 
-/// The arrays of one kind of number that the first frame has, each with its rows.
+/// The arrays of one kind of number that the first frame has, each with its rows. All frames have the same
+/// arrays, because a run has particles from its start on.
 template <class Number>
 class Arrays {
  public:
@@ -181,13 +221,10 @@ std::vector<Array> arrays_of_contacts() {
   return arrays;
 }
 
-void write(const ParticlesCase& c, const fs::path& folder, const fs::path& file,
-           const std::string& provenance) {
+/// Copies the frames into the new file `id`, and flushes it. `file` is its name in messages.
+void copy_frames(const ParticlesCase& c, const fs::path& folder, hid_t id, const fs::path& file) {
   const auto frames = read_pvd(folder / "particles.pvd");
   if (frames.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");
-  const Handle id(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, file);
-  add_text(id, "provenance", provenance, file);
-  add_text(id, "title", c.title, file);
   const auto first_text = read_file(folder / frames.front().second);
   const AppendedReader first(first_text, (folder / frames.front().second).string(), "frame");
   const bool is_flat = c.particles.dimension < 3;  // the angular velocity is one number
@@ -223,17 +260,19 @@ void require_hdf5() {}
 
 void write_hdf5(const ParticlesCase& c, const fs::path& folder,
                 const results::Provenance& provenance) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
-  const fs::path target = folder / "particles.h5", partial = target.string() + ".part";
-  const auto made = results::output_text(target, TextKind::kHashComment, "", provenance);
-  try {
-    write(c, folder, partial, made);
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(partial, ignored);
-    throw;
-  }
-  fs::rename(partial, target);
+  // After an error of writing, version 1.10 crashes when it closes the file once more at the end of the
+  // process. A file that was closed without an error needs nothing at the end.
+  H5dont_atexit();
+  const SilentErrors silent;
+  const fs::path file = folder / "particles.h5";
+  const auto made = results::output_text(file, TextKind::kHashComment, "", provenance);
+  write_file_by(file, [&](const fs::path& place) {
+    Handle id(H5Fcreate(place.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, file);
+    add_text(id, "provenance", made, file);
+    add_text(id, "title", c.title, file);
+    copy_frames(c, folder, id, file);
+    id.close(file);
+  });
 }
 
 }  // namespace viscontact::particles

@@ -22,10 +22,8 @@ function readPointer() {
     }
   }
   if (hovered < 0) { readout.textContent = ''; return; }
-  let contacts = 0;
-  for (let i = 0; i < lines.count; ++i)
-    if (pairs[2 * lines.pair[i]] === hovered || pairs[2 * lines.pair[i] + 1] === hovered)
-      ++contacts;
+  const contacts = presentContacts().filter(
+    i => pairs[2 * lines.pair[i]] === hovered || pairs[2 * lines.pair[i] + 1] === hovered).length;
   // On an axis, the first coordinate is 0 for all particles.
   const first = hovered * dim + (motion.hasAxis ? 1 : 0);
   const place = [...positions.subarray(first, hovered * dim + dim)].map(number).join(', ');
@@ -129,9 +127,8 @@ const player = {
   address: addressOfView,
   /** The quantity that colours show, the ends of its scale, and its values in the shown frame. */
   colouring: () => ({...colouring, values: [...colouring.values]}),
-  /** Width [device pixels] and colour of the line of each contact of the shown frame. */
-  contacts: () => Array.from({length: lines.count},
-                             (_, i) => ({width: widthOf(i), colour: colours[colourOf(i)]})),
+  /** Width [device pixels] and colour of the line of each contact at the present time. */
+  contacts: () => presentContacts().map(i => ({width: widthOf(i), colour: colours[colourOf(i)]})),
   particles: () => pageRadius.filter(r => r > 0).length,  // that are shown
   first: firstTime,
   last: lastTime,

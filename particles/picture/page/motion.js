@@ -74,6 +74,10 @@ function placeOf(time) {
   return {frame: a, share: length > 0 ? Math.min(1, Math.max(0, (time - times[a]) / length)) : 0};
 }
 
+/** Coordinate d (from 0) of particle k in a frame. */
+const writtenPlace = (frame, k, d) =>
+  motion.low[d] + motion.step[d] * written[(frame * count + k) * dim + d];
+
 /** Interpolates positions and planes between two frames; contacts are those of the nearer frame. */
 function setTime(time) {
   const {frame, share} = placeOf(time), n = count * dim;

@@ -56,14 +56,16 @@ const pageX = new Float32Array(count), pageY = new Float32Array(count);
 const pageRadius = new Float32Array(count), depths = new Float32Array(count);
 const order = new Uint32Array(count);  // from far to near
 
+// Whether the particle is there at the present time; a source may pour it in later.
+const isThere = k => !firstFrames || presentFrame >= firstFrames[k];
+
 function placeParticles() {
   for (let k = 0; k < count; ++k) {
     const x = positions[k * dim], y = positions[k * dim + 1], z = flat ? 0 : positions[k * dim + 2];
     const p = project(x, y, z);
     pageX[k] = p.x;
     pageY[k] = p.y;
-    const isThere = !firstFrames || presentFrame >= firstFrames[k];
-    pageRadius[k] = isThere ? p.near * view.scale * radii[k] : 0;
+    pageRadius[k] = isThere(k) ? p.near * view.scale * radii[k] : 0;
     if (!flat) depths[k] = axes[2][0] * x + axes[2][1] * y + axes[2][2] * z;
   }
   if (!flat) sortByDepth();
@@ -325,12 +327,31 @@ function traceBetweenSpines(first, second) {
   pen.lineTo(...to);
 }
 
+const kNoShift = [0, 0, 0];
+
+/**
+ * The shift of the image of the second particle that touches the first one in contact i. The number
+ * of the image is right at the time of the frame of the contacts; at the present time one of the
+ * particles may have left the cell and come in again at the other side.
+ */
+function shiftOf(i) {
+  if (!images) return kNoShift;
+  const image = images[lines.pair[i]];
+  const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
+  return [periodX, periodY, periodZ].map((period, d) => {
+    if (!period) return 0;
+    const now = positions[second * dim + d] - positions[first * dim + d];
+    const then = writtenPlace(lines.frame, second, d) - writtenPlace(lines.frame, first, d);
+    const periods = Math.floor((image + 13) / 3 ** d) % 3 - 1;
+    return period * (periods - Math.round((now - then) / period));
+  });
+}
+
 /**
  * The line of a contact, from a centre to the other centre or to the foot on the plane, and with
  * plates between the nearest points in their middle.
  */
 function traceContact(i) {
-  const image = images ? images[lines.pair[i]] : 0;
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
   if (first < 0) {
     const {point, normal, radius} = planes[-1 - first];
@@ -340,41 +361,51 @@ function traceContact(i) {
                         : plus(x, -dot(normal, from), normal);
     const p = project(...foot);
     pen.moveTo(p.x, p.y);
-  } else if (image) {
+    pen.lineTo(pageX[second], pageY[second]);
+    return;
+  }
+  const shift = shiftOf(i);
+  if (shift.some(s => s)) {
     // Across a period the line is drawn at both sides of the cell.
-    const shift = [periodX, periodY, periodZ].map(
-      (period, d) => (Math.floor((image + 13) / 3 ** d) % 3 - 1) * period);
-    pen.moveTo(pageX[first], pageY[first]);
-    const beyond = shifted(second, shift, 1);
-    pen.lineTo(beyond.x, beyond.y);
-    const before = shifted(first, shift, -1);
-    pen.moveTo(before.x, before.y);
+    const beyond = {...shifted(second, shift, 1)}, before = shifted(first, shift, -1);
+    traceLine(pageX[first], pageY[first], beyond.x, beyond.y);
+    traceLine(before.x, before.y, pageX[second], pageY[second]);
   } else if (plates) {
     traceBetweenSpines(first, second);
-    return;
   } else {
-    pen.moveTo(pageX[first], pageY[first]);
+    traceLine(pageX[first], pageY[first], pageX[second], pageY[second]);
   }
-  pen.lineTo(pageX[second], pageY[second]);
 }
+
+/** The width in device pixels that a LineWidth of scene.hpp means for a radius in device pixels. */
+const lineWidth = ([share, least, most], radius) => {
+  const unit = style.pageUnit * dots;
+  return between(unit * least, share * radius, unit * most);
+};
 
 function widthOf(i) {
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
   const r = first < 0 ? pageRadius[second] : Math.min(pageRadius[first], pageRadius[second]);
-  if (motion.hasForces) {
-    const scale = pageRadius[second] / radii[second];
-    const widest = Math.min(20 * dots, style.forceLine * scale * motion.meanRadius);
-    const least = lines.level[i] === 0 ? 0.5 : Math.min(3 * dots, Math.max(1, style.filmLine * r));
-    return Math.max(least, widest * lines.force[i] / 255);
-  }
-  return lines.level[i] === 0 && !slides(i)
-    ? Math.min(1.5 * dots, Math.max(0.5, 0.08 * r))
-    : Math.min(9 * dots, Math.max(1, 0.3 * r));
+  const isFilm = lines.level[i] > 0;
+  if (!motion.hasForces)
+    return lineWidth(isFilm || slides(i) ? style.filmLine : style.touchingLine, r);
+  const scale = pageRadius[second] / radii[second];
+  const widest = lineWidth(style.forceLine, scale * motion.meanRadius);
+  const least = lineWidth(isFilm ? style.filmWithForce : style.touchingWithForce, r);
+  return Math.max(least, widest * lines.force[i] / 255);
 }
+
+/** Whether both particles of a contact are there. */
+const contactThere = i => {
+  const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
+  return isThere(second) && (first < 0 || isThere(first));
+};
+/** The contacts at the present time, as indices of `lines`. */
+const presentContacts = () => Array.from({length: lines.count}, (_, i) => i).filter(contactThere);
 
 const contactSeen = i => {
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
-  return isSeen(second) || (first >= 0 && isSeen(first));
+  return contactThere(i) && (isSeen(second) || (first >= 0 && isSeen(first)));
 };
 
 /**
@@ -474,7 +505,7 @@ function draw() {
     pen.stroke();
   }
   canvas.dataset.time = player.time;
-  canvas.dataset.contacts = withContacts ? lines.count : 0;
+  canvas.dataset.contacts = withContacts ? presentContacts().length : 0;
   keepAddress();
 }
 

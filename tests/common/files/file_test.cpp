@@ -6,7 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/common/failure.hpp"
@@ -180,6 +183,31 @@ TEST(WriteFile, TakesAwayWhatAKilledProcessLeftAndNothingElse) {
   remove_unfinished(folder.path());
   EXPECT_EQ(folder.names().size(), others.size());
   EXPECT_FALSE(std::filesystem::exists(others[1]));
+}
+
+TEST(WriteFileBy, PutsWhatAnotherWritesInPlaceInOneStep) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("frames.h5", "old");
+  const auto put = [](const std::filesystem::path& beside, std::string_view text) {
+    std::ofstream(beside) << text;
+  };
+  write_file_by(path, [&](const auto& beside) {
+    put(beside, "new");
+    EXPECT_EQ(beside.parent_path(), path.parent_path());
+    EXPECT_EQ(read_file(path), "old");  // until all is written
+  });
+  EXPECT_EQ(read_file(path), "new");
+  // An error of any kind, and a writer that makes no file, leave the old file and nothing else.
+  EXPECT_THROW(write_file_by(path,
+                             [&](const auto& beside) {
+                               put(beside, "half");
+                               throw std::runtime_error("no more");
+                             }),
+               std::runtime_error);
+  EXPECT_THAT(bad_input([&] { write_file_by(path, [](const auto&) {}); }),
+              StartsWith(path.string() + ": cannot be written (No such file"));
+  EXPECT_EQ(read_file(path), "new");
+  EXPECT_THAT(folder.names(), ElementsAre("frames.h5"));
 }
 
 TEST(WriteUnflushed, ReplacesAFileThatIsFlushedLater) {

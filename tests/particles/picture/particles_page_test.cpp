@@ -1,13 +1,17 @@
 // The page that plays a motion of particles, in a browser (chromium) and as text.
 #include "viscontact/particles/picture/particles_page.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <tuple>
 
 #include "tests/common/regular_expressions.hpp"
 #include "tests/particles/picture/page_reader.hpp"
 #include "tests/particles/picture/playbacks.hpp"
 #include "viscontact/particles/picture/particles_picture.hpp"
+#include "viscontact/particles/picture/scene.hpp"
 #include "viscontact/report/pictures/colours.hpp"
 
 namespace viscontact::particles {
@@ -345,16 +349,83 @@ TEST_P(ParticlesInBrowser, ParticlesThatArePouredInAreShownFromTheirFirstFrameOn
   const auto found = read_page(particles_page(playback, "Poured"), R"JS(
 (async () => {
   const player = window.viscontactPlayer, shown = [];
-  for (const time of [0, 1.2, 1.5, 2]) {
-    player.seek(time);
+  const pen = document.getElementById('stage').getContext('2d'), lineTo = pen.lineTo.bind(pen);
+  let lines = 0;
+  pen.lineTo = (x, y) => { ++lines; lineTo(x, y); };
+  const linesOfDrawing = async () => {
     await new Promise(done => setTimeout(done, 60));
-    shown.push(player.particles());
+    lines = 0;
+    player.draw();
+    return lines;
+  };
+  for (const time of [0, 1.3, 1.5, 2]) {
+    player.seek(time);
+    const all = await linesOfDrawing();
+    document.getElementById('films').click();
+    const others = await linesOfDrawing();
+    document.getElementById('films').click();
+    shown.push([player.particles(), player.contacts().length, all - others]);
   }
   tell(shown);
 })();
 )JS",
                                700);
-  EXPECT_EQ(found, (nlohmann::json{3, 3, 4, 4}));
+  // The contacts of the nearer frame are drawn, at 1.3 without that of the particle that comes at 1.5.
+  EXPECT_EQ(found, (nlohmann::json{{3, 0, 0}, {3, 2, 2}, {4, 3, 3}, {4, 7, 7}}));
+}
+
+// Two discs or spheres that touch move along x out of the cell from 0 to 10, and come in again.
+TEST_P(ParticlesInBrowser, ContactIsAsLongAsThePairIsApartWhileItCrossesAPeriod) {
+  Playback playback;
+  playback.dimension = GetParam();
+  playback.radii = {1, 1};
+  playback.cell.lengths = {10, 0, 0};
+  for (const auto& [first, second, image] : {std::tuple{7.8F, 9.8F, 0}, {8.6F, 0.6F, 1}}) {
+    Frame frame;
+    frame.time = static_cast<double>(playback.frames.size());
+    for (const float x : {first, second}) {
+      frame.positions.push_back(x);
+      frame.positions.resize(frame.positions.size() + static_cast<std::size_t>(GetParam()) - 1, 2);
+    }
+    frame.contacts = {{0, 1, 0, 0}};
+    frame.contacts[0].image = image;
+    playback.frames.push_back(frame);
+  }
+  const auto found = read_page(particles_page(playback, "Across"), R"JS(
+(async () => {
+  const player = window.viscontactPlayer, found = [];
+  const pen = document.getElementById('stage').getContext('2d');
+  const [moveTo, lineTo] = [pen.moveTo.bind(pen), pen.lineTo.bind(pen)];
+  let from = 0, longest = 0;
+  pen.moveTo = (x, y) => { from = x; moveTo(x, y); };
+  pen.lineTo = (x, y) => { longest = Math.max(longest, Math.abs(x - from)); lineTo(x, y); };
+  for (const time of [0, 0.3, 0.49, 0.51, 1]) {
+    player.seek(time);
+    await new Promise(done => setTimeout(done, 60));
+    longest = 0;
+    player.draw();
+    found.push(longest);
+  }
+  tell(found);
+})();
+)JS",
+                               700);
+  ASSERT_EQ(found.size(), 5U);
+  // By perspective, lines at both sides of the cell differ by 12 percent; the cell is 5 times as long.
+  for (const double length : found) EXPECT_NEAR(length / found[0].get<double>(), 1, 0.2);
+}
+
+TEST_P(ParticlesInBrowser, LimitsOfLinesAreThoseOfTheStillPicture) {
+  // The scale is so large that the widest line has the limit of its width.
+  const auto playback = loaded_row(GetParam());
+  const auto found = read_page(particles_page(playback, "Loaded"), R"JS(
+setTimeout(() => tell(window.viscontactPlayer.contacts()[0].width), 100);
+)JS",
+                               700);
+  EXPECT_EQ(found, kStyle.page_unit * kStyle.force_line.most);
+  EXPECT_THAT(particles_picture(playback, "Loaded", 1),
+              HasSubstr(fmt::format("stroke-width=\"{:.{}f}\"", kStyle.force_line.most,
+                                    GetParam() == 2 ? 1 : 2)));
 }
 
 TEST(ParticlesPage, FetchesNothingAndTakesItsTitleAsText) {

@@ -202,6 +202,31 @@ TEST(ParticlesPicture, ShowsTheCellWithImagesOfDiscsAtItsSides) {
   EXPECT_EQ(count_of("<circle ", particles_picture(playback, "Inside", 1)), 1U);
 }
 
+TEST(ParticlesPicture, WordsOfScalesNeitherOverlapNorLeaveThePicture) {
+  const TemporaryFolder folder;
+  auto in_fluid = disc_in_flow(folder, 1, report::turning);
+  in_fluid.friction_coefficient = 0.5;
+  in_fluid.frames[0].planes = {{.point = {0, 0, 0}, .normal = {0, 1, 0}}};
+  in_fluid.frames[0].contacts = {{-1, 0, 0, -1.0}, {-1, 0, 0, 0}};
+  auto without_friction = linked_row(2, 3);
+  without_friction.friction_coefficient.reset();
+  std::size_t scales = 0;
+  for (const auto& playback : {linked_row(2, 3), without_friction, in_fluid}) {
+    const auto svg = particles_picture(playback, "Scales", 1);
+    std::map<double, double> ends;  // the right end of the words before, by height
+    for (const auto& match :
+         matches_in(svg, "<text x=\"([0-9.]+)\" y=\"([0-9.]+)\">([^<]+)</text></g>")) {
+      // A character of size 12 is about 6.2 wide on average; one of "×" has two bytes.
+      const double middle = std::stod(match[1]), half = 3.1 * static_cast<double>(match[3].size());
+      EXPECT_GE(middle - half, ends[std::stod(match[2])]) << match[3];
+      EXPECT_LE(middle + half, 1000) << match[3];
+      ends[std::stod(match[2])] = middle + half;
+      ++scales;
+    }
+  }
+  EXPECT_EQ(scales, 2U + 1 + 3);
+}
+
 TEST(ParticlesPicture, FilmsDarkenWithWhatTheyRemember) {
   const auto lightness = [](const std::string& colour) {
     double sum = 0;

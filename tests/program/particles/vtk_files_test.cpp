@@ -111,26 +111,6 @@ length = 6.0
   EXPECT_EQ(links.at("points").size(), 9U);
 }
 
-TEST_F(ParticlesCommand, HdfTablesVtkAndPageSayTheSameNumbers) {
-  expect_done(run(put_case(kCase), out()));
-  EXPECT_FALSE(fs::exists(out() / "particles.h5"));
-  const auto frames = content(out() / "particles.pvd");
-  const auto done = run(put_case(kCase), out(), {"--hdf5"});
-  if (done.exit_status == 2 && done.errors.find("built without it") != std::string::npos)
-    GTEST_SKIP() << "this build has no HDF5";
-  expect_done(done);
-  // The run was finished, so that only the file is new.
-  EXPECT_THAT(done.output + done.errors, HasSubstr("is up to date"));
-  EXPECT_EQ(content(out() / "particles.pvd"), frames);
-  const std::string log = (out() / "same.txt").string();
-  const int status = std::system(("/usr/bin/python3 " VISCONTACT_SOURCE_FOLDER
-                                  "/tests/program/particles/same_numbers.py " +
-                                  out().string() + " > " + log + " 2>&1")
-                                     .c_str());
-  if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no h5py";
-  EXPECT_EQ(status, 0) << read_file(log);
-}
-
 // One disc that is driven along x in a round container.
 TEST_F(ParticlesCommand, VtkReadsTheFlow) {
   expect_done(run(put_case(R"(title = "A driven disc"
