@@ -170,11 +170,12 @@ void check_radii(const case_file::TomlSection& section, const Source& source,
   const double smallest = c.particles.count() == 0
                               ? radii.smallest
                               : std::min(radii.smallest, std::ranges::min(c.particles.radii));
-  section.require(tolerance * mean_radii[1] <= kToleranceOfRadius * smallest, key,
-                  "gives particles radii from {:.6g} to {:.6g}, which are too different for "
-                  "solver.tolerance, {}: the tolerance times the mean radius of all particles, "
-                  "{:.3g}, must be at most a hundredth of each radius; the smallest one is {:.6g}",
-                  radii.smallest, radii.largest, tolerance, tolerance * mean_radii[1], smallest);
+  section.require(
+      tolerance * mean_radii[1] <= kToleranceOfRadius * smallest, key,
+      "gives particles radii from {:.6g} to {:.6g}, for which solver.tolerance, {}, is too "
+      "large: the tolerance times the mean radius of all particles, {:.3g}, must be at "
+      "most a hundredth of each radius; the smallest one is {:.6g}",
+      radii.smallest, radii.largest, tolerance, tolerance * mean_radii[1], smallest);
   const double farthest = largest_resolved_distance(tolerance, mean_radii[0]);
   for (const auto& corner : {source.from, source.to})
     for (const double x : corner)
