@@ -4,9 +4,11 @@
 // checked here.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
@@ -66,6 +68,26 @@ struct Particles {
   /// Velocity of particle k < count() [L/T].
   Vector velocity(std::size_t k) const { return point_of(velocities.data(), k, dimension); }
 };
+
+/// The largest name of a particle in files; -1 if there are no particles.
+inline std::int32_t largest_id(const Particles& particles) {
+  return particles.ids.empty() ? static_cast<std::int32_t>(particles.count()) - 1
+                               : std::ranges::max(particles.ids);
+}
+
+/// How many names are left above the largest one, for particles that are added.
+inline std::size_t ids_left(const Particles& particles) {
+  return static_cast<std::size_t>(std::int64_t{std::numeric_limits<std::int32_t>::max()} -
+                                  largest_id(particles));
+}
+
+/// If particles have ids, gives the last ones, which have none, the largest id so far plus 1, 2, ...
+/// There must be as many ids_left().
+inline void add_missing_ids(Particles& particles) {
+  if (particles.ids.empty()) return;
+  auto largest = largest_id(particles);
+  while (particles.ids.size() < particles.count()) particles.ids.push_back(++largest);
+}
 
 /// Area of a disc (dimension 2) [L^2], volume of a sphere (otherwise) [L^3].
 inline double size_of_particle(int dimension, double radius) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/arrangement/pouring.hpp"
 #include "viscontact/particles/bodies/body_step.hpp"
 #include "viscontact/particles/impacts/rebound.hpp"
 #include "viscontact/particles/setting.hpp"

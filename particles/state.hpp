@@ -40,6 +40,20 @@ struct Pair {
   bool operator==(const Pair&) const = default;
 };
 
+/// What a source of a run has done, and what decides which particles it pours in and when.
+struct SourceProgress {
+  std::int64_t poured = 0;  ///< number of particles that it has poured in, >= 0
+  /// Time from which it pours [T]: Source::begin, or the start of the first run that had the source,
+  /// if this is later.
+  double begin = 0;
+  double begin_of_case = 0;   ///< Source::begin in that run [T], >= 0
+  double rate = 0;            ///< Source::rate [1/T], > 0
+  std::uint64_t seed = 0;     ///< Source::seed
+  std::uint64_t species = 0;  ///< hash_of() Source::species
+  /// True if all members are equal.
+  bool operator==(const SourceProgress&) const = default;
+};
+
 /// A new simulation needs only `particles`; all other members then keep their defaults.
 struct State {
   Particles particles;     ///< where they are and how they move
@@ -84,9 +98,10 @@ struct State {
   /// With membranes: the positions of all particles before the last step [L]. Empty if there was no
   /// step, and without membranes.
   std::vector<double> earlier_positions;
-  /// Number of particles that each of Setting::sources has poured in; empty if none has begun. They
-  /// come after the particles of the case.
-  std::vector<std::int64_t> poured;
+  /// Of each of Setting::sources. A simulation adds those that the state does not have when it
+  /// begins. The particles that were poured in come after those of the case, in the order of their
+  /// coming.
+  std::vector<SourceProgress> sources;
 };
 
 }  // namespace viscontact::particles

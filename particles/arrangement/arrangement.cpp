@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <variant>
@@ -141,8 +140,8 @@ double edge_of(double size, std::size_t dimension) {
   }
 }
 
-/// A particle that is in the domain before the new ones are placed.
-struct Obstacle {
+/// A particle that is in the domain before the new ones are placed, and stays where it is.
+struct FixedParticle {
   Vector centre;
   double radius;
 };
@@ -150,12 +149,12 @@ struct Obstacle {
 /// The particles that are placed so far, the largest ones first, sorted into cells that are at least
 /// as wide as the least distance of two centres, so that only particles in neighbouring cells can be
 /// too close.
-class Discs {
+class PlacedParticles {
  public:
   /// `radii` fall, and have the places that `places` gives for each.
-  Discs(const std::vector<Places>& places, std::vector<double> radii, double gap,
-        std::vector<Obstacle> obstacles)
-      : places_(places), radii_(std::move(radii)), gap_(gap), obstacles_(std::move(obstacles)) {
+  PlacedParticles(const std::vector<Places>& places, std::vector<double> radii, double gap,
+                  std::vector<FixedParticle> fixed)
+      : places_(places), radii_(std::move(radii)), gap_(gap), fixed_(std::move(fixed)) {
     // More cells than particles would cost memory without saving time.
     const double side = edge_of(static_cast<double>(radii_.size()), dimension()) + 1;
     const double widest = 2 * radii_.front() + gap_;
@@ -198,9 +197,9 @@ class Discs {
     numbers_[now].push_back(k);
   }
 
-  /// Calls `visit` for each other particle, and for each obstacle, that is closer to particle `self`
+  /// Calls `visit` for each other particle, also for fixed ones, that is closer to particle `self`
   /// at `x` than `factor` times its least distance: with the vector from `x` to it [L], its least
-  /// distance [L] and its number (obstacles have none). Ends early and returns true if `visit`
+  /// distance [L] and its number (fixed ones have none). Ends early and returns true if `visit`
   /// returns true.
   template <class Visit>
   bool any_close(const Vector& x, std::size_t self, double factor, const Visit& visit) const {
@@ -212,8 +211,8 @@ class Discs {
       return apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] < least * least &&
              visit(apart, distance, number);
     };
-    for (const auto& obstacle : obstacles_)
-      if (look(obstacle.centre, obstacle.radius, {})) return true;
+    for (const auto& fixed : fixed_)
+      if (look(fixed.centre, fixed.radius, {})) return true;
     const auto home = place_of(x);
     std::array<std::array<std::size_t, 3>, 3> near{};
     std::array<std::size_t, 3> count{};
@@ -259,48 +258,48 @@ class Discs {
   const std::vector<Places>& places_;
   std::vector<double> radii_;
   double gap_;
-  std::vector<Obstacle> obstacles_;
+  std::vector<FixedParticle> fixed_;
   std::array<std::size_t, 3> cells_{1, 1, 1};
   std::vector<std::vector<std::size_t>> numbers_;
   std::vector<Vector> centres_;
 };
 
-/// Pushes discs apart that are too close, in up to `rounds` rounds over all discs. True if all gaps
-/// are large enough then.
-bool push_apart(Discs& discs, int rounds) {
-  // Discs are pushed to 1.001 times the distance that they must have, because the pushes approach
+/// Pushes particles apart that are too close, in up to `rounds` rounds over all of them. True if all
+/// gaps are large enough then.
+bool push_apart(PlacedParticles& placed, int rounds) {
+  // Particles are pushed to 1.001 times the distance that they must have, because the pushes approach
   // the distance that they aim at without reaching it.
   constexpr double kFurther = 1 + 1e-3;
   for (int round = 0; round < rounds; ++round) {
     bool all_free = true;
-    for (std::size_t k = 0; k < discs.centres().size(); ++k) {
-      all_free = all_free && discs.is_free(discs.centres()[k], k);
-      // Each of two close discs moves by half of the missing distance. Beside an obstacle, which
-      // does not move, the disc moves by all of it.
+    for (std::size_t k = 0; k < placed.centres().size(); ++k) {
+      all_free = all_free && placed.is_free(placed.centres()[k], k);
+      // Each of two close particles moves by half of the missing distance. Beside a fixed one, a
+      // particle moves by all of it.
       Vector push{};
-      const Vector x = discs.centres()[k];
-      discs.any_close(x, k, kFurther, [&](const Vector& apart, double distance, auto number) {
+      const Vector x = placed.centres()[k];
+      placed.any_close(x, k, kFurther, [&](const Vector& apart, double distance, auto number) {
         const double length = length_of(apart);
         const double missing = (number ? 0.5 : 1.0) * (kFurther * distance - length);
-        // Two discs at one place are separated along x.
+        // Two particles at one place are separated along x.
         const Vector away = length > 0
                                 ? Vector{apart[0] / length, apart[1] / length, apart[2] / length}
                                 : Vector{1, 0, 0};
-        for (std::size_t d = 0; d < discs.dimension(); ++d) push[d] -= missing * away[d];
+        for (std::size_t d = 0; d < placed.dimension(); ++d) push[d] -= missing * away[d];
         return false;
       });
       if (push != Vector{})
-        discs.move(k, discs.places(k).nearest({x[0] + push[0], x[1] + push[1], x[2] + push[2]}));
+        placed.move(k, placed.places(k).nearest({x[0] + push[0], x[1] + push[1], x[2] + push[2]}));
     }
     if (all_free) return true;
   }
   return false;
 }
 
-/// Moves discs at random and keeps the moves that leave all gaps large enough.
-void shuffle(Discs& discs, double size, SplitMix64& random) {
-  const auto count = discs.count();
-  const auto dimension = discs.dimension();
+/// Moves particles at random and keeps the moves that leave all gaps large enough.
+void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
+  const auto count = placed.count();
+  const auto dimension = placed.dimension();
   // About half of the moves are kept if they go half as far as the gaps in the densest lattice of
   // the same density, triangular or face-centred cubic. The bounds keep moves possible near this
   // lattice and in empty domains.
@@ -309,31 +308,24 @@ void shuffle(Discs& discs, double size, SplitMix64& random) {
       dimension == 2 ? 2 * size / (std::sqrt(3.0) * n) : std::sqrt(2.0) * size / n, dimension);
   double span = lattice;
   for (std::size_t d = 0; d < dimension; ++d)
-    span = std::min(span, 0.5 * discs.widest_places().length(d));
+    span = std::min(span, 0.5 * placed.widest_places().length(d));
   const double step =
-      std::min(span, std::max(0.5 * (lattice - discs.distance()), 0.01 * discs.distance()));
-  // After 500 moves of each disc the arrangement no longer depends on the start. At most 20 million
-  // moves are made in all, which bounds the time, but at least 20 of each disc.
+      std::min(span, std::max(0.5 * (lattice - placed.distance()), 0.01 * placed.distance()));
+  // After 500 moves of each particle the arrangement no longer depends on the start. At most 20 million
+  // moves are made in all, which bounds the time, but at least 20 of each particle.
   constexpr std::size_t kMoves = 20000000, kMost = 500, kLeast = 20;
   const std::size_t moves = count * std::clamp(kMoves / count, kLeast, kMost);
   for (std::size_t move = 0; move < moves; ++move) {
     const std::size_t k = random.below(count);
-    Vector x = discs.centres()[k];
+    Vector x = placed.centres()[k];
     for (std::size_t d = 0; d < dimension; ++d) x[d] += random.between(-step, step);
-    const auto& places = discs.places(k);
+    const auto& places = placed.places(k);
     x = places.wrapped(x);
-    if (places.contain(x) && discs.is_free(x, k)) discs.move(k, x);
+    if (places.contain(x) && placed.is_free(x, k)) placed.move(k, x);
   }
 }
 
 }  // namespace
-
-double size_of(const Domain& domain) {
-  if (const auto* disc = std::get_if<DiscDomain>(&domain))
-    return std::numbers::pi * disc->radius * disc->radius;
-  const auto* box = std::get_if<BoxDomain>(&domain);
-  return box == nullptr ? 0 : box->measure();
-}
 
 double size_of(const Arrangement& asked, int dimension) {
   double sum = 0;
@@ -344,7 +336,7 @@ double size_of(const Arrangement& asked, int dimension) {
 std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
                             const Particles& present) {
   const auto& radii = asked.radii;
-  const double gap = asked.smallest_gap, size = size_of(domain);
+  const double gap = asked.smallest_gap, size = measure(domain);
   const auto [smallest, largest] = std::ranges::minmax(radii);
   const bool are_equal = smallest == largest;
   const auto* box = std::get_if<BoxDomain>(&domain);
@@ -382,25 +374,26 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
   for (const double radius : radii) covered += size_of_particle(dimension, radius + gap / 2);
   if (covered > densest * size) refuse("the densest lattice has no room for them");
 
-  std::vector<Obstacle> obstacles;
+  std::vector<FixedParticle> fixed;
   for (std::size_t k = 0; k < present.count(); ++k)
-    obstacles.push_back({present.position(k), present.radii[k]});
+    fixed.push_back({present.position(k), present.radii[k]});
   SplitMix64 random(asked.seed);
   // Pushing can fail although there is an arrangement. Then it begins again from other places.
   constexpr int kBeginnings = 10, kTries = 1000, kRounds = 2000;
   for (int beginning = 0; beginning < kBeginnings; ++beginning) {
-    Discs discs(places, falling, gap, obstacles);
+    PlacedParticles placed(places, falling, gap, fixed);
     for (std::size_t k = 0; k < radii.size(); ++k) {
-      Vector x = discs.places(k).random(random);
-      for (int i = 1; i < kTries && !discs.is_free(x, k); ++i) x = discs.places(k).random(random);
-      discs.add(x);
+      Vector x = placed.places(k).random(random);
+      for (int i = 1; i < kTries && !placed.is_free(x, k); ++i) x = placed.places(k).random(random);
+      placed.add(x);
     }
-    if (!push_apart(discs, kRounds)) continue;
-    shuffle(discs, size, random);
+    if (!push_apart(placed, kRounds)) continue;
+    shuffle(placed, size, random);
     const auto axes = static_cast<std::size_t>(dimension);
     std::vector<double> positions(axes * radii.size());
     for (std::size_t i = 0; i < order.size(); ++i)
-      for (std::size_t d = 0; d < axes; ++d) positions[axes * order[i] + d] = discs.centres()[i][d];
+      for (std::size_t d = 0; d < axes; ++d)
+        positions[axes * order[i] + d] = placed.centres()[i][d];
     return positions;
   }
   refuse(fmt::format("{} random beginnings did not lead to an arrangement", kBeginnings));

@@ -20,9 +20,6 @@ struct Arrangement {
   std::uint64_t seed = 1;
 };
 
-/// Area or volume of a disc or a box [L^2, L^3]; 0 for any other domain.
-double size_of(const Domain& domain);
-
 /// Area or volume of the particles of an arrangement [L^2, L^3].
 double size_of(const Arrangement& asked, int dimension);
 

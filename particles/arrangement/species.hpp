@@ -45,8 +45,8 @@ struct DrawnParticle {
   bool operator==(const DrawnParticle&) const = default;
 };
 
-/// The particles of some species one after the other. Of the first n particles, each species has its
-/// share of n, rounded up or down. The radii are the same bits on every machine.
+/// The particles of some species one after the other. Of the first n particles, for every n, each
+/// species has its share of n, rounded up or down. The radii are the same bits on every machine.
 class DrawnSpecies {
  public:
   /// `dimension` is 2 for discs and 3 for spheres; `species` is not empty.
@@ -65,8 +65,12 @@ class DrawnSpecies {
 std::vector<DrawnParticle> drawn(DrawnSpecies species, std::size_t count);
 
 /// As many of the first particles as make their area or volume together nearest to `size` [L^2,
-/// L^3], at least 1 and at most `most`.
+/// L^3], at least 1 and at most `largest_count`.
 std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, double size,
-                                         std::size_t most);
+                                         std::size_t largest_count);
+
+/// A number that differs, but for chance, if the species differ in anything that decides the radii or
+/// masses that they give with one seed.
+std::uint64_t hash_of(const std::vector<Species>& species);
 
 }  // namespace viscontact::particles

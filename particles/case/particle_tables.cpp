@@ -20,17 +20,6 @@ constexpr Allowed kMassWithoutFluid = {
     "from 1e-100 to 1e100 (0 is allowed only in a case with [fluid])"};
 constexpr std::array kKeysOfRotation = {"torque", "angle", "angular_velocity", "moment_of_inertia"};
 
-/// Gives an id to a particle of a table [[particle]]: the largest id so far plus 1. Called only if
-/// the CSV file gives ids.
-void add_id(Particles& p, const case_file::TomlSection& section) {
-  const auto largest = std::ranges::max(p.ids);
-  section.require(largest < std::numeric_limits<std::int32_t>::max(), "centre",
-                  "belongs to a particle that cannot get an id: it would be the largest id so far "
-                  "plus 1, but {} is the largest id that is possible",
-                  largest);
-  p.ids.push_back(largest + 1);
-}
-
 /// Throws an error for keys of a table [[particle]] that this case cannot have.
 void check_keys(const case_file::TomlSection& section, int dimension, bool in_fluid) {
   section.require(
@@ -222,6 +211,7 @@ void add_discs(std::vector<std::array<double, 2>>& axes, const Particles& p, std
 void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
   auto& p = c.particles;
   const bool in_fluid = c.setting.fluid.has_value();
+  require_ids(section, "centre", p, 1);
   ParticleTable table;
   case_file::read_keys(section, particle_keys, table, c);
   const auto number = static_cast<std::int32_t>(p.count());
@@ -255,7 +245,7 @@ void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
   } else if (!in_fluid) {
     add_rotation_of_last(section, table, p);
   }
-  if (!p.ids.empty()) add_id(p, section);
+  add_missing_ids(p);
 }
 
 void file_keys(case_file::Keys& keys, std::string& file) {
@@ -312,17 +302,20 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
     c.setting.fluid->plates.resize(c.particles.count());
   if (!c.setting.fluid && (c.setting.laws.friction || c.particles.turn()))
     add_rotation(c.particles);
-  const auto pours_at_start = [](const Source& source) { return source.begin == 0; };
-  if (c.particles.count() == 0 && std::ranges::any_of(c.setting.sources, pours_at_start))
-    return lines;
-  if (c.particles.count() == 0 && !c.particles_file.empty())
+  if (c.particles.count() > 0 || !c.setting.sources.empty()) return lines;
+  if (!c.particles_file.empty())
     throw_bad_input({c.particles_file.string()},
                     "has no particle; it must have a row for each particle after the header line");
-  if (c.particles.count() == 0)
-    throw_bad_input({c.path.string()},
-                    "has no particle; name a file in [particles], or add a [[particle]], a "
-                    "[[membrane]], an [arrangement], or a [[source]] that begins at time 0");
-  return lines;
+  throw_bad_input({c.path.string()},
+                  "has no particle; name a file in [particles], or add a [[particle]], a "
+                  "[[membrane]], an [arrangement], or a [[source]]");
+}
+
+void require_ids(const case_file::TomlSection& section, std::string_view key, const Particles& p,
+                 std::size_t count) {
+  section.require(count <= ids_left(p), key,
+                  "needs {} of the ids above {}, the largest one so far; ids are at most {}", count,
+                  largest_id(p), std::numeric_limits<std::int32_t>::max());
 }
 
 void read_forces_by_id(const case_file::TomlSection& root, ParticlesCase& c) {

@@ -340,7 +340,7 @@ std::vector<case_file::KeyTable> tables_of_particles_case() {
       case_file::describe_keys("[[plane]]", plane_keys, c),
       case_file::describe_keys("[sweep] of particles", particles_sweep_keys)};
   for (auto& more : {domain_and_fluid_tables(), particle_tables(), arrangement_tables(),
-                     membrane_tables(), body_and_link_tables()})
+                     source_tables(), membrane_tables(), body_and_link_tables()})
     tables.insert(tables.end(), more.begin(), more.end());
   return tables;
 }

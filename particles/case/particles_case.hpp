@@ -40,7 +40,7 @@ struct ParticlesCase {
 };
 
 /// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
-/// value and what is allowed. Also throws if there is no particle; if, at the start, two particles
+/// value and what is allowed. Also throws if there is neither a particle nor a source; if, at the start, two particles
 /// overlap or a particle is on the wrong side of a plane by more than solver.tolerance mean radii;
 /// if a radius is less than a hundred times that length; if a particle is further from the origin
 /// than particles::largest_resolved_distance; or if a particle is outside the domain or touches its

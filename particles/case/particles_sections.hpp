@@ -20,6 +20,18 @@ namespace viscontact::particles {
 /// Names of the axes, for messages.
 inline constexpr std::array kAxes = {"x", "y", "z"};
 
+/// Largest number of particles of an arrangement or a source: bench/README.md has the time and the
+/// memory of runs of up to so many.
+inline constexpr int kLargestCount = 1000000;
+
+/// solver.tolerance times the mean radius must be at most this part of each radius. Gaps are then
+/// known to a hundredth of the radius.
+inline constexpr double kToleranceOfRadius = 0.01;
+
+/// Least gap of a particle and its own image without a fluid, in radii. It leaves room for the skin of
+/// the neighbour list.
+inline constexpr double kLeastGapToImage = 0.01;
+
 /// Reads [domain]. `dimension` is that of the case: 1 (spheres on an axis), 2 or 3. Also throws if
 /// not exactly one shape is given, and for a shape that does not belong to the dimension: discs
 /// move in a disc or a box, spheres in a box, and spheres on an axis in a cylinder.
@@ -54,11 +66,11 @@ struct ParticleLines {
 };
 
 /// Reads the particles, first those of the CSV file, then those of the tables [[particle]] and
-/// those of [arrangement], with their forces, torques and given motions. Needs c.path, c.end_time,
+/// those of [arrangement], and the sources of others, with their forces, torques and given motions. Needs c.path, c.end_time,
 /// c.particles.dimension, c.setting.domain and c.setting.fluid. Returns where the particles are
 /// given.
 ///
-/// Also throws if there is no particle; for a key of particles in a fluid if the case has no fluid;
+/// Also throws if there is neither a particle nor a source; for a key of particles in a fluid if the case has no fluid;
 /// for a rotation on an axis; for a force, a torque or an initial velocity of a particle whose
 /// motion is given, because it has no effect; for an arrangement in a domain that is no disc or
 /// box; and if its discs do not fit.
@@ -67,11 +79,19 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
 /// Reads [arrangement], called by read_particles_of_case(), and adds its particles, which are at
 /// rest, after the others, which keep their places. They are c.arrangement.
 void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c);
-/// Reads [[source]], called by read_particles_of_case(), into c.setting.sources. Also throws in a case
-/// with a fluid, and for a region that is outside the domain or reaches into an obstacle at time 0.
-void read_sources(const case_file::TomlSection& root, ParticlesCase& c);
-/// Describes these sections.
+/// Describes this section, and species.
 std::vector<case_file::KeyTable> arrangement_tables();
+/// Declares the keys of species: either the list `species`, or one species whose keys stand in the
+/// section itself.
+void all_species_keys(case_file::Keys& keys, std::vector<Species>& all, bool has_fluid);
+
+/// Reads [[source]], called by read_particles_of_case() after all particles, into c.setting.sources.
+/// Also throws in a case with a fluid; for a region that is outside the domain or reaches into an
+/// obstacle at time 0; for radii that have no place in the region, are too large for a period or too
+/// small for solver.tolerance; and if there are too few ids for the particles.
+void read_sources(const case_file::TomlSection& root, ParticlesCase& c);
+/// Describes this section.
+std::vector<case_file::KeyTable> source_tables();
 
 /// Reads [[membrane]], called by read_particles_of_case(): makes beads, which become particles, and
 /// the membranes of c.setting.fluid or, without a fluid, of c.setting.links. Also throws if the
@@ -80,6 +100,10 @@ std::vector<case_file::KeyTable> arrangement_tables();
 void read_membranes(const case_file::TomlSection& root, ParticlesCase& c, ParticleLines& lines);
 /// Describes this section.
 std::vector<case_file::KeyTable> membrane_tables();
+
+/// Throws an error at `key` if there are fewer than `count` ids above the largest one of `p`.
+void require_ids(const case_file::TomlSection& section, std::string_view key, const Particles& p,
+                 std::size_t count);
 
 /// Reads [[force]]: the same force on all particles whose ids it names. The particles must have
 /// been read. Also throws for an id that does not exist or has a force already.

@@ -120,7 +120,7 @@ void check_radii_and_distances(const ParticlesCase& c, const ParticleNames& name
   const double allowed = tolerance * mean_radius(p);
   const auto smallest =
       static_cast<std::size_t>(std::ranges::min_element(p.radii) - p.radii.begin());
-  if (constexpr double kOfRadius = 0.01; allowed > kOfRadius * p.radii[smallest])
+  if (allowed > kToleranceOfRadius * p.radii[smallest])
     throw_bad_input(names.at(smallest),
                     fmt::format("{} is too small for solver.tolerance, {}: the tolerance times "
                                 "the mean radius is {:.3g}; it must be at most a hundredth of each "
@@ -169,14 +169,12 @@ void check_domain(const ParticlesCase& c, const ParticleNames& names) {
   const auto& p = c.particles;
   const auto periods = periods_of(c.setting.domain);
   // The gap to an image of the particle itself never changes. Therefore it must be at least the
-  // threshold gap in a fluid, and wide enough for a mesh. Without a fluid it must leave room for
-  // the skin of the neighbour list.
-  constexpr double kLeastGapInRadii = 0.01;
+  // threshold gap in a fluid, and wide enough for a mesh.
   for (std::size_t k = 0; k < p.count(); ++k) {
     const auto wrong = std::visit(PlaceInDomain{p.position(k), p.radii[k]}, c.setting.domain);
     if (!wrong.empty())
       throw_bad_input(names.at(k), fmt::format("{} is outside the domain; {}", names(k), wrong));
-    const double least = std::max(kLeastGapInRadii * p.radii[k],
+    const double least = std::max(kLeastGapToImage * p.radii[k],
                                   c.setting.fluid ? c.setting.fluid->threshold_gap : 0.0);
     for (const double period : periods)
       if (period > 0 && !(2 * p.radii[k] + least <= period))

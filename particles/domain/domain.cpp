@@ -1,6 +1,8 @@
-// Makes obstacles of the walls of a domain. Lengths are in the unit of the case. Nothing is checked
+// Measures domains, and makes obstacles of their walls. Lengths are in the unit of the case. Nothing is checked
 // or thrown. A change must keep the order, which numbers obstacles in files.
 #include "viscontact/particles/domain/domain.hpp"
+
+#include <numbers>
 
 namespace viscontact::particles {
 namespace {
@@ -35,6 +37,17 @@ std::vector<Plane> walls(const CylinderDomain& cylinder) {
 }
 
 }  // namespace
+
+double measure(const Domain& domain) {
+  using std::numbers::pi;
+  if (const auto* disc = std::get_if<DiscDomain>(&domain)) return pi * disc->radius * disc->radius;
+  if (const auto* cylinder = std::get_if<CylinderDomain>(&domain))
+    return pi * cylinder->radius * cylinder->radius * cylinder->height;
+  const auto* box = std::get_if<BoxDomain>(&domain);
+  if (box == nullptr) return 0;
+  const double area = (box->to[0] - box->from[0]) * (box->to[1] - box->from[1]);
+  return box->dimension() == 2 ? area : area * (box->to[2] - box->from[2]);
+}
 
 std::vector<Plane> obstacles_of(const Domain& domain) {
   return std::visit([](const auto& shape) { return walls(shape); }, domain);

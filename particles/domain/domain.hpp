@@ -31,11 +31,6 @@ struct BoxDomain {
 
   /// 2 or 3.
   std::size_t dimension() const { return to[2] > from[2] ? 3 : 2; }
-  /// Area or volume [L^2, L^3].
-  double measure() const {
-    const double area = (to[0] - from[0]) * (to[1] - from[1]);
-    return dimension() == 2 ? area : area * (to[2] - from[2]);
-  }
 };
 
 /// A closed cylinder about the axis z, with its floor at z = 0. All particles are spheres on the
@@ -47,6 +42,9 @@ struct CylinderDomain {
 
 /// monostate: no domain, so that only planes bound the particles.
 using Domain = std::variant<std::monostate, DiscDomain, BoxDomain, CylinderDomain>;
+
+/// Area of a disc or a rectangle [L^2], volume of a cuboid or a cylinder [L^3]; 0 without a domain.
+double measure(const Domain& domain);
 
 /// Lengths of the periods along x, y and z [L]; 0 where the domain is not periodic.
 inline std::array<double, 3> periods_of(const Domain& domain) {

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numbers>
 
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/particles/domain/domain.hpp"
@@ -84,15 +83,6 @@ std::string wall_rows(const Setting& setting, const State& state, std::span<cons
   return text;
 }
 
-/// Area or volume of a domain [L^2, L^3].
-double measure_of(const Domain& domain) {
-  using std::numbers::pi;
-  if (const auto* disc = std::get_if<DiscDomain>(&domain)) return pi * disc->radius * disc->radius;
-  if (const auto* box = std::get_if<BoxDomain>(&domain)) return box->measure();
-  const auto* cylinder = std::get_if<CylinderDomain>(&domain);
-  return cylinder == nullptr ? 0 : pi * cylinder->radius * cylinder->radius * cylinder->height;
-}
-
 /// The row of stress.csv, docs/physics.md (5.19).
 std::string stress_row(const Setting& setting, const State& state, std::span<const double>) {
   const auto n = static_cast<std::size_t>(state.particles.dimension);
@@ -103,8 +93,8 @@ std::string stress_row(const Setting& setting, const State& state, std::span<con
       for (std::size_t j = 0; j < n; ++j) sums[i * n + j] -= force[i] * branch[j];
   }
   auto text = format_number(state.time);
-  const double measure = measure_of(setting.domain);
-  for (std::size_t i = 0; i < n * n; ++i) (text += ',') += format_number(sums[i] / measure);
+  const double size = measure(setting.domain);
+  for (std::size_t i = 0; i < n * n; ++i) (text += ',') += format_number(sums[i] / size);
   return text + "\n";
 }
 

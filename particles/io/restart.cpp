@@ -24,7 +24,7 @@ namespace {
 // where a pair has such a memory. Version 8 has the flow of a fluid with inertia, and is written
 // only where there is one. Version 9 has the positions before the last step, and is written only
 // with membranes. Version 10 has Pair::place, and is written only where one is not 0.
-// Version 11 has State::poured, and is written only where a source has begun.
+// Version 11 has State::sources, and is written only in cases with sources.
 constexpr int kVersion = 11;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
@@ -105,7 +105,7 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   if (version < 10) return;
   field(arrays.places);
   if (version < 11) return;
-  field(state.poured);
+  field(state.sources);
 }
 
 /// The first of kMemoryFields that has no array of its own in version 6.
@@ -274,6 +274,11 @@ bool is_consistent(const State& state) {
   const auto is_empty_or = [](const std::vector<double>& values, std::size_t size) {
     return values.empty() || values.size() == size;
   };
+  auto others = static_cast<std::int64_t>(p.count());  // particles of no source
+  for (const auto& source : state.sources) {
+    if (source.poured < 0 || source.poured > others || !std::isfinite(source.begin)) return false;
+    others -= source.poured;
+  }
   return p.dimension >= 1 && p.dimension <= 3 && p.positions.size() == numbers &&
          p.velocities.size() == numbers && p.masses.size() == p.count() &&
          (state.positions_at_listing.empty() ||
@@ -320,7 +325,7 @@ std::string write_restart(const State& state) {
     arrays.bodies.push_back({body.centre, body.velocity, body.angle, body.orientation,
                              body.angular_momentum, body.angular_velocity});
   std::string bytes;
-  const int version = !state.poured.empty()              ? 11
+  const int version = !state.sources.empty()             ? 11
                       : !arrays.places.empty()           ? 10
                       : !state.earlier_positions.empty() ? 9
                       : !state.flow.empty()              ? 8

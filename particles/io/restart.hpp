@@ -15,7 +15,7 @@ namespace viscontact::particles {
 /// the particles, and which particles form rigid bodies, come from the case.
 std::string write_restart(const State& state);
 
-/// Reads a restart file of version 1 to 8. Of rigid bodies only the motion is set. Throws
+/// Reads a restart file of version 1 to 11. Of rigid bodies only the motion is set. Throws
 /// Error(kBadInput), which names the file, if it is not a restart file, is damaged, or was written
 /// with another byte order.
 State read_restart(const std::filesystem::path& path);

@@ -139,6 +139,7 @@ void make_beads(const case_file::TomlSection& section, ParticlesCase& c, Membran
                   "is {}, which {} beads cannot have; it must be {}, or the membrane must have "
                   "more beads",
                   table.reduced_area, table.beads, table.reduced_area > 0.9 ? "smaller" : "larger");
+  require_ids(section, "beads", p, static_cast<std::size_t>(table.beads));
   p.positions.insert(p.positions.end(), places->begin(), places->end());
   // Tables [[particle]] come first, and discs of an [arrangement] have no lines.
   lines.in_case.resize(p.count() - lines.in_file.size());
@@ -146,13 +147,13 @@ void make_beads(const case_file::TomlSection& section, ParticlesCase& c, Membran
     p.velocities.insert(p.velocities.end(), {table.velocity[0], table.velocity[1]});
     p.radii.push_back(table.bead_radius);
     p.masses.push_back(table.bead_mass);
-    if (!p.ids.empty()) p.ids.push_back(std::ranges::max(p.ids) + 1);
     lines.in_case.push_back(section.line());
     if (!in_fluid) continue;
     p.angles.push_back(0);
     p.angular_velocities.push_back(0);
     p.inertias.push_back(0);
   }
+  add_missing_ids(p);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -45,23 +44,49 @@ std::string difference(const results::Provenance& before, const results::Provena
   return "";
 }
 
-/// Throws Error(kBadInput) that names `restart` if the state has other particles than the case, or
-/// contacts with planes that the case does not have.
+/// Says how a source of the case differs from that of the earlier run; empty if the particles that it
+/// pours in, and their times, are the same.
+std::string difference(const SourceProgress& before, const Source& now) {
+  if (before.begin_of_case != now.begin)
+    return fmt::format("begins at {}, not {}", before.begin_of_case, now.begin);
+  if (before.rate != now.rate)
+    return fmt::format("pours {} particles in a unit of time, not {}", before.rate, now.rate);
+  if (before.seed != now.seed) return "has another seed";
+  if (before.species != hash_of(now.species))
+    return "has particles of other radii, densities, masses or shares";
+  return "";
+}
+
+/// Throws Error(kBadInput) that names `restart` if the state has other particles or sources than the
+/// case, or contacts with planes that the case does not have.
 void check_same_particles(const State& state, const ParticlesCase& c, const fs::path& restart) {
   const auto& p = state.particles;
   const auto differs = [&](const std::string& what) {
     throw_bad_input({restart.string()},
                     fmt::format("has other particles than {}: {}; a case that continues a "
-                                "run must have the same particles in the same order",
+                                "run must have the same particles and sources in the same order, "
+                                "and may have more sources after them",
                                 c.path.string(), what));
   };
   if (p.dimension != c.particles.dimension)
     differs(fmt::format("{} dimensions, not {}", p.dimension, c.particles.dimension));
   // The particles that sources have poured in come after those of the case.
-  const auto poured = std::accumulate(state.poured.begin(), state.poured.end(), std::int64_t{0});
-  const auto count = c.particles.count() + static_cast<std::size_t>(poured);
-  if (state.poured.size() > c.setting.sources.size())
-    differs(fmt::format("{} sources, not {}", state.poured.size(), c.setting.sources.size()));
+  const auto& sources = c.setting.sources;
+  if (state.sources.size() > sources.size())
+    differs(fmt::format("{} sources, not {}", state.sources.size(), sources.size()));
+  std::size_t count = c.particles.count(), ids = 0;
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    std::size_t poured = 0;
+    if (s < state.sources.size()) {
+      if (const auto how = difference(state.sources[s], sources[s]); !how.empty())
+        differs(fmt::format("source[{}] {}", s, how));
+      poured = static_cast<std::size_t>(state.sources[s].poured);
+    }
+    count += poured;
+    ids += std::max(poured, sources[s].due(sources[s].end));
+  }
+  if (ids > ids_left(c.particles))
+    differs(fmt::format("its sources need {} ids, and {} are left", ids, ids_left(c.particles)));
   if (p.count() != count) differs(fmt::format("{} particles, not {}", p.count(), count));
   const auto begins_with = [](const std::vector<double>& all, const std::vector<double>& begin) {
     return std::equal(begin.begin(), begin.end(), all.begin());

@@ -19,6 +19,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locks.hpp"
+#include "viscontact/particles/arrangement/pouring.hpp"
 #include "viscontact/particles/case/particles_case.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/contact_file.hpp"
@@ -200,8 +201,8 @@ class Run {
 
 /// Says how the run ended, after its files are written. Throws Error(kInterrupted) if the run was
 /// interrupted, Error(kNotConverged) if a step did not converge.
-void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& record,
-                                   const fs::path& folder, const StopToken& stop) {
+void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State& state,
+                  const fs::path& folder, const StopToken& stop) {
   terminal::say(fmt::format(
       "particles: {} steps to t = {:.6g}, {:.3g} iterations a step, largest residual {:.2g}, "
       "largest overlap {:.2g} mean radii; {}",
@@ -228,6 +229,12 @@ void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& rec
         fmt::format("particles: interrupted at t = {:.6g}; the same command continues from there",
                     record.last_time));
   stop.throw_if_stop_requested();
+  for (const auto& [source, count, radius] : waiting_particles(c.setting.sources, state))
+    terminal::warn(fmt::format(
+        "particles: warning: {} particles of source[{}] are due and have not come: no place was "
+        "free in its region for the next one, of radius {:.6g}; the source must have a lower rate, "
+        "smaller particles, or a larger region",
+        count, source, radius));
   if (record.failed > 0)
     throw Error(ErrorKind::kNotConverged,
                 fmt::format("{}: {} of {} steps did not converge: residuals are up to {:.2g} (of "
@@ -246,7 +253,7 @@ void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path
                    const StopToken& stop) {
   if (json) fmt::print("{}", results::without_provenance(read_file(folder / "run.json")));
   terminal::say(fmt::format("particles: {} is up to date", folder.string()));
-  warn_or_fail_if_not_converged(c, run.record.totals, folder, stop);
+  warn_or_fail(c, run.record.totals, run.state, folder, stop);
 }
 
 }  // namespace
@@ -293,7 +300,7 @@ void run_particles(const ParticlesRequest& request) {
   }
   if (failure) std::rethrow_exception(failure);
   if (request.json) fmt::print("{}", json);
-  warn_or_fail_if_not_converged(c, log.totals(), folder, request.stop);
+  warn_or_fail(c, log.totals(), simulation.state(), folder, request.stop);
 }
 
 }  // namespace viscontact::particles

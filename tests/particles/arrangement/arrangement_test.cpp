@@ -25,7 +25,7 @@ std::vector<double> equal(std::size_t count) { return std::vector<double>(count,
 /// As many radii of 1 as cover about this fraction of the domain.
 std::vector<double> covering(double fraction, const Domain& domain) {
   return equal(static_cast<std::size_t>(
-      std::max(1.0, std::round(fraction * size_of(domain) / std::numbers::pi))));
+      std::max(1.0, std::round(fraction * measure(domain) / std::numbers::pi))));
 }
 
 double shortest(double difference, double period) {
@@ -143,12 +143,12 @@ TEST(Arrangement, OfSeveralSizesHasItsGapsInTwoAndThreeDimensions) {
     const bool is_flat = box.dimension() == 2;
     Arrangement asked{.radii = {}, .smallest_gap = kGap, .seed = 3};
     for (const auto& particle :
-         drawn_to_size(species, is_flat ? 2 : 3, (is_flat ? 0.6 : 0.4) * box.measure(), 10000))
+         drawn_to_size(species, is_flat ? 2 : 3, (is_flat ? 0.6 : 0.4) * measure(box), 10000))
       asked.radii.push_back(particle.radius);
     const auto x = arrange(asked, box, {});
     ASSERT_EQ(x.size(), box.dimension() * asked.radii.size());
     EXPECT_GE(smallest_gap_in_box(x, asked.radii, box), kGap - 1e-13);
-    const double share = size_of(asked, is_flat ? 2 : 3) / box.measure();
+    const double share = size_of(asked, is_flat ? 2 : 3) / measure(box);
     EXPECT_NEAR(share, is_flat ? 0.6 : 0.4, 0.01);
   }
 }

@@ -1,6 +1,4 @@
-// Particles that are poured in: their times, places, and bits after a restart.
-#include "viscontact/particles/arrangement/source.hpp"
-
+// Particles that are poured in: their times, places, and bits after a restart; and those that wait.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/particles/arrangement/pouring.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/restart.hpp"
 
@@ -17,7 +16,7 @@ namespace {
 using ::testing::ElementsAre;
 
 TEST(Source, ParticlesAreDueAtARateFromBeginToEnd) {
-  Source source{.species = {}, .rate = 5, .begin = 1, .end = 3, .most = 100};
+  Source source{.species = {}, .rate = 5, .begin = 1, .end = 3, .largest_count = 100};
   EXPECT_EQ(source.due(0.99), 0U);
   EXPECT_EQ(source.due(1), 1U);
   EXPECT_EQ(source.due(1.19), 1U);
@@ -25,7 +24,7 @@ TEST(Source, ParticlesAreDueAtARateFromBeginToEnd) {
   EXPECT_EQ(source.due(1.9999999999999998), 6U);
   EXPECT_EQ(source.due(3), 11U);
   EXPECT_EQ(source.due(9), 11U);
-  source.most = 4;
+  source.largest_count = 4;
   EXPECT_EQ(source.due(9), 4U);
 }
 
@@ -43,7 +42,8 @@ Setting poured(int dimension, bool has_friction) {
       .share = 2,
       .density = 1};
   const Species large{.radius = {.list = {0.9}}, .share = 1, .density = 3};
-  Source source{.species = {small, large}, .rate = 8, .begin = 0.5, .end = 4, .most = 1000};
+  Source source{
+      .species = {small, large}, .rate = 8, .begin = 0.5, .end = 4, .largest_count = 1000};
   source.from = dimension == 2 ? Vector{0, 20, 0} : Vector{0, 0, 20};
   source.to = dimension == 2 ? Vector{8, 25, 0} : Vector{6, 6, 25};
   source.velocity[dimension == 2 ? 1 : 2] = -2;
@@ -96,7 +96,7 @@ TEST(Source, ContinuesFromARestartWithTheSameBits) {
     run(half, 2.5);
     const TemporaryFolder folder;
     auto state = read_restart(folder.file("restart.bin", write_restart(half.state())));
-    EXPECT_THAT(state.poured, ElementsAre(17));
+    EXPECT_EQ(state.sources.at(0).poured, 17);
     state.particles.ids = start.particles.ids;
     add_missing_ids(state.particles);
     Simulation rest(setting, state, 1);
@@ -121,17 +121,48 @@ TEST(Source, WaitsWhileItsRegionIsFull) {
   for (const double radius : p.radii) area += size_of_particle(2, radius);
   EXPECT_GT(p.count(), 6U);
   EXPECT_LT(area, 0.91 * 8 * 3.8);
-  EXPECT_EQ(static_cast<std::size_t>(simulation.state().poured[0]), p.count() - 1);
+  const auto poured = p.count() - 1;
+  EXPECT_EQ(static_cast<std::size_t>(simulation.state().sources[0].poured), poured);
+  const auto waiting = waiting_particles(setting.sources, simulation.state());
+  ASSERT_EQ(waiting.size(), 1U);
+  EXPECT_EQ(waiting[0].source, 0U);
+  EXPECT_EQ(waiting[0].count, 501 - poured);  // 1000 * 0.5 + 1 are due
+  const auto radii = drawn(DrawnSpecies(source.species, 2, source.seed), poured + 1);
+  EXPECT_EQ(waiting[0].radius, radii.back().radius);
   EXPECT_LT(largest_overlap(simulation.setting(), simulation.state()), 1e-12);
 }
 
 TEST(Source, MayBeginWithoutParticles) {
-  auto setting = poured(2, true);
-  setting.sources[0].begin = 0;
-  Simulation simulation(setting, no_particles(2), 1);
-  EXPECT_EQ(simulation.state().particles.count(), 1U);
-  run(simulation, 1);
-  EXPECT_EQ(simulation.state().particles.count(), 9U);
+  for (const double begin : {0.0, 0.5}) {
+    auto setting = poured(2, true);
+    setting.sources[0].begin = begin;
+    Simulation simulation(setting, no_particles(2), 1);
+    EXPECT_EQ(simulation.state().particles.count(), begin == 0 ? 1U : 0U);
+    run(simulation, 1);
+    EXPECT_EQ(simulation.state().particles.count(), begin == 0 ? 9U : 5U);
+    EXPECT_TRUE(waiting_particles(setting.sources, simulation.state()).empty());
+  }
+}
+
+TEST(Source, ThatIsNewInARunThatContinuesHasNoArrears) {
+  auto setting = poured(2, false);
+  const auto sources = std::move(setting.sources);
+  setting.sources.clear();
+  Simulation first(setting, one_particle(2), 1);
+  run(first, 2);
+  setting.sources = sources;  // from 0.5 on, at the rate 8
+  Simulation whole(setting, first.state(), 1);
+  run(whole, 3);
+  EXPECT_EQ(whole.state().sources.at(0).begin, 2);
+  EXPECT_EQ(whole.state().sources.at(0).begin_of_case, 0.5);
+  EXPECT_EQ(whole.state().particles.count(), 1U + 9U);
+  // The same if the second run is interrupted.
+  Simulation half(setting, first.state(), 1);
+  run(half, 2.5);
+  const TemporaryFolder folder;
+  Simulation rest(setting, read_restart(folder.file("r.bin", write_restart(half.state()))), 1);
+  run(rest, 3);
+  EXPECT_EQ(write_restart(rest.state()), write_restart(whole.state()));
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
-// The section [arrangement]: which discs it adds, its defaults, and what it refuses.
+// The sections [arrangement] and [[source]]: which particles they add, their defaults, and what they
+// refuse.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "tests/common/failure.hpp"
 #include "tests/particles/case/fluid_cases.hpp"
@@ -161,7 +163,7 @@ TEST(SourceSection, HasDefaultsAndRatesFromNumbers) {
   const std::string keys =
       "radius = 0.5\nmass = 1.0\nregion = { from = [1.0, 15.0], to = [9.0, 19.0] }\n";
   const auto c = read_particles_text(poured(keys + "rate = 2.0\n[[source]]\n" + keys +
-                                            "number = 30\nfrom = 1.0\nuntil = 4.0\n"
+                                            "number = 30\nbegin = 1.0\nend = 4.0\n"
                                             "velocity = [0.0, -3.0]\n"));
   ASSERT_THAT(c.setting.sources, SizeIs(2));
   const auto& first = c.setting.sources[0];
@@ -182,18 +184,125 @@ TEST(SourceSection, WrongKeysAreRefusedAtTheirLine) {
   const std::string region = "region = { from = [1.0, 15.0], to = [9.0, 19.0] }\n";
   const std::string disc = "radius = 0.5\nmass = 1.0\n";
   expect_refused_at(poured(disc + region), "[[source]]", "rate and number are missing");
-  expect_refused_at(poured(disc + region + "rate = 1.0\nfrom = 2.0\nuntil = 1.0\n"), "until = 1.0",
-                    "it must be later than from, 2");
+  expect_refused_at(poured(disc + region + "rate = 1.0\nbegin = 2.0\nend = 1.0\n"), "end = 1.0",
+                    "source[0].end is 1; it must be later than begin, 2");
   expect_refused_at(poured(disc + "region = { from = [1.0, 15.0], to = [11.0, 19.0] }\nrate = 1.0"),
                     "region", "has the corner (11, 15), which is outside the domain");
   expect_refused_at(poured(disc + "region = { from = [1.0, 15.0], to = [0.0, 19.0] }\nrate = 1.0"),
                     "region", "it must be at least 1");
   expect_refused_at(poured(disc + region + "rate = 1e9\n"), "rate", "at most 1000000 are allowed");
-  EXPECT_THAT(
-      bad_input([&] { read_particles_text(poured(disc + region + "rate = 1.0\nfrom = 1.0\n")); }),
-      HasSubstr("or a [[source]] that begins at time 0"));
   expect_refused_at(poured(disc + region + "rate = 1.0\n", "[fluid]\nviscosity = 1.0\n"), "region",
                     "the case must not have a section [fluid]");
+}
+
+TEST(SourceSection, MayHaveAMillionParticles) {
+  const std::string keys =
+      "radius = 0.5\nmass = 1.0\nregion = { from = [1.0, 15.0], to = [9.0, 19.0] }\n";
+  // 5 * 199999.8 + 1 = 1e6.
+  const auto c = read_particles_text(poured(keys + "rate = 199999.8\n"));
+  EXPECT_EQ(c.setting.sources[0].due(5), 1000000U);
+  expect_refused_at(poured(keys + "rate = 200000.0\n"), "rate", "makes more than 1000000");
+}
+
+TEST(SourceSection, MayBeginLaterThanACaseWithoutParticles) {
+  const auto c =
+      read_particles_text(poured("radius = 0.5\nmass = 1.0\nrate = 1.0\nbegin = 1.0\n"
+                                 "region = { from = [1.0, 15.0], to = [9.0, 19.0] }\n"));
+  EXPECT_EQ(c.particles.count(), 0U);
+  EXPECT_EQ(c.setting.sources[0].begin, 1);
+}
+
+TEST(SourceSection, RadiiThatCannotComeAreRefusedAtTheirLine) {
+  const auto refused = [](const std::string& radius, const std::string& words,
+                          const std::string& more = "") {
+    const auto text = poured(
+        "mass = 1.0\nregion = { from = [1.0, 15.0], to = [9.0, 18.5] }\n"
+        "rate = 10.0\nradius = " +
+            radius + "\n",
+        more);
+    expect_refused_at(text, "radius", words);
+  };
+  // The box is 10 x 20, and the region reaches from 15 to 18.5 below its top at 20.
+  refused("5.1",
+          "source[0].radius gives particles the radius 5.1, for which the region has no place; "
+          "between walls and planes it has places for radii up to 5");
+  refused("[0.4, 6.0]", "the radius 6");
+  refused("{ uniform = [0.4, 5.5] }", "the radius 5.5");
+  refused("{ lognormal = { median = 2.0, sigma = 1.0 } }", "for which the region has no place");
+  refused("4.0", "up to 3.6", "[[plane]]\npoint = [0.0, 18.6]\nnormal = [0.0, -1.0]\n");
+  refused("[0.0004, 1.0]", "a hundredth of each radius; the smallest one is 0.0004",
+          "[solver]\ntolerance = 1e-5\n");
+  const auto periodic = [](const std::string& radius) {
+    return changed(poured("mass = 1.0\nregion = { from = [0.0, 9.0], to = [10.0, 9.5] }\n"
+                          "rate = 10.0\nradius = " +
+                          radius + "\n"),
+                   "20.0] }", "20.0], periodic = [true, false] }");
+  };
+  expect_refused_at(periodic("4.99"), "radius",
+                    "too large for the period of the domain, 10: they would touch their own "
+                    "images; it must be at most 4.97512");
+  EXPECT_EQ(read_particles_text(periodic("4.97")).setting.sources.size(), 1U);
+}
+
+TEST(SourceSection, ParticlesOfTheCaseMustNotBeTooSmallBesideThoseOfSources) {
+  const auto text = [](const std::string& tolerance) {
+    return poured(
+        "radius = 1.0\nmass = 1.0\nrate = 10.0\n"
+        "region = { from = [1.0, 15.0], to = [9.0, 18.5] }\n",
+        "[solver]\ntolerance = " + tolerance +
+            "\n[[particle]]\ncentre = [5.0, 5.0]\nradius = 0.01\nmass = 1.0\n");
+  };
+  expect_refused_at(text("2e-4"), "radius = 1.0", "the smallest one is 0.01");
+  EXPECT_EQ(read_particles_text(text("5e-5")).particles.count(), 1U);
+}
+
+TEST(SourceSection, NeedsIdsForItsParticles) {
+  const auto read = [](const std::string& number) {
+    const auto root = case_file::TomlSection::parse(
+        "[[source]]\nradius = 0.5\nmass = 1.0\nregion = { from = [1.0, 5.0], to = [9.0, 9.0] }\n"
+        "number = " +
+            number + "\n",
+        "case.toml");
+    ParticlesCase c;
+    c.end_time = 1;
+    c.particles.positions = {10, 5};
+    c.particles.radii = {2};
+    c.particles.ids = {2147483640};
+    read_sources(root, c);
+    return c.setting.sources.size();
+  };
+  EXPECT_EQ(read("7"), 1U);
+  EXPECT_THAT(bad_input([&] { read("8"); }),
+              HasSubstr("case.toml:5: source[0].number needs 8 of the ids above 2147483640, the "
+                        "largest one so far; ids are at most 2147483647"));
+}
+
+TEST(SourceSection, WithOneSeedPourDifferentParticles) {
+  const std::string keys =
+      "radius = { uniform = [0.2, 0.3] }\nmass = 1.0\nnumber = 20\nseed = 7\n"
+      "region = { from = [1.0, 1.0], to = [9.0, 19.0] }\n";
+  const auto c = read_particles_text(poured(keys + "[[source]]\n" + keys));
+  State state;
+  state.particles = c.particles;
+  Simulation simulation(c.setting, state, 1);
+  while (simulation.state().time < 4.999) simulation.step(5);
+  const auto& p = simulation.state().particles;
+  ASSERT_EQ(p.count(), 40U);
+  EXPECT_THAT(std::set<double>(p.radii.begin(), p.radii.end()), SizeIs(40));
+  // Nothing moves the particles.
+  EXPECT_THAT(std::set<double>(p.positions.begin(), p.positions.end()), SizeIs(80));
+}
+
+TEST(ArrangementSection, NeedsIdsForItsParticles) {
+  Particles present;
+  present.positions = {10, 5};
+  present.velocities = {0, 0};
+  present.radii = {2};
+  present.masses = {7};
+  present.ids = {2147483646};
+  EXPECT_THAT(
+      bad_input([&] { read("count = 2\nradius = 1.0\nmass = 1.0\n", kBox, false, present); }),
+      HasSubstr("arrangement.count needs 2 of the ids above 2147483646"));
 }
 
 TEST(ArrangementSection, GapInAFluidIsJudgedWithoutTheSeed) {

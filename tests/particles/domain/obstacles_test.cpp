@@ -35,7 +35,7 @@ TEST(Obstacles, OfACuboidAreLeftRightFrontBackBottomTop) {
   EXPECT_EQ(gaps_of(box, {0, 0, 0}, 0.5), (std::vector<double>{0.5, 2.5, 1.5, 6.5, 2.5, 4.5}));
   box.periodic = {true, true, false};
   EXPECT_EQ(gaps_of(box, {0, 0, 0}, 0.5), (std::vector<double>{2.5, 4.5}));
-  EXPECT_EQ(box.measure(), 4 * 9 * 8);
+  EXPECT_EQ(measure(box), 4 * 9 * 8);
 }
 
 TEST(Obstacles, OfACylinderAreSideFloorLid) {

@@ -67,6 +67,20 @@ TEST_F(RestartFile, HasThePositionsBeforeAStepOfMembranes) {
               HasSubstr("is not a whole restart file"));
 }
 
+TEST_F(RestartFile, HasWhatSourcesHaveDone) {
+  auto state = disc_on_plane(-0.75);
+  state.sources = {{.poured = 1, .begin = 2, .begin_of_case = 0.5, .rate = 3, .seed = 4},
+                   {.poured = 0, .begin = 7, .begin_of_case = 7, .rate = 0.1, .species = ~0ULL}};
+  const auto text = write_restart(state);
+  EXPECT_THAT(text, HasSubstr("version 11"));
+  EXPECT_EQ(read(text).sources, state.sources);
+  for (const int poured : {-1, 1}) {  // the disc comes from the first source
+    state.sources[1].poured = poured;
+    EXPECT_THAT(bad_input([&] { read(write_restart(state)); }),
+                HasSubstr("is not a whole restart file"));
+  }
+}
+
 TEST_F(RestartFile, SaysWhichEndOfAPlateIsAtAnObstacle) {
   auto state = disc_on_plane(-0.75);
   state.walls.push_back(state.walls[0]);

@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"Fraction", "7,2,1", "7.5,2,1", "discs.csv:3: id is 7.5; it must be a whole number"},
         {"TooLarge", "7,2,1", "2147483648,2,1",
          "discs.csv:3: id is 2147483648; it must be a whole"},
-        {"NoneLeftForTheTable", "7,2,1", "2147483647,2,1", "is the largest id that is possible"},
+        {"NoneLeftForTheTable", "7,2,1", "2147483647,2,1", "needs 1 of the ids above 2147483647"},
         {"ForceOnNoId", "particles = [3]", "particles = [2]",
          "case.toml:19: force[0].particles contains 2, which is not the id of a particle"},
         {"ForceTwice", "particles = [3]", "particles = [3, 3]",

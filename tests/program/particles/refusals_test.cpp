@@ -57,6 +57,26 @@ TEST_F(ParticlesCommand, StepsThatNearlyConvergeAreAWarning) {
   EXPECT_EQ(record["failed_steps"], 0);
 }
 
+TEST_F(ParticlesCommand, ParticlesThatWaitAtTheEndAreAWarning) {
+  // 101 discs are due at one point, from which they fall; each leaves it in 2 to 3 units of time.
+  const auto file = put_case(kCase + std::string(R"([[source]]
+radius = [0.5, 0.75]
+mass = 1.0
+rate = 10.0
+region = { from = [0.0, 20.0], to = [0.0, 20.0] }
+)"));
+  // The same command again finds the run finished, and says the same.
+  for (int k = 0; k < 2; ++k) {
+    const auto result = run(file, out());
+    expect_done(result);
+    EXPECT_THAT(result.errors, AllOf(HasSubstr("particles of source[0] are due and have not come"),
+                                     HasSubstr("for the next one, of radius 0.")));
+  }
+  const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
+  EXPECT_GT(record["particles"], 3);
+  EXPECT_LT(record["particles"], 20);
+}
+
 struct BadParticles {
   std::string name, from, to, said;
 };

@@ -99,6 +99,40 @@ TEST_F(ParticlesCommand, ARestartIsOfTheSameParticles) {
   refused(longer, "cut short", folder_.file("bit.bin", bytes).string());
 }
 
+/// A source that the case of these tests may have, with other values of its keys if they are given.
+std::string source(const std::string& rate = "1.0", const std::string& more = "") {
+  return "[[source]]\nradius = [0.3, 0.4]\nmass = 1.0\nrate = " + rate +
+         "\nregion = { from = [-9.0, 8.0], to = [9.0, 12.0] }\n" + more;
+}
+
+TEST_F(ParticlesCommand, ARestartHasTheSourcesOfItsRunAndMayHaveMore) {
+  const auto half = replaced(kCase, "end_time = 10.0", "end_time = 5.0");
+  const auto run_half = [&](const std::string& sources, const std::string& folder) {
+    expect_done(run(put_case(half + sources, "half.toml"), out(folder)));
+    return (out(folder) / "restart.bin").string();
+  };
+  const auto restart = run_half(source(), "half");
+  const auto refused = [&](const std::string& sources, const std::string& said) {
+    expect_refusal(run(put_case(kCase + sources, "other.toml"), out("no"), {"--restart", restart}),
+                   ErrorKind::kBadInput, HasSubstr(said));
+  };
+  refused("", "other.toml: 1 sources, not 0");
+  refused(source("2.0"), "source[0] pours 1 particles in a unit of time, not 2");
+  refused(source("1.0", "seed = 3\n"), "source[0] has another seed");
+  refused(source("1.0", "begin = 4.0\n"), "source[0] begins at 0, not 4");
+  refused(replaced(source(), "0.4]", "0.5]"), "source[0] has particles of other radii, densities");
+  // Six have come at the times 0 to 5. The same source goes on; a new one begins at 5.
+  const auto poured = [&](const std::string& sources, const std::string& from,
+                          const std::string& folder) {
+    expect_done(run(put_case(kCase + sources), out(folder), {"--restart", from}));
+    const auto record = nlohmann::json::parse(read_file(out(folder) / "run.json"));
+    return record["particles"].get<int>() - 3;
+  };
+  EXPECT_EQ(poured(source(), restart, "same"), 11);
+  EXPECT_EQ(poured(source() + source("1.0", "seed = 3\n"), restart, "more"), 11 + 6);
+  EXPECT_EQ(poured(source(), run_half("", "none"), "new"), 6);
+}
+
 // A disc of the radius 1 hangs on a hinge at its top and swings from the angle 0 to about 1; a restart
 // with a stop at 0.5 would have to turn it back at once.
 TEST_F(ParticlesCommand, ARestartIsNotBeyondAStop) {
