@@ -8,7 +8,8 @@ Both compute the same steps, without films (gamma_min = 0), with h = 0.05 and mu
 - the convex relaxation, (5.9). Siconos solves it by its interior-point method (IPM), which knows contacts in space only; discs have a second
   tangent along which nothing moves.
 The times of Siconos are those of its solvers alone, without the search for contacts and the assembly. The time of Viscontact is that of the whole
-process, without its start. Residuals are measured in the same way for all: the natural map of each contact, in mean radii.
+process, without its start. Residuals are in mean radii: those of Siconos are the natural map of each contact, those of Viscontact are the
+largest_residual of run.json, which is the same map but for the scale of the impulses.
 """
 import json
 import math
@@ -197,7 +198,9 @@ def run_viscontact(count, until, program, dimension, is_convex):
                 f"[solver]\ntolerance = {TOLERANCE / 10}\nimpulse_tolerance = {TOLERANCE / 10}\n"
                 f'[output]\nevery = {until}\n[particles]\nfile = "box.csv"\n' + planes)
             usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-            subprocess.run([program, "particles", folder / "box.toml", "-o", folder / f"out{part}", "-j", "1"], capture_output=True)
+            done = subprocess.run([program, "particles", folder / "box.toml", "-o", folder / f"out{part}", "-j", "1"], capture_output=True, text=True)
+            if done.returncode not in (0, 4):  # 4: some steps did not converge
+                sys.exit(done.stderr)
             now = resource.getrusage(resource.RUSAGE_CHILDREN)
             times.append(now.ru_utime + now.ru_stime - usage.ru_utime - usage.ru_stime)
         record = json.loads((folder / "out3/run.json").read_text())
@@ -209,6 +212,8 @@ def run_viscontact(count, until, program, dimension, is_convex):
 def main():
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 500
     until = float(sys.argv[2]) if len(sys.argv) > 2 else 9.0
+    if until < 3 * H:
+        sys.exit(f"UNTIL is {until}; it must be at least {3 * H}")
     program = sys.argv[3] if len(sys.argv) > 3 else "build/release/viscontact"
     dimension = int(sys.argv[4]) if len(sys.argv) > 4 else 2
     print(f"{count} particles in {dimension} dimensions, CPU time a step in each third of t < {until:g}:")
@@ -220,7 +225,8 @@ def main():
         siconos.start()
         siconos.join()
         if siconos.exitcode != 0:
-            print(f"Siconos ended in step {done.value + 1} of {round(until / H)}, by signal {-siconos.exitcode}", flush=True)
+            how = f"by signal {-siconos.exitcode}" if siconos.exitcode < 0 else f"with the exit code {siconos.exitcode}"
+            print(f"Siconos ended in step {done.value + 1} of {round(until / H)} {how}", flush=True)
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ void check_varied_keys(const sweep::Points& points) {
     const auto section = key.substr(0, key.find('.'));
     if (section == "sweep" || section == "output")
       throw Error(ErrorKind::kWrongUsage,
-                  fmt::format("{} cannot be varied, because it changes no result of a run", key));
+                  fmt::format("{} cannot be varied, because it changes no motion of a run", key));
   }
 }
 

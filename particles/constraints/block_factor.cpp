@@ -236,7 +236,8 @@ bool BlockFactor<K, kIsSymmetric>::factorise() {
 template <int K, bool kIsSymmetric>
 bool BlockFactor<K, kIsSymmetric>::factorise_column(std::size_t j) {
   constexpr auto kSize = static_cast<std::size_t>(K);
-  const auto scales = scales_of_rows<K>(diagonal_[j]);
+  // Before other columns are subtracted: the masses and stiffnesses of the body itself.
+  [[maybe_unused]] const auto scales = scales_of_rows<K>(diagonal_[j]);
   for (auto e = offsets_[j]; e < offsets_[j + 1]; ++e) entry_in_row_[index(rows_[e])] = e;
   for (auto column = first_in_row_[j]; column >= 0;) {
     const auto k = index(column);

@@ -227,8 +227,10 @@ class Iteration {
     is_rising_ = true;
     if (!proximal_) proximal_.emplace(problem_, w_);
     proximal_->set_epsilon(epsilon_);
-    while (residual_ > 1 && best_.result.iterations < max_iterations)
+    while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant()) {
       take_convex_step(max_iterations);
+      note_progress();
+    }
   }
 
   /// Takes a proximal step for a convex problem. Each step leads nearer to the solution

@@ -104,15 +104,15 @@ void InteriorPoints<D>::add_impulse(const Cones& part, const ConePoint& r,
     problem_.add_impulse(part.row + k, impulse[part.first + k], to);
 }
 
-/// The largest value of a row for the motions y_, in the unit of u and r.
+/// The largest value of a row for the motions y_, in the unit of u and r; NaN if one is not a number.
 template <int D>
 double InteriorPoints<D>::largest_value() const {
   double largest = 0;
   for (const auto& part : singles_)
-    largest =
-        std::max(largest, std::abs(value(part, y_) + part.scale * problem_.rows[part.row].offset));
+    largest = largest_or_nan(
+        largest, std::abs(value(part, y_) + part.scale * problem_.rows[part.row].offset));
   for (const auto& part : cones_)
-    for (const double v : values(part, true, y_)) largest = std::max(largest, std::abs(v));
+    for (const double v : values(part, true, y_)) largest = largest_or_nan(largest, std::abs(v));
   return largest;
 }
 

@@ -30,6 +30,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Links are held to this part of the tolerance of lengths, so that their errors do not add up. Each
+// change gains about a factor of the angle by which a body or an arm turns in the step, so that few
+// changes are needed unless it turns by a radian.
+constexpr double kOfTolerance = 1e-3;
+constexpr int kMostChanges = 20;
+
 double largest_of(std::span<const double> numbers) {
   double largest = 0;
   for (const double x : numbers)
@@ -275,10 +281,7 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
   add(held_->row_forces_for(extrapolated), forces);
   const auto thetas = held_->thetas();
   const bool with_springs = !equation.link_times().empty();
-  // Each change gains about a factor of the angle by which a body or an arm turns in the step.
-  constexpr int kMostChanges = 20;
-  constexpr double kOfTolerance = 1e-3;
-  const double allowed = setting_.solver.tolerance * mean_radius_;
+  const double allowed = tolerated_length();
   double off = 0;  // [L]
   for (int n = 0; n <= kMostChanges; ++n) {
     const auto missing = held.missing(velocities, forces, thetas);
@@ -298,33 +301,40 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
   return forces;
 }
 
+/// Changes velocities until bodies are rigid, and hinges and arms hold, after their finite turns, and
+/// adds the forces of this to those in the rows. Springs keep their forces. Returns by how much rows
+/// are off then [L].
+double FluidSimulation::hold_turned(const HeldMotion& held, double h,
+                                    std::vector<double>& velocities,
+                                    std::vector<double>& row_forces) const {
+  const auto rows = held.rows();
+  const auto thetas = held_->thetas();
+  for (int n = 0;; ++n) {
+    auto missing = held.missing(velocities, row_forces, thetas);
+    for (std::size_t r = 0; r < missing.size(); ++r)
+      if (rows[r].stiffness > 0) missing[r] = 0;
+    const double off = h * largest_of(missing);
+    if (off <= kOfTolerance * tolerated_length() || n == kMostChanges) return off;
+    add(held_->change(velocities, missing, false), row_forces);
+  }
+}
+
 /// Solves the contacts of a step again until bodies are rigid, and hinges and arms hold, after the
 /// finite turns of the motion with contacts, which differ from those without. Changes the velocities
-/// without contact, and adds the forces of this to those in the rows. Springs keep their forces.
+/// without contact, and adds the forces of this to those in the rows. Sets Motion::links_hold. Does
+/// nothing in a step in which solids rebound.
 void FluidSimulation::hold_with_contacts(const StepEquation& equation, const HeldMotion& held,
                                          double h, double next, Motion& motion,
                                          std::vector<double>& row_forces) {
-  // Each round gains about a factor of the angle by which contacts change a turn of the step.
-  constexpr int kMostRounds = 20;
-  constexpr double kOfTolerance = 1e-3;
-  const double allowed = kOfTolerance * setting_.solver.tolerance * mean_radius_;
-  const auto rows = held.rows();
   auto& contact = motion.contact;
-  for (int round = 0; round < kMostRounds && largest_of(contact.loads) > 0; ++round) {
+  if (motion.blow || !(largest_of(contact.loads) > 0)) return;
+  const double allowed = kOfTolerance * tolerated_length();
+  for (int round = 0; round < kMostChanges; ++round) {
     auto velocities = motion.linear;
     for (std::size_t i = 0; i < velocities.size(); ++i)
       velocities[i] += contact.velocities[i] - motion.free[i];
     const auto before = velocities;
-    double off = 0;  // [L]
-    for (int n = 0; n <= kMostRounds; ++n) {
-      auto missing = held.missing(velocities, row_forces, held_->thetas());
-      for (std::size_t r = 0; r < missing.size(); ++r)
-        if (rows[r].stiffness > 0) missing[r] = 0;
-      off = h * largest_of(missing);
-      if (off <= allowed || n == kMostRounds) break;
-      add(held_->change(velocities, missing, false), row_forces);
-    }
-    motion.links_hold = motion.links_hold && off <= allowed / kOfTolerance;
+    const double off = hold_turned(held, h, velocities, row_forces);
     const auto moved = held.with_finite_turns(velocities);
     double change = 0;  // [L/T]
     for (std::size_t i = 0; i < velocities.size(); ++i) {
@@ -335,7 +345,9 @@ void FluidSimulation::hold_with_contacts(const StepEquation& equation, const Hel
       motion.free[i] += by;
       contact.velocities[i] += by;
     }
-    if (!(h * change > allowed)) return;
+    // Contacts whose gaps changed by less than this hold as they are.
+    motion.links_hold = off <= tolerated_length() && h * change <= allowed;
+    if (h * change <= allowed) return;
     const int iterations = contact.iterations;
     motion.blow = solve_contacts_of(equation, motion.free, h, next, contact);
     contact.iterations += iterations;
@@ -408,8 +420,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
       motion.free = held->with_finite_turns(motion.linear);
     }
     motion.blow = solve_contacts_of(equation, motion.free, h, next, motion.contact);
-    if (held && !motion.blow)
-      hold_with_contacts(equation, *held, h, next, motion, further_row_forces);
+    if (held) hold_with_contacts(equation, *held, h, next, motion, further_row_forces);
     iterations += motion.contact.iterations + (motion.blow ? motion.blow->iterations : 0);
     motion.contact.iterations = iterations;
     if (!equation.put_in_contact(motion.blow ? motion.blow->contacts : motion.contact.contacts))

@@ -132,6 +132,10 @@ class FluidSimulation {
   std::vector<double> hold_after_step(const StepEquation& equation, const HeldMotion& held,
                                       std::span<const double> flow, std::vector<double>& velocities,
                                       double h, bool& holds) const;
+  /// The error of lengths that solver.tolerance allows [L].
+  double tolerated_length() const { return setting_.solver.tolerance * mean_radius_; }
+  double hold_turned(const HeldMotion& held, double h, std::vector<double>& velocities,
+                     std::vector<double>& row_forces) const;
   void hold_with_contacts(const StepEquation& equation, const HeldMotion& held, double h,
                           double next, Motion& motion, std::vector<double>& row_forces);
   std::vector<double> hold_at_end(const StepEquation& equation, const HeldMotion& held,

@@ -27,6 +27,7 @@ struct Frame {
   std::vector<float> angles{};           ///< of each disc [rad]; empty if none turns
   /// Of each sphere in space, unit quaternions (w, x, y, z); empty if none turns.
   std::vector<float> orientations{};
+  std::vector<float> speeds{};  ///< of each particle [L/T]; empty: not known
   /// File of the flow around the particles (flow_vtk.hpp); empty if there is none. A picture reads
   /// the flows one after the other, because all of them may be too large for the memory.
   std::filesystem::path flow{};
@@ -55,6 +56,7 @@ struct Playback {
   /// Which particles are plates with round ends, as in Fluid; empty: none is.
   std::vector<char> plates{};
   std::vector<Frame> frames;        ///< in order of time, from the start on
+  bool is_in_fluid = false;         ///< whether the particles are in a fluid that is computed
   std::vector<std::int32_t> ids{};  ///< as in Particles
   PeriodicCell cell{};              ///< as in Particles
   /// Number of the rigid body of each particle, -1: none; empty if there are no bodies.

@@ -30,6 +30,7 @@ struct VtpContent {
   std::vector<double> positions;
   std::vector<double> radii;      ///< of each particle [L]
   std::vector<double> masses;     ///< of each particle [M]; empty if all are 0
+  std::vector<double> speeds;     ///< of each particle [L/T]
   std::vector<std::int32_t> ids;  ///< of each particle
   // Of discs, counter-clockwise; empty if they do not turn, and of spheres.
   std::vector<double> angles,  ///< of each disc [rad]

@@ -1,6 +1,7 @@
 // Reads the files that vtk.cpp writes, so that pages can be made from them. Lengths, masses and
 // times are in the units of the case. The reader understands only that layout, not VTK's formats in
 // general; another file is an Error(kBadInput). Frames of earlier versions must stay readable.
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -115,6 +116,10 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
     content.ids = reader.array<std::int32_t>("PointData", "id");
     if (content.ids.size() != content.radii.size()) reader.refuse();
   }
+  const auto velocities = reader.array<double>("PointData", "velocity");
+  if (velocities.size() != points.size()) reader.refuse();
+  for (std::size_t i = 0; i < velocities.size(); i += 3)
+    content.speeds.push_back(std::hypot(velocities[i], velocities[i + 1], velocities[i + 2]));
   if (reader.has_array("PointData", "mass")) {
     content.masses = reader.array<double>("PointData", "mass");
     if (content.masses.size() != content.radii.size()) reader.refuse();

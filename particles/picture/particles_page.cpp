@@ -50,6 +50,7 @@ struct PageData {
   std::array<double, 3> low{}, step{1, 1, 1};
   /// For each shown particle, the first of `frames` in which it is there. Empty: all are always there.
   std::vector<std::int32_t> first_frames{};
+  double top_speed = 0;  ///< largest speed of the shown frames [L/T]; 0: not known
   /// Names and contents of the blocks of numbers in the page.
   std::vector<std::pair<const char*, Bytes>> blocks{};
 };
@@ -194,13 +195,16 @@ Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_by
   const auto positions =
       particles * static_cast<std::size_t>(playback.dimension * data.position_bytes);
   const auto angles = particles * numbers_of_turn(playback) * sizeof(float);
+  // Speeds take a byte.
   const auto bytes_of_frame =
-      base64_size(positions + angles + planes * 6 * sizeof(float) + sizeof(double));
-  const auto radii_and_ids =
-      base64_size(particles * sizeof(float)) * (playback.ids.empty() ? 1 : 2);
+      base64_size(positions + angles + particles + planes * 6 * sizeof(float) + sizeof(double));
+  const auto of_particles = static_cast<std::size_t>(1 + (playback.ids.empty() ? 0 : 1) +
+                                                     (playback.masses.empty() ? 0 : 1));
+  const auto radii_masses_and_ids = of_particles * base64_size(particles * sizeof(float));
   for (std::size_t every = 1;; every *= 2) {
     choose_frames(data, playback, every);
-    const auto others = kRest + other_bytes + data.frames.size() * bytes_of_frame + radii_and_ids;
+    const auto others = kRest + other_bytes + data.frames.size() * bytes_of_frame +
+                        radii_masses_and_ids;
     const bool last = data.frames.size() <= 2;
     if (others > kMostBytes && !last) continue;
     auto contacts = contacts_of(scene, data);
@@ -227,6 +231,25 @@ void find_first_frames(PageData& data, const Playback& playback) {
     data.first_frames.push_back(static_cast<std::int32_t>(first));
   }
   if (!any) data.first_frames.clear();
+}
+
+/// The speeds of the shown particles in the shown frames, a byte for each from 0 to `top_speed`.
+/// Empty if they are not known or all are 0.
+Bytes speeds_of(PageData& data, const Playback& playback) {
+  data.top_speed = 0;
+  for (const auto f : data.frames) {
+    const auto& speeds = playback.frames[f].speeds;
+    if (speeds.size() != playback.radii.size()) return {};
+    for (const float speed : speeds)
+      data.top_speed = std::max(data.top_speed, static_cast<double>(speed));
+  }
+  Bytes bytes;
+  if (!(data.top_speed > 0) || !std::isfinite(data.top_speed)) return bytes;
+  for (const auto f : data.frames)
+    for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle)
+      bytes.push_back(static_cast<unsigned char>(
+          std::lround(255 * playback.frames[f].speeds[k] / data.top_speed)));
+  return bytes;
 }
 
 /// Chooses as many frames as fit into a page of 24 MB, of which `other_bytes` are taken, and
@@ -280,6 +303,8 @@ PageData page_data(const Scene& scene, std::size_t other_bytes) {
     data.blocks.emplace_back("firstFrames", first_frames);
   }
   if (!masses.empty()) data.blocks.emplace_back("masses", masses);
+  if (auto speeds = speeds_of(data, playback); !speeds.empty())
+    data.blocks.emplace_back("speeds", std::move(speeds));
   if (!semi_axes.empty()) data.blocks.emplace_back("semiAxes", semi_axes);
   if (!plates.empty()) data.blocks.emplace_back("plates", plates);
   if (!ids.empty()) data.blocks.emplace_back("ids", ids);
@@ -485,7 +510,7 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
       "\"bytes\":{},\"low\":{},\"step\":{},\"roomLow\":{},\"roomHigh\":{},\"lowest\":{},"
       "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{}],\"hasAxis\":{},\"flow\":{},"
       "\"friction\":[{}],\"hasForces\":{},\"meanRadius\":{},\"hinges\":[{}],\"springs\":[{}],"
-      "\"arms\":[{}],\"topForce\":{},\"units\":{},\"style\":{}}}"
+      "\"arms\":[{}],\"topForce\":{},\"allForces\":{},\"topSpeed\":{},\"units\":{},\"style\":{}}}"
       "</script>\n",
       playback.dimension, data.every_particle, data.position_bytes, list(data.low), list(data.step),
       list(scene.box.low), list(scene.box.high), scene.lowest_gamma, report::kTouchingColour,
@@ -493,7 +518,9 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
       scene.has_axis, flow.settings,
       playback.friction_coefficient ? listed(report::friction_scale(kFrictionColours, "")) : "",
       scene.top_force > 0, scene.mean_radius, hinges, ends_of(links.springs), ends_of(links.arms),
-      scene.top_force, units_of_page(scene), style_of_page());
+      scene.top_force,
+      scene.top_force > 0 && data.contacts && data.every_particle == 1, data.top_speed,
+      units_of_page(scene), style_of_page());
   for (const auto* blocks : {&data.blocks, &flow.blocks})
     for (const auto& [name, bytes] : *blocks)
       text += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", name,

@@ -119,9 +119,11 @@ struct Scene {
   /// side of their cylinder is two lines.
   Playback playback;
   bool has_axis = false;     ///< the motion is on an axis, at which the picture is symmetric
-  bool is_in_fluid = false;  ///< there is a flow
+  bool is_in_fluid = false;  ///< there is a flow to draw
   /// Whether forces, impulses and masses are those per length across the plane, as of discs in a fluid.
-  bool is_per_length() const { return is_in_fluid && !has_axis && playback.dimension == 2; }
+  bool is_per_length() const {
+    return playback.is_in_fluid && !has_axis && playback.dimension == 2;
+  }
   /// The box that should be seen: all particles of the shown frames (or the central 98 % of each
   /// frame, if the others have flown far away), and the planes next to them. If there is a flow and
   /// the particles can be seen in its domain, all of it. In the directions of periods it is the

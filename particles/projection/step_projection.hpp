@@ -62,8 +62,8 @@ class StepProjection {
   StepProjection(State& state, double h, std::span<const PlanePosition> planes,
                  std::span<double> displacements, std::span<const double> mobilities,
                  ThreadPool& pool);
-  /// Solves with friction, rigid bodies and links. Call it before solve(); `step` must outlive this
-  /// object.
+  /// Solves with friction, rigid bodies and links. Call it before solve(). `step` must outlive this
+  /// object, which keeps a pointer to it.
   void add_constraints(const ConstraintStep& step);
   /// Solves a step in which blows have changed the displacements. A contact is then linearised at
   /// the places where the blows leave its particles. Linearised at the beginning of the step, it

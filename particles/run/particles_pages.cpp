@@ -30,7 +30,9 @@ Playback without_frames(const ParticlesCase& c) {
   playback.dimension = c.particles.dimension;
   playback.units = c.units;
   playback.radii.assign(c.particles.radii.begin(), c.particles.radii.end());
-  playback.masses.assign(c.particles.masses.begin(), c.particles.masses.end());
+  if (std::ranges::any_of(c.particles.masses, [](double mass) { return mass > 0; }))
+    playback.masses.assign(c.particles.masses.begin(), c.particles.masses.end());
+  playback.is_in_fluid = c.setting.fluid.has_value();
   if (c.setting.fluid) playback.semi_axes = c.setting.fluid->semi_axes;
   if (c.setting.fluid) playback.plates = c.setting.fluid->plates;
   playback.ids = c.particles.ids;
@@ -60,6 +62,7 @@ Frame read_frame(double time, const fs::path& path, const ParticlesCase& c) {
   frame.time = time;
   frame.positions.assign(content.positions.begin(), content.positions.end());
   frame.angles.assign(content.angles.begin(), content.angles.end());
+  frame.speeds.assign(content.speeds.begin(), content.speeds.end());
   frame.orientations.assign(content.orientations.begin(), content.orientations.end());
   frame.planes = positions_of(obstacles_of(c.setting), time);
   frame.contacts = std::move(content.contacts);
@@ -92,7 +95,7 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
     }
     if (f % every != 0 && f + 1 != files.size()) continue;
     frames.push_back(read_frame(files[f].first, folder / files[f].second, c));
-    kept_bytes += frames.back().positions.size() * sizeof(float) +
+    kept_bytes += (frames.back().positions.size() + frames.back().speeds.size()) * sizeof(float) +
                   frames.back().contacts.size() * sizeof(CurrentContact);
   }
   // Particles that are not there yet have no position.
@@ -101,6 +104,7 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
     frame.positions.resize(count * static_cast<std::size_t>(playback.dimension),
                            std::numeric_limits<float>::quiet_NaN());
     if (!frames.back().angles.empty()) frame.angles.resize(count);
+    frame.speeds.resize(count);
     while (frame.orientations.size() < frames.back().orientations.size())
       frame.orientations.insert(frame.orientations.end(), {1, 0, 0, 0});
   }

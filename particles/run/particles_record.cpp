@@ -159,8 +159,9 @@ std::string run_json(const ParticlesCase& c, const StepTotals& totals, const Sta
                   totals.last_velocity_errors);
     add_estimates("force_error_estimate", totals.first_force_errors, totals.last_force_errors);
     json["average_from"] = std::max(c.average_from, totals.first_time);
-    json["mean_dissipation"] = totals.mean_dissipation;
-    json["mean_apparent_viscosity"] = totals.mean_apparent_viscosity;
+    const auto mean = [&](double value) { return totals.averaged_time > 0 ? Json(value) : Json(); };
+    json["mean_dissipation"] = mean(totals.mean_dissipation);
+    json["mean_apparent_viscosity"] = mean(totals.mean_apparent_viscosity);
     json["unknowns"] = totals.unknowns;
     json["fluid_seconds"] = totals.fluid_seconds;
   }

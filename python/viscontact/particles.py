@@ -1,7 +1,10 @@
 """Many discs or spheres, from a case file or from arrays."""
 
+import json
 import pathlib
 import tempfile
+
+import numpy
 
 from ._core import InputError
 from ._core import Particles as _Particles
@@ -16,52 +19,65 @@ class Particles(_Particles):
             return
         # The reader of case files checks all that is given, so that there is one set of rules.
         with tempfile.TemporaryDirectory(prefix="viscontact-") as folder:
-            folder = pathlib.Path(folder)
-            case = _sections_of(case)
+            path = pathlib.Path(folder) / "case.toml"
+            sections = _sections_of(case)
             if particles is not None:
-                if "particles" in case:
+                if "particles" in sections:
                     raise InputError("the case has a section [particles] although arrays of "
                                      "particles are given; leave one of both out")
-                (folder / "particles.csv").write_text(_csv(particles))
-                case["particles"] = {"file": "particles.csv"}
-            path = folder / "case.toml"
-            path.write_text("".join(f"{_word(key)} = {_toml(value)}\n"
-                                    for key, value in case.items()))
-            super().__init__(path, threads=threads, restart=restart)
+                (path.parent / "particles.csv").write_text(_csv(particles))
+                sections["particles"] = {"file": "particles.csv"}
+            path.write_text("".join(f"{json.dumps(str(key))} = {_toml(value)}\n"
+                                    for key, value in sections.items()))
+            try:
+                super().__init__(path, threads=threads, restart=restart)
+            except InputError as problem:
+                # Lines of the files that are gone say nothing but the row of a particle.
+                words = str(problem).replace(str(path.parent) + "/particles.csv", "particles")
+                raise InputError(words.replace(str(path), "the case")) from None
 
 
 def _sections_of(case):
+    """The sections of a case, with absolute names of the files that it names."""
     if isinstance(case, dict):
-        return dict(case)
-    import tomllib  # Python 3.11
+        sections, folder = dict(case), pathlib.Path.cwd()
+    else:
+        import tomllib  # Python 3.11
 
-    try:
-        with open(case, "rb") as file:
-            return tomllib.load(file)
-    except (OSError, tomllib.TOMLDecodeError) as problem:
-        raise InputError(f"{case}: cannot be read ({problem})") from problem
+        try:
+            with open(case, "rb") as file:
+                sections = tomllib.load(file)
+        except (OSError, tomllib.TOMLDecodeError) as problem:
+            raise InputError(f"{case}: cannot be read ({problem})") from problem
+        folder = pathlib.Path(case).resolve().parent
+    sections.setdefault("title", "Particles")
+    if isinstance(sections.get("particles"), dict) and "file" in sections["particles"]:
+        sections["particles"] = {"file": str(folder / sections["particles"]["file"])}
+    fluid = sections.get("fluid")
+    if isinstance(fluid, dict) and "solver" in fluid:
+        words = [str(word) for word in fluid["solver"]]
+        sections["fluid"] = {**fluid, "solver": [
+            str(folder / word) if (folder / word).is_file() else word for word in words]}
+    return sections
 
 
 def _csv(columns):
     """The columns as CSV. repr() of a number is read back as the same number."""
-    names = [str(name) for name in columns]
-    arrays = [columns[name] for name in columns]
-    lengths = {len(array) for array in arrays}
-    if len(lengths) != 1:
-        raise InputError(f"the columns of particles, {', '.join(names)}, have the lengths "
-                         f"{', '.join(str(len(array)) for array in arrays)}; they must be equal")
-    rows = zip(*(getattr(array, "tolist", lambda array=array: array)() for array in arrays))
-    return "".join(",".join(map(str, row)) + "\n" for row in [names, *rows])
-
-
-def _word(key):
-    return '"' + str(key).replace("\\", "\\\\").replace('"', '\\"') + '"'
+    arrays = {str(name): numpy.asarray(columns[name]) for name in columns}
+    shapes = {name: array.shape for name, array in arrays.items()}
+    if not arrays or any(len(shape) != 1 for shape in shapes.values()) or len(
+            set(shapes.values())) != 1:
+        words = ", ".join(f"{name} {shape}" for name, shape in shapes.items()) or "none"
+        raise InputError(f"the columns of particles have the shapes {words}; they must be arrays "
+                         "of one dimension and of equal length")
+    rows = zip(*(array.tolist() for array in arrays.values()))
+    return "".join(",".join(map(str, row)) + "\n" for row in [list(arrays), *rows])
 
 
 def _toml(value):
     value = getattr(value, "tolist", lambda: value)()  # of NumPy's arrays and numbers
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{_word(k)} = {_toml(v)}" for k, v in value.items()) + "}"
+        return "{" + ", ".join(f"{json.dumps(str(k))} = {_toml(v)}" for k, v in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(_toml, value)) + "]"
     if isinstance(value, bool):
@@ -69,6 +85,6 @@ def _toml(value):
     if isinstance(value, (int, float)):
         return repr(value)
     if isinstance(value, (str, pathlib.PurePath)):
-        return _word(value)
+        return json.dumps(str(value))
     raise InputError(f"{value!r} is not possible in a case; values are numbers, texts, True or "
                      "False, and lists and dictionaries of them")

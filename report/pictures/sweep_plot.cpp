@@ -134,7 +134,7 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
          fmt::format("linespoints pointtype 2 pointsize 0.3 linewidth 1 linecolor rgb '{}'",
                      kColours[i % kColours.size()]),
          {}});
-  std::vector<double> xs, ys;
+  std::vector<double> xs, ys, lower_ends;
   while (rows.next())
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double at = rows.value(x), y = rows.value(places[i]);
@@ -143,6 +143,7 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
       ys.push_back(y);
       if (errors.empty()) continue;
       const double error = rows.value(errors[i]);
+      lower_ends.push_back(y - error);
       bars[i].points.insert(bars[i].points.end(),
                             {{at, y - error}, {at, y + error}, {at, kNoValue}});
     }
@@ -152,7 +153,9 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
     std::ranges::sort(curve.points, {}, &std::pair<double, double>::first);
   panel.curves.insert(panel.curves.end(), bars.begin(), bars.end());
   panel.x_log = is_logarithmic(xs);
-  panel.y_log = is_logarithmic(ys);
+  // On a logarithmic axis a bar that reaches 0 would have no lower end.
+  panel.y_log = is_logarithmic(ys) &&
+                std::ranges::none_of(lower_ends, [](double end) { return end <= 0; });
   for (const auto& [axis, logarithmic] : {std::pair('x', panel.x_log), std::pair('y', panel.y_log)})
     if (logarithmic) panel.settings.push_back(fmt::format("set format {} '1e%T'", axis));
   return draw_picture(format, {panel}, kSweepWidth, 520, stop);

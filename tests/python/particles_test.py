@@ -76,7 +76,7 @@ class ParticlesTest(unittest.TestCase):
         case = {"space": {"dimension": 2, "gravity": (0.0, -1.0)},
                 "viscous_contact": {"end_time": 2, "time_step": 0.01, "gamma_min": np.float64(-0.5)},
                 "plane": [{"point": np.zeros(2), "normal": [0.0, 1.0]}],
-                "title": 'From "arrays"'}
+                "title": 'From "arrays"\n'}
         one = viscontact.Particles(case, table)
         self.assertEqual(one.ids.tolist(), table["id"].tolist())
         np.testing.assert_array_equal(one.positions, np.column_stack([table["x"], table["y"]]))
@@ -100,11 +100,15 @@ class ParticlesTest(unittest.TestCase):
                                                                "gamma_min": -1}}
         good = {"x": [0.0, 3.0], "y": [0.0, 0.0], "radius": [1.0, 1.0], "mass": [1.0, 1.0]}
         viscontact.Particles(case, good)
-        for wrong, words in [({"mass": [1.0]}, "the lengths 2, 2, 2, 1"),
+        for wrong, words in [({"mass": [1.0]}, r"mass \(1,\)"),
                              ({"mass": [1.0, -1.0]}, "mass is -1"), ({"u": [0, 0]}, "'u'"),
-                             ({"x": [0.0, 1.0]}, "overlap")]:
+                             ({"mass": 1.0}, r"mass \(\)"), ({"x": [0.0, 1.0]}, "overlap")]:
             with self.assertRaisesRegex(viscontact.InputError, words):
                 viscontact.Particles(case, {**good, **wrong})
+        with self.assertRaisesRegex(viscontact.InputError, "particles:3: .*mass is -1"):
+            viscontact.Particles(case, {**good, "mass": [1.0, -1.0]})
+        with self.assertRaisesRegex(viscontact.InputError, "the shapes none"):
+            viscontact.Particles(case, {})
         with self.assertRaisesRegex(viscontact.InputError, "leave one of both out"):
             viscontact.Particles({**case, "particles": {"file": "x.csv"}}, good)
         with self.assertRaisesRegex(viscontact.InputError, "is not possible in a case"):

@@ -24,6 +24,7 @@ function showAddress() {
   const take = (key, set) => { if (Number.isFinite(value(key))) set(value(key)); };
   take('turn', x => { view.turn = x; });
   take('above', x => { view.above = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, x)); });
+  showAll();
   if (value('zoom') > 0) {
     view.scale = value('zoom') * canvas.width / diagonal;
     view.moved = true;
@@ -48,14 +49,19 @@ function keepAddress() {
   }, 300);
 }
 
+/** The kind of film that the browser can record; nothing if it cannot, or if nothing moves. */
+function filmType() {
+  if (!canvas.captureStream || !window.MediaRecorder || frames < 2) return null;
+  return ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'].find(
+    kind => MediaRecorder.isTypeSupported(kind));
+}
+
 /**
  * Plays the motion once and saves what the canvas shows as a film (WebM). Resolves to the film, or
- * to nothing where the browser cannot make one.
+ * to nothing if the browser cannot make one or the reader pauses the motion.
  */
 async function makeFilm() {
-  if (!canvas.captureStream || !window.MediaRecorder || frames < 2) return null;
-  const type = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'].find(
-    kind => MediaRecorder.isTypeSupported(kind));
+  const type = filmType();
   if (!type) return null;
   const recorder = new MediaRecorder(canvas.captureStream(30), {mimeType: type, videoBitsPerSecond: 8e6});
   const parts = [];
@@ -71,17 +77,22 @@ async function makeFilm() {
   });
   recorder.stop();
   await ended;
+  if (player.time < lastTime) return null;
   return new Blob(parts, {type: 'video/webm'});
 }
 
 const filmButton = document.getElementById('film');
-filmButton.hidden = !canvas.captureStream || !window.MediaRecorder || frames < 2;
+filmButton.hidden = !filmType();
 filmButton.addEventListener('click', async () => {
   filmButton.disabled = true;
   filmButton.textContent = 'Recording';
-  const film = await makeFilm();
-  filmButton.disabled = false;
-  filmButton.textContent = 'Save film';
+  let film = null;
+  try {
+    film = await makeFilm();
+  } finally {
+    filmButton.disabled = false;
+    filmButton.textContent = film ? 'Save film' : 'No film was made';
+  }
   if (!film) return;
   const link = document.createElement('a');
   link.href = URL.createObjectURL(film);

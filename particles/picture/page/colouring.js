@@ -14,26 +14,16 @@ function scaleColour(level, light = 0) {
   return `rgb(${mixed.map(c => Math.round(c + Math.abs(light) * (paper - c))).join(',')})`;
 }
 
-/** The displacement of coordinate i = k dim + d of the written positions between two frames. */
-function movedBetween(frame, next, i) {
-  const d = i % dim, n = count * dim, period = [periodX, periodY, periodZ][d];
-  const move = motion.step[d] * (written[next * n + i] - written[frame * n + i]);
-  return period ? move - period * Math.round(move / period) : move;
-}
-
 const masses = optional('masses', Float32Array);
+// Speeds in all frames as bytes, 0 to 255 for motion.topSpeed.
+const speeds = optional('speeds', Uint8Array);
 /** For each choice: the values in a frame, in `values`, and whether they differ between frames. */
 const quantities = {
   speed: {
     words: 'speed', unit: motion.units.speed, changes: true,
     read(frame, values) {
-      const next = Math.min(frames - 1, frame + 1), from = next > 0 ? next - 1 : 0;
-      for (let k = 0; k < count; ++k) {
-        let square = 0;
-        for (let d = 0; d < dim; ++d) square += movedBetween(from, next, k * dim + d) ** 2;
-        const wasThere = !firstFrames || from >= firstFrames[k];
-        values[k] = wasThere && next > from ? Math.sqrt(square) / (times[next] - times[from]) : 0;
-      }
+      for (let k = 0; k < count; ++k)
+        values[k] = speeds[frame * count + k] / 255 * motion.topSpeed;
     },
   },
   radius: {words: 'radius', unit: motion.units.length, read: (_, values) => values.set(radii)},
@@ -54,25 +44,27 @@ const colouring = {name: '', low: 0, high: 0, frame: -1, values: new Float32Arra
 const colourChoice = document.getElementById('colour');
 const particleScale = document.getElementById('particle-scale');
 
-/** Finds the ends of the scale from at most 40 frames, and shows it. */
+/** Finds the ends of the scale from at most 40 frames, and shows it; another name shows no colours. */
 function setColouring(name) {
-  const quantity = quantities[name];
+  const isOffered = name && [...colourChoice.options].some(option => option.value === name);
+  const quantity = isOffered && frames && count ? quantities[name] : null;
   colouring.name = quantity ? name : '';
   colouring.frame = -1;
   colourChoice.value = colouring.name;
   particleScale.hidden = !quantity;
   if (!quantity) return;
+  const shown = lines.frame;
   const every = quantity.changes ? Math.max(1, Math.ceil(frames / 40)) : frames;
-  let all = [];
+  const ends = [];
   for (let frame = 0; frame < frames; frame += every) {
     quantity.read(frame, colouring.values);
     const sorted = colouring.values.slice().sort();
-    all.push(sorted[quantity.changes ? Math.floor(0.98 * (count - 1)) : count - 1]);
+    ends.push(sorted[quantity.changes ? Math.ceil(0.98 * (count - 1)) : count - 1]);
     if (!quantity.changes) colouring.low = sorted[0];
   }
+  if (shown >= 0) readContacts(shown);
   if (quantity.changes) colouring.low = 0;
-  colouring.high = Math.max(...all);
-  readContacts(presentFrame);
+  colouring.high = Math.max(...ends);
   const [title, bar, ticks] = ['span', '.bar', '.ticks'].map(x => particleScale.querySelector(x));
   title.textContent = `${quantity.words} [${quantity.unit}]`;
   const colours = Array.from({length: kColours}, (_, level) => scaleColour(level));
@@ -85,13 +77,11 @@ function setColouring(name) {
   }));
 }
 
-/** Computes the values of the present frame. */
+/** Computes the values of the frame whose contacts are shown. */
 function readColours() {
-  if (!colouring.name || colouring.frame === presentFrame) return;
-  const shown = lines.frame;
-  quantities[colouring.name].read(presentFrame, colouring.values);
-  readContacts(shown);
-  colouring.frame = presentFrame;
+  if (!colouring.name || colouring.frame === lines.frame) return;
+  quantities[colouring.name].read(lines.frame, colouring.values);
+  colouring.frame = lines.frame;
 }
 
 /** The colour of a particle: a level of the scale; -1 without one, and -2 for one of a body. */

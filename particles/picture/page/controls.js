@@ -170,8 +170,8 @@ if (flow) {
   streamlines.addEventListener('change', redraw);
 }
 colourChoice.addEventListener('change', () => { setColouring(colourChoice.value); redraw(); });
-if (!masses) colourChoice.querySelector('[value=mass]').remove();
-if (!motion.hasForces) colourChoice.querySelector('[value=force]').remove();
+for (const [name, isThere] of [['mass', masses], ['speed', speeds], ['force', motion.allForces]])
+  if (!isThere) colourChoice.querySelector(`[value=${name}]`).remove();
 document.getElementById('whole').addEventListener('click', () => {
   Object.assign(view, {turn: Math.PI / 6, above: Math.PI / 9});
   showAll();

@@ -1,7 +1,7 @@
 // Reads the motion of particles from the page, and gives positions, obstacles and contacts at any
 // time. particles/picture/particles_page.cpp writes the settings and the blocks of numbers; their
-// layout must be changed there and here together. This file and those that report/CMakeLists.txt
-// lists after it are one script, so each may use the names of all.
+// layout must be changed there and here together. This file and those that
+// particles/picture/CMakeLists.txt lists after it are one script, so each may use the names of all.
 
 const number = x => String(Number(x.toPrecision(4))).replace('-', '\u2212');  // for readers
 const text = id => document.getElementById(id).textContent;

@@ -114,6 +114,13 @@ TEST_F(FrictionSection, TheSchemeIsEulerUnlessGiven) {
       HasSubstr("viscous_contact.scheme is 'verlet'; it must be \"euler\" or \"leapfrog\""));
 }
 
+TEST(OutputSection, MeansBeginBeforeTheEnd) {
+  EXPECT_EQ(read("", "", "").average_from, 0);
+  EXPECT_EQ(read("", "[output]\naverage_from = 0.25", "").average_from, 0.25);
+  EXPECT_THAT(refused("", "[output]\naverage_from = 1e9", ""),
+              HasSubstr("output.average_from is 1000000000; it must be earlier than end_time"));
+}
+
 /// The tables that [output] asks for, in a case of two discs.
 TEST_F(FrictionSection, TablesThatACaseCannotHaveAreRefused) {
   EXPECT_THAT(read("", "[output]\ntables = [\"contacts\", \"motion\"]", "").tables,

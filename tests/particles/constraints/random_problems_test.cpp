@@ -174,9 +174,13 @@ TEST(ConstraintSolver, EndsWhereNothingIsGained) {
     problem.add_row(offset, parts, 0);
   }
   allow(problem);
-  const auto solution = solve_constraints(problem, 1000000);
-  EXPECT_GT(solution.result.residual, 1);
-  EXPECT_LT(solution.result.iterations, 10000);
+  auto convex = problem;
+  make_convex(convex, {}, 1);
+  for (auto* one : {&problem, &convex}) {
+    const auto solution = solve_constraints(*one, 1000000);
+    EXPECT_GT(solution.result.residual, 1);
+    EXPECT_LT(solution.result.iterations, 10000);
+  }
 }
 
 TEST(InteriorPointsOfFriction, MotionsAreTheSameInAllUnitsAndOrders) {

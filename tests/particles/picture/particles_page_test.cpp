@@ -197,12 +197,7 @@ setTimeout(() => {
 TEST_P(ParticlesInBrowser, ColoursAreThoseOfTheQuantityThatIsChosen) {
   auto motion = loaded_row(GetParam());
   motion.masses = {1, 2, 3, 4};
-  // The second half of the particles moves by 4 in one unit of time.
-  motion.frames.resize(1);
-  motion.frames.push_back(motion.frames[0]);
-  motion.frames[1].time = motion.frames[0].time + 1;
-  const auto dimension = static_cast<std::size_t>(GetParam());
-  for (const std::size_t k : {2U, 3U}) motion.frames[1].positions[k * dimension] += 4;
+  motion.frames.at(0).speeds = {0, 0, 4, 4};
   const auto found = read_page(particles_page(motion, "Coloured"), R"JS(
 (async () => {
   const pause = () => new Promise(done => setTimeout(done, 60));
@@ -224,12 +219,12 @@ TEST_P(ParticlesInBrowser, ColoursAreThoseOfTheQuantityThatIsChosen) {
   EXPECT_EQ(found["choices"], (nlohmann::json{"", "speed", "radius", "mass", "force"}));
   const auto near = [&](const char* name, std::vector<double> expected) {
     ASSERT_EQ(found[name]["values"].size(), 4U);
-    // Positions have 16 bits, forces 8.
+    // Speeds and forces have 8 bits.
     for (std::size_t k = 0; k < 4; ++k)
       EXPECT_NEAR(found[name]["values"][k].get<double>(), expected[k], 0.02) << name << k;
     EXPECT_EQ(found[name]["hidden"], false);
   };
-  near("speed", {0, 0, 4, 4});
+  ASSERT_NO_FATAL_FAILURE(near("speed", {0, 0, 4, 4}));
   near("radius", {1, 1, 1, 1});
   near("mass", {1, 2, 3, 4});
   near("force", {4, 6, 3, 1});
@@ -252,16 +247,19 @@ TEST_P(ParticlesInBrowser, TheAddressKeepsTimeViewAndColours) {
   await pause(600);
   found.changed = location.hash;
   // The address of another time and view, and back.
-  location.replace('#t=0.5&colour=speed');
+  location.replace('#t=0.5&colour=radius');
   await pause(600);
   found.time = player.time;
   found.colour = document.getElementById('colour').value;
+  found.whole = player.address();
   location.replace(found.changed);
   await pause(600);
   found.back = player.address();
-  location.replace('#t=nothing&zoom=-3&colour=u');
-  await pause(600);
-  found.wrong = {time: player.time, colour: document.getElementById('colour').value};
+  for (const name of ['u', 'mass', 'constructor']) {  // mass: the page has none
+    location.replace(`#t=nothing&zoom=-3&colour=${name}`);
+    await pause(600);
+    found.wrong = {time: player.time, colour: document.getElementById('colour').value};
+  }
   found.history = history.length;
   tell(found);
 })();
@@ -272,7 +270,8 @@ TEST_P(ParticlesInBrowser, TheAddressKeepsTimeViewAndColours) {
   EXPECT_THAT(found["changed"].get<std::string>(),
               ::testing::AllOf(HasSubstr("t=1.25"), HasSubstr("zoom=")));
   EXPECT_EQ(found["time"], 0.5);
-  EXPECT_EQ(found["colour"], "speed");
+  EXPECT_EQ(found["colour"], "radius");
+  EXPECT_THAT(found["whole"].get<std::string>(), Not(HasSubstr("zoom=")));
   EXPECT_EQ(found["back"], found["changed"]);
   EXPECT_EQ(found["wrong"]["time"], 1.25);
   EXPECT_EQ(found["wrong"]["colour"], "");

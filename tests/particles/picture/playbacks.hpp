@@ -91,6 +91,7 @@ inline Playback one_particle() {
 /// in a flow of the given velocity and pressure. The flows are files in the folder.
 inline Playback disc_in_flow(const TemporaryFolder& folder, int frames, const report::FlowAt& at) {
   Playback playback;
+  playback.is_in_fluid = true;
   playback.radii = {0.5F};
   const auto file = folder.file("flow.vtu", write_flow(report::mesh_of({0, 4, 0, 2}, 16, at)));
   for (int f = 0; f < frames; ++f) {

@@ -191,7 +191,7 @@ TEST_F(SweepOfParticles, DrawsRowsOrTheMeansOfDrawsWithTheirErrors) {
   expect_done(run("rows.csv", plot("means.svg")));
   const auto means = read_file(path("means.svg"));
   EXPECT_THAT(means, AllOf(HasSubstr("rows_means.csv"), HasSubstr(">contacts<"),
-                           HasSubstr(">arrangement.area\\_fraction<")));
+                           HasSubstr(">arrangement.area_fraction<")));
   // A curve, and a curve of bars, for each column.
   expect_done(sweep(path("case.toml"),
                     {"--vary", "arrangement.area_fraction=0.2,0.4", "--plot", path("rows.svg"),

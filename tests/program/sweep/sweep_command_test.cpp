@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/program/program.hpp"
 #include "tests/program/sample_files.hpp"
 #include "tests/program/undisturbed.hpp"
@@ -90,8 +92,15 @@ TEST_F(SweepCommand, PictureHasTheWidthAndLettersThatAreAskedFor) {
   expect_done(sweep(kVanishing, wide));
   EXPECT_THAT(read_file(path("wide.svg")),
               AllOf(HasSubstr("viewBox=\"0 0 1720 1040\""), HasSubstr("font-size=\"20.00\"")));
+  const auto first = rest_of(path("wide.svg"));
+  std::filesystem::remove(path("plain.svg"));
   expect_done(run_viscontact({"rerun", path("wide.svg")}));
+  EXPECT_EQ(rest_of(path("wide.svg")), first);
+  // The table alone, without its picture.
+  std::filesystem::remove(path("wide.svg"));
   expect_done(run_viscontact({"rerun", path("rows.csv"), "-o", path("again.csv")}));
+  EXPECT_TRUE(std::filesystem::exists(path("again.csv")));
+  EXPECT_FALSE(std::filesystem::exists(path("wide.svg")));
   expect_refusal(sweep(kVanishing, with({"--width", "900"})), ErrorKind::kWrongUsage,
                  HasSubstr("--plot"));
 }
