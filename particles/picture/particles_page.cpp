@@ -203,8 +203,8 @@ Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_by
   const auto radii_masses_and_ids = of_particles * base64_size(particles * sizeof(float));
   for (std::size_t every = 1;; every *= 2) {
     choose_frames(data, playback, every);
-    const auto others = kRest + other_bytes + data.frames.size() * bytes_of_frame +
-                        radii_masses_and_ids;
+    const auto others =
+        kRest + other_bytes + data.frames.size() * bytes_of_frame + radii_masses_and_ids;
     const bool last = data.frames.size() <= 2;
     if (others > kMostBytes && !last) continue;
     auto contacts = contacts_of(scene, data);
@@ -518,9 +518,8 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
       scene.has_axis, flow.settings,
       playback.friction_coefficient ? listed(report::friction_scale(kFrictionColours, "")) : "",
       scene.top_force > 0, scene.mean_radius, hinges, ends_of(links.springs), ends_of(links.arms),
-      scene.top_force,
-      scene.top_force > 0 && data.contacts && data.every_particle == 1, data.top_speed,
-      units_of_page(scene), style_of_page());
+      scene.top_force, scene.top_force > 0 && data.contacts && data.every_particle == 1,
+      data.top_speed, units_of_page(scene), style_of_page());
   for (const auto* blocks : {&data.blocks, &flow.blocks})
     for (const auto& [name, bytes] : *blocks)
       text += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", name,

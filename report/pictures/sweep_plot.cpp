@@ -154,8 +154,8 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
   panel.curves.insert(panel.curves.end(), bars.begin(), bars.end());
   panel.x_log = is_logarithmic(xs);
   // On a logarithmic axis a bar that reaches 0 would have no lower end.
-  panel.y_log = is_logarithmic(ys) &&
-                std::ranges::none_of(lower_ends, [](double end) { return end <= 0; });
+  panel.y_log =
+      is_logarithmic(ys) && std::ranges::none_of(lower_ends, [](double end) { return end <= 0; });
   for (const auto& [axis, logarithmic] : {std::pair('x', panel.x_log), std::pair('y', panel.y_log)})
     if (logarithmic) panel.settings.push_back(fmt::format("set format {} '1e%T'", axis));
   return draw_picture(format, {panel}, kSweepWidth, 520, stop);

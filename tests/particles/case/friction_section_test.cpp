@@ -114,7 +114,7 @@ TEST_F(FrictionSection, TheSchemeIsEulerUnlessGiven) {
       HasSubstr("viscous_contact.scheme is 'verlet'; it must be \"euler\" or \"leapfrog\""));
 }
 
-TEST(OutputSection, MeansBeginBeforeTheEnd) {
+TEST_F(FrictionSection, MeansOverTimeBeginBeforeTheEnd) {
   EXPECT_EQ(read("", "", "").average_from, 0);
   EXPECT_EQ(read("", "[output]\naverage_from = 0.25", "").average_from, 0.25);
   EXPECT_THAT(refused("", "[output]\naverage_from = 1e9", ""),
