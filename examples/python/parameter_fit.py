@@ -10,7 +10,9 @@
 #
 # It prints:
 #
-# VALUES
+# viscosity: 3.4 within 0.06 %
+# mass: 24 within 0.2 %
+# misfit of a measured gap: 0.0009
 
 # %%
 import pathlib
@@ -40,7 +42,7 @@ def gaps(viscosity, mass):
 
 # %%
 noise = 1e-3
-measured = gaps(1.3, 24.0) + np.random.default_rng(7).normal(scale=noise, size=len(times))
+measured = gaps(3.4, 24.0) + np.random.default_rng(7).normal(scale=noise, size=len(times))
 
 # %% [markdown]
 # ## The fit
@@ -49,7 +51,7 @@ measured = gaps(1.3, 24.0) + np.random.default_rng(7).normal(scale=noise, size=l
 # Logarithms of the parameters keep both positive.
 
 # %%
-logs = np.log([1.0, 20.0])  # a guess: the case's own values
+logs = np.log([3.0, 20.0])  # a guess: the case's own values
 for iteration in range(20):
     here = gaps(*np.exp(logs))
     step = 1e-4
