@@ -45,7 +45,8 @@ function keepAddress() {
     const address = addressOfView();
     if (player.playing || address === shownAddress) return;
     shownAddress = address;
-    location.replace(address);  // adds no entry to the history
+    // The whole address, as the page may stand in another one; replacing it adds no entry to the history.
+    location.replace(document.URL.split('#')[0] + address);
   }, 300);
 }
 
