@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -66,6 +68,10 @@ void add_picture(CLI::App& command, results::PictureRequest& picture, const std:
       ->needs(plot);
   command.add_option("--font-size", picture.font_size, "of the picture, in the unit of its width")
       ->check(CLI::Range(2.0, 200.0))
+      // The check of a range lets "nan" pass.
+      ->check([](const std::string& text) {
+        return std::isfinite(std::strtod(text.c_str(), nullptr)) ? "" : text + " is not a number";
+      })
       ->capture_default_str()
       ->needs(plot);
 }

@@ -103,6 +103,8 @@ TEST_F(SweepCommand, PictureHasTheWidthAndLettersThatAreAskedFor) {
   EXPECT_FALSE(std::filesystem::exists(path("wide.svg")));
   expect_refusal(sweep(kVanishing, with({"--width", "900"})), ErrorKind::kWrongUsage,
                  HasSubstr("--plot"));
+  expect_refusal(sweep(kVanishing, with({"--plot", path("x.svg"), "--font-size", "nan"})),
+                 ErrorKind::kWrongUsage, HasSubstr("nan is not a number"));
 }
 
 TEST_F(SweepCommand, ScriptOfAPictureDrawsIt) {
