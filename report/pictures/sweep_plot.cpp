@@ -152,6 +152,9 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
   for (auto& curve : panel.curves)
     std::ranges::sort(curve.points, {}, &std::pair<double, double>::first);
   panel.curves.insert(panel.curves.end(), bars.begin(), bars.end());
+  // Room beside the ends of the bars.
+  if (!bars.empty())
+    panel.settings.emplace_back("set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06");
   panel.x_log = is_logarithmic(xs);
   // On a logarithmic axis a bar that reaches 0 would have no lower end.
   panel.y_log =
