@@ -26,7 +26,7 @@ struct Units {
   /// The unit, or without units its dimension in words, such as "mass × length/time²".
   std::string unit_or_dimension(int mass_power, int length_power, int time_power) const;
   /// A text with dimensions in brackets, such as "[M L/T]" or "[M/(L T)]", in which the letters are
-  /// replaced by the units; unchanged without units. Exponents may stand in <sup>.
+  /// replaced by the units; unchanged without units. Exponents may be superscripts of HTML.
   std::string in_brackets_of(std::string text) const;
   /// A text with dimensions as "M", "L<sup>-1</sup>" and "T<sup>-2</sup>" between blanks, in which
   /// the letters are replaced by the units; unchanged without units.
