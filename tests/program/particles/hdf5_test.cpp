@@ -37,7 +37,7 @@ class Hdf5File : public ParticlesCommand {
                {{"box", "{ from = [0, 0, 0], to = [6, 6, 10], periodic = [true, true, false] }"},
                 {"region", "{ from = [0, 0, 3], to = [6, 6, 7] }"},
                 {"rate", "8.0"},
-                {"until", "2.0"},
+                {"end", "2.0"},
                 {"end_time", "4.0"},
                 {"every", "0.2\ntables = [\"motion\", \"contacts\"]"}}) +
            "\n[friction]\ncoefficient = 0.3\n";
