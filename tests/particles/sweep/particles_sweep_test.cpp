@@ -192,7 +192,7 @@ TEST_F(ParticlesSweepTest, WrongPlansAreRefused) {
   points_.variations = {sweep::parse_variation("arrangement.seed=1,2")};
   refused("cannot be varied beside draws");
   points_.variations = {sweep::parse_variation("output.every=1,2")};
-  refused("changes no result");
+  refused("changes no motion");
   points_ = good;
   points_.draws = 3000000000;
   refused("at most 2147483647");
