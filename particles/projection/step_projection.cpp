@@ -201,17 +201,18 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   // Tolerate half of the allowed overlap. The other half is for the overlap that this step may add.
   tolerated_ = settings.tolerance * mean_radius / 2;
   // With friction a solution costs more than contacts that stay open. Therefore pairs whose gaps are
-  // nearly closed are chosen early. Pairs with a film are chosen at once. Dry ones are chosen with
-  // the first ones that a solution has closed: otherwise a tower that stands by itself would lean on
-  // neighbours that it only touches. With the convex relaxation they are not chosen early, because it
-  // holds particles that slide apart, (5.9), also where they would not meet.
+  // nearly closed are chosen early: with Coulomb's law together with the first ones that a solution
+  // has closed, but not before, because a tower that stands by itself would lean on neighbours that
+  // it only touches, and because redundant contacts cost more iterations than rounds. The convex
+  // relaxation holds dry particles that slide apart, (5.9), also where they would not meet. With it
+  // only pairs with a film are chosen early, and at once.
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
   choose(closed_by_free_motion());
   if (has_friction) {
     margin_ = kMargin * mean_radius;
-    choose(nearly_closed(true));
+    if (is_convex) choose(nearly_closed(true));
   }
   // Tolerances of the rough solution: of the gaps in mean radii, and of the impulses as a fraction
   // of the impulses at work. For bench/box2d.cpp with 1000 discs, gaps of 5e-4 to 2e-3 take equally
@@ -248,7 +249,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     if (!is_rough) least_excess = std::min(least_excess, result.residuals.excess);
     if (more.empty()) is_rough = false;
     choose(with_connected_pairs(more, ++rounds));
-    if (margin_ > 0 && !more.empty()) choose(nearly_closed(is_convex));
+    if (margin_ > 0) choose(nearly_closed(is_convex));
   }
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     result.pairs.push_back(&pair(chosen_[c]));
