@@ -66,12 +66,12 @@ struct ParticleLines {
 };
 
 /// Reads the particles, first those of the CSV file, then those of the tables [[particle]] and
-/// those of [arrangement], and the sources of others, with their forces, torques and given motions. Needs c.path, c.end_time,
-/// c.particles.dimension, c.setting.domain and c.setting.fluid. Returns where the particles are
-/// given.
+/// those of [arrangement], and the sources of others, with their forces, torques and given motions.
+/// Needs c.path, c.end_time, c.particles.dimension, c.setting.domain and c.setting.fluid. Returns
+/// where the particles are given.
 ///
-/// Also throws if there is neither a particle nor a source; for a key of particles in a fluid if the case has no fluid;
-/// for a rotation on an axis; for a force, a torque or an initial velocity of a particle whose
+/// Also throws if there is neither a particle nor a source; for a key of particles in a fluid if the
+/// case has no fluid; for a rotation on an axis; for a force, a torque or an initial velocity of a particle whose
 /// motion is given, because it has no effect; for an arrangement in a domain that is no disc or
 /// box; and if its discs do not fit.
 ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c);
