@@ -372,7 +372,8 @@ void InteriorPoints<D>::start(double size) {
 
 template <int D>
 int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
-  // Below kNear of the size, an iteration gains much unless rounding errors are what is left.
+  // Below kNear of the size, an iteration gains much unless rounding errors are what is left, and
+  // only there a second solution, which removes rounding errors, is worth its time.
   constexpr double kNear = 1e-6, kSlow = 0.5;
   set_parts();
   // The least impulses, and the motions with these. They are the solution where nothing else moves.
@@ -394,7 +395,7 @@ int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
     if (left <= accuracy * size || is_at_end || iterations == max_iterations || !factorise()) break;
     find_direction(1);
     set_corrector(gap_, std::min(1.0, length_to_boundary()));
-    find_direction(2);
+    find_direction(left > kNear * size ? 1 : 2);
     move(kInside * length_to_boundary());
   }
   return iterations;
