@@ -9,6 +9,7 @@
 
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
+#include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/swimmer/resistance/chebyshev_arms.hpp"
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 
@@ -96,6 +97,20 @@ void read_grid(const case_file::TomlSection& section, std::string_view key, Swim
                   rows_of(c), kMostRows);
 }
 
+/// Reads `table`: a file with a table of resistance matrices, which is scaled to the spheres.
+void read_given_table(const case_file::TomlSection& section, std::string_view key, SwimmerCase& c) {
+  for (const auto* other : {"arms", "relative_accuracy"})
+    section.require(!section.has(other), other, "must be left out, because `table` gives a table");
+  c.table_file = c.path.parent_path() / section.text(key);
+  const auto table = read_resistance_table(*c.table_file);
+  section.require(table.radii.size() == c.spheres.radii.size(), key,
+                  "is a table of {} spheres; it must have {}, as many as `radii`",
+                  table.radii.size(), c.spheres.radii.size());
+  c.table = with_place(c.table_file->string(),
+                       [&] { return scaled_to(table, c.spheres.viscosity, c.spheres.radii); });
+  c.gaps = gap_grid(c.table);
+}
+
 void tube_keys(case_file::Keys& keys, Tube& tube) {
   keys.required("radius", case_file::number(tube.radius, kPositive), {"radius of the tube"});
   keys.optional("height", case_file::number(tube.height, kPositive),
@@ -134,19 +149,30 @@ void read_tube(const case_file::TomlSection& section, std::string_view key, Swim
 void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
   keys.required("radii", case_file::custom("2 to 10 numbers > 0", read_radii, c.spheres.radii),
                 {"radii in the order of the line; the largest is at most 100 times the smallest"});
-  keys.required("arms",
-                case_file::custom("`{ from, to, count }`, or a list of these, one for each arm",
-                                  read_grid, c),
-                {"the arms of the table"});
-  keys.required("relative_accuracy",
-                case_file::number(c.spheres.relative_accuracy, case_file::kFraction),
-                {"asked of every entry of each resistance matrix"});
+  keys.optional(
+      "table", case_file::custom("a CSV file", read_given_table, c),
+      {"a [table](file-formats.md#tables-of-resistance-matrices) of spheres with the same "
+       "ratios of radii, in any units and for any viscosity, which is scaled to this case",
+       "the table is computed, for `arms`"});
+  keys.required_if(!c.table_file, "arms",
+                   case_file::custom("`{ from, to, count }`, or a list of these, one for each arm",
+                                     read_grid, c),
+                   {"the arms of the table; not with `table`"});
+  keys.required_if(!c.table_file, "relative_accuracy",
+                   case_file::number(c.spheres.relative_accuracy, case_file::kFraction),
+                   {"asked of every entry of each resistance matrix; not with `table`"});
   keys.optional(
       "container",
       case_file::custom("`\"unbounded\"`, `{ radius }` or `{ radius, height }`", read_tube, c),
       {"what is around the line: nothing, a long tube without slip, or a closed cylinder "
        "with the swimmer in the middle",
        "`\"unbounded\"`"});
+  if (!c.table_file) return;
+  const auto around = surroundings_in_words(c.spheres);
+  keys.require(c.table.container.empty() || lubrication::same_words(c.table.container, around),
+               "table",
+               "was computed for the container '{}', scaled to this case; the case has '{}'",
+               c.table.container, around);
 }
 
 /// What is wrong with the length [L] of arm k, if it leaves the table; empty if nothing is.

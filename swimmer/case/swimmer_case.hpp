@@ -13,6 +13,7 @@
 #include "viscontact/case_file/case_template.hpp"
 #include "viscontact/case_file/keys.hpp"
 #include "viscontact/swimmer/optimal_stroke.hpp"
+#include "viscontact/swimmer/resistance/resistance_table.hpp"
 #include "viscontact/swimmer/stroke.hpp"
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
@@ -24,6 +25,10 @@ struct SwimmerCase {
   Units units{};      ///< words for pages; may be empty
   /// The spheres, and the fluid and container for which their resistances are tabulated.
   CollinearSpheres spheres;
+  /// The file of the table that the case names; nothing if the table is to be computed.
+  std::optional<std::filesystem::path> table_file{};
+  /// The table in that file, scaled to `spheres`; without rows if the table is to be computed.
+  ResistanceTable table{};
   /// For each arm, the gaps of the table between its two spheres [L], > 0, rising.
   std::vector<std::vector<double>> gaps;
   /// The stroke that the swimmer makes; nothing if the file has no section [stroke].

@@ -29,18 +29,13 @@ constexpr std::size_t kFewestNodes = 3;
 
 /// The values of each gap, rising.
 std::vector<std::vector<double>> nodes_of(const ResistanceTable& table) {
-  std::vector<std::vector<double>> nodes(table.radii.size() - 1);
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    for (const auto& row : table.rows) nodes[k].push_back(row.gaps[k]);
-    std::ranges::sort(nodes[k]);
-    // Clang 14, which scripts/fuzz uses, refuses std::ranges::unique of GCC 12.
-    nodes[k].erase(std::unique(nodes[k].begin(), nodes[k].end()), nodes[k].end());
+  auto nodes = gap_grid(table);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
     if (nodes[k].size() < kFewestNodes)
       throw Error(ErrorKind::kBadInput,
                   fmt::format("the table has {} values of the gap between spheres {} and {}; a fit "
                               "needs at least {}",
                               nodes[k].size(), k + 1, k + 2, kFewestNodes));
-  }
   return nodes;
 }
 

@@ -205,6 +205,9 @@ void tell(const std::string& name, const StrokeResult& stroke) {
 }  // namespace
 
 pipeline::CaseTable case_table(const SwimmerCase& c, const fs::path& table) {
+  if (c.table_file)
+    throw_bad_input({c.path.string()},
+                    "names its table with swimmer.table, so that there is none to compute");
   return {c.path, c.text, table, resistance_table_plan(c.spheres, c.gaps), {}, {}};
 }
 
@@ -215,12 +218,16 @@ void run_swimmer(const SwimmerRequest& request) {
   check_files(folder);
   const LockedFolder lock(folder.path, results::kFolderIsLocked);
   std::vector<fs::path> given = {results.c.path};
+  if (results.c.table_file) given.push_back(*results.c.table_file);
   given.insert(given.end(), results.c.stroke_files.begin(), results.c.stroke_files.end());
   const auto of_fit = results::provenance_of({given, {}});
 
-  // A table of matrices is written whole or not at all, so that no failure is returned.
-  (void)pipeline::tabulate_stage({case_table(results.c, folder.table())}, request.jobs,
-                                 request.stop);
+  if (results.c.table_file)
+    results::write_output(folder.table(), TextKind::kHashComment,
+                          write_resistance_table(results.c.table), of_fit);
+  else  // A table of matrices is written whole or not at all, so that no failure is returned.
+    (void)pipeline::tabulate_stage({case_table(results.c, folder.table())}, request.jobs,
+                                   request.stop);
   request.stop.throw_if_stop_requested();
   results.table = read_resistance_table(folder.table());
   results.fit = fit_table(folder, results.table, of_fit);

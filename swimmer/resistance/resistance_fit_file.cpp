@@ -95,15 +95,7 @@ void fields_of(JsonFields& json, ResistanceFit& fit) {
 }
 
 ResistanceFit scaled_to(ResistanceFit fit, double viscosity, const std::vector<double>& radii) {
-  const double ratio = radii.front() / fit.radii.front();
-  const bool has_ratios = std::ranges::equal(radii, fit.radii, [&](double one, double other) {
-    return equal_up_to_rounding(one, ratio * other);
-  });
-  if (!has_ratios)
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("the radii [{}] of the case are no multiple of those of the fit, [{}]; "
-                            "give a fit of the same ratios",
-                            fmt::join(radii, ", "), fmt::join(fit.radii, ", ")));
+  const double ratio = ratio_of_radii(radii, fit.radii, "fit");
   fit.viscosity = viscosity;
   if (radii == fit.radii) return fit;
   for (auto& nodes : fit.gaps)

@@ -8,6 +8,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/lubrication/table_codec.hpp"
 
 namespace viscontact::swimmer {
@@ -85,6 +87,46 @@ double largest_estimate(const ResistanceRow& row) {
 
 ResistanceTable read_resistance_table(const std::filesystem::path& path) {
   return lubrication::read_table<ResistanceRow>(path);
+}
+
+std::vector<std::vector<double>> gap_grid(const ResistanceTable& table) {
+  std::vector<std::vector<double>> grid(table.radii.size() - 1);
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    for (const auto& row : table.rows) grid[k].push_back(row.gaps[k]);
+    std::ranges::sort(grid[k]);
+    // Clang 14, which scripts/fuzz uses, refuses std::ranges::unique of GCC 12.
+    grid[k].erase(std::unique(grid[k].begin(), grid[k].end()), grid[k].end());
+  }
+  return grid;
+}
+
+double ratio_of_radii(const std::vector<double>& radii, const std::vector<double>& other,
+                      std::string_view what) {
+  const double ratio = radii.front() / other.front();
+  const bool has_ratio = std::ranges::equal(radii, other, [&](double one, double of_other) {
+    return equal_up_to_rounding(one, ratio * of_other);
+  });
+  if (!has_ratio)
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("the radii [{}] of the case are no multiple of those of the {}, [{}]; "
+                            "give a {} of the same ratios",
+                            fmt::join(radii, ", "), what, fmt::join(other, ", "), what));
+  return ratio;
+}
+
+ResistanceTable scaled_to(ResistanceTable table, double viscosity,
+                          const std::vector<double>& radii) {
+  const double ratio = ratio_of_radii(radii, table.radii, "table");
+  const double factor = viscosity / table.viscosity * ratio;
+  table.viscosity = viscosity;
+  table.radii = radii;
+  table.container = lubrication::with_lengths_scaled(table.container, ratio);
+  table.case_hash.clear();
+  for (auto& row : table.rows) {
+    for (auto& gap : row.gaps) gap *= ratio;
+    for (auto& entry : row.entries) entry *= factor;
+  }
+  return table;
 }
 
 std::string write_resistance_table(const ResistanceTable& table) {

@@ -1,5 +1,7 @@
 """simulate, rolling and swimmer of the Python module."""
 
+import pathlib
+import tempfile
 import unittest
 
 import numpy as np
@@ -89,9 +91,23 @@ class SwimmerTest(unittest.TestCase):
         self.assertGreater(optimal.about["efficiency"], square.about["efficiency"])
 
     def test_refuses_the_table_of_another_case(self):
-        other = DATA / "cases/swimmer/lecture.toml"
-        with self.assertRaisesRegex(viscontact.InputError, "three_spheres.csv: is not the table"):
-            viscontact.swimmer(other, DATA / "tables/three_spheres.csv")
+        text = (DATA / "cases/swimmer/three_spheres.toml").read_text()
+        with tempfile.TemporaryDirectory() as folder:
+            other = pathlib.Path(folder) / "other.toml"
+            other.write_text(text.replace("count = 12", "count = 11"))
+            with self.assertRaisesRegex(viscontact.InputError, "three_spheres.csv: is not the table"):
+                viscontact.swimmer(other, DATA / "tables/three_spheres.csv")
+            with self.assertRaisesRegex(viscontact.Error, "lacks swimmer.table"):
+                viscontact.swimmer(other)
+
+    def test_scales_the_table_that_the_case_names(self):
+        lecture = DATA / "cases/swimmer/lecture.toml"
+        stroke = viscontact.swimmer(lecture)["stroke"]
+        # In radii of 5e-5 m, between arms of 3 and 6: Stokes flow has no length of its own.
+        self.assertLess(abs(stroke.forces.sum(axis=1)).max(), 1e-10 * abs(stroke.forces).max())
+        np.testing.assert_allclose(stroke.arms.max(axis=0), [3e-4, 3e-4])
+        with self.assertRaisesRegex(viscontact.Error, "has swimmer.table"):
+            viscontact.swimmer(lecture, DATA / "tables/three_spheres.csv")
 
 
 if __name__ == "__main__":

@@ -159,7 +159,32 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"through = [6.0, 6.0]", "through = [6.0]", 19, "it must have 2, one for each arm"},
         Refusal{"through = [6.0, 6.0]", "through = [6.0, 6.0]\npolynomials = 73", 20,
                 "more than the 144 rows of the table can determine; take at most 72"},
+        Refusal{"relative_accuracy", "table = \"t.csv\"\nrelative_accuracy", 10,
+                "swimmer.arms must be left out, because `table` gives a table"},
         Refusal{"title", "titel = 3\ntitle", 3, "titel"}));
+
+TEST_F(SwimmerCaseFile, NamesATableThatIsScaledToItsSpheres) {
+  const auto with = [&](const std::string& keys) {
+    return read_swimmer_case(
+        folder_.file("scaled.toml", "[fluid]\nviscosity = 0.5\n[swimmer]\ntable = \"" +
+                                        std::string(VISCONTACT_SOURCE_FOLDER) +
+                                        "/data/tables/three_spheres.csv\"\n" + keys));
+  };
+  const auto c = with("radii = [0.25, 0.25, 0.25]\n");
+  EXPECT_EQ(c.gaps[0].back(), 2.5);
+  EXPECT_EQ(c.table.viscosity, 0.5);
+  const auto refusal = [&](const std::string& keys) {
+    return bad_input([&] { (void)with(keys); });
+  };
+  EXPECT_THAT(refusal("radii = [1.0, 1.0, 2.0]\n"),
+              AllOf(HasSubstr("three_spheres.csv: "), HasSubstr("[1, 1, 2] of the case"),
+                    HasSubstr("give a table of the same ratios")));
+  EXPECT_THAT(refusal("radii = [1.0, 1.0]\n"),
+              AllOf(HasSubstr("scaled.toml:4: "), HasSubstr("is a table of 3 spheres")));
+  EXPECT_THAT(refusal("radii = [1.0, 1.0, 1.0]\ncontainer = { radius = 3.0 }\n"),
+              AllOf(HasSubstr("scaled.toml:4: "), HasSubstr("'unbounded'"),
+                    HasSubstr("the case has 'tube of radius 3'")));
+}
 
 TEST_F(SwimmerCaseFile, FileOfAStrokeIsRefusedWithItsLine) {
   const auto refused = [&](const std::string& rows) {

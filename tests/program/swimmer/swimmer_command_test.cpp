@@ -1,7 +1,9 @@
 // `viscontact swimmer`: all stages with the shipped table, once with FreeFEM, and what it refuses.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -82,6 +84,38 @@ TEST_F(SwimmerCommand, SwimsWithTheShippedTableAsThePublishedSwimmerDoes) {
                           HasSubstr("0.159805"), HasSubstr("Lighthill")));
   for (const char* name : {"loops", "position", "power", "arms", "forces", "convergence"})
     EXPECT_THAT(read_file(path("out/plots/") + name + ".svg"), HasSubstr("</svg>")) << name;
+}
+
+/// Stokes flow has no length of its own: displacements scale with the radius r, energies with mu r^3/T.
+TEST_F(SwimmerCommand, NamedTableServesOtherRadiiAndViscosities) {
+  const auto swum = [&](double radius, double viscosity) {
+    const auto text = fmt::format(
+        "[fluid]\nviscosity = {1}\n[swimmer]\nradii = [{0}, {0}, {0}]\ntable = \"{2}\"\n"
+        "[stroke]\nellipse = {{ centre = {3}, semi_axes = {4}, phase = 1.5 }}\n"
+        "[optimal]\ndisplacement = {5}\nthrough = {3}\npolynomials = 8\n",
+        radius, viscosity, shipped("tables/three_spheres.csv"), 6 * radius, 2 * radius,
+        0.2 * radius);
+    expect_done(
+        run_viscontact({"swimmer", scratch_.file("case.toml", text).string(), "-o", path("out")},
+                       {"VISCONTACT_FREEFEM=no-freefem-is-needed"}));
+    return nlohmann::json::parse(read_file(path("out/swimmer.json")));
+  };
+  const auto one = swum(1, 1);
+  const double radius = 3e-5, viscosity = 7e-3;
+  const auto other = swum(radius, viscosity);
+  expect_done(run_viscontact({"report", path("out")}));
+  // The fit loses some digits, and the search for the optimal stroke ends within its tolerance.
+  for (const char* stroke : {"/displacement", "/optimal/displacement"}) {
+    const auto parent = nlohmann::json::json_pointer(stroke).parent_pointer();
+    const auto ratio = [&](const char* key) {
+      return other[parent / key].get<double>() / one[parent / key].get<double>();
+    };
+    EXPECT_NEAR(ratio("displacement") / radius, 1, 1e-9);
+    EXPECT_NEAR(ratio("energy") / (viscosity * std::pow(radius, 3)), 1, 1e-9);
+    EXPECT_NEAR(ratio("efficiency"), 1, 1e-9);
+  }
+  EXPECT_THAT(run_viscontact({"tabulate", path("case.toml"), "-o", path("t.csv")}).errors,
+              HasSubstr("names its table with swimmer.table"));
 }
 
 TEST_F(SwimmerCommand, SecondCallKeepsTableAndFitAndGivesTheSameResults) {

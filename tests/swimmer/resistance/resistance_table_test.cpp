@@ -55,6 +55,21 @@ class ResistanceTableFile : public ::testing::Test {
   TemporaryFolder scratch_;
 };
 
+TEST(ScaledResistanceTable, HasMatricesThatGrowWithRadiusAndViscosity) {
+  const auto table = sample();
+  const auto scaled = scaled_to(table, 2 / 3., {0.25, 1. / 6, 0.125});
+  EXPECT_EQ(scaled.container, "tube of radius 0.75");
+  EXPECT_EQ(scaled.case_hash, "");  // the table is not that of a case
+  for (std::size_t r = 0; r < 2; ++r) {
+    EXPECT_EQ(scaled.rows[r].gaps[0], table.rows[r].gaps[0] / 4);
+    for (std::size_t k = 0; k < 6; ++k) {  // twice the viscosity, a quarter of the length
+      EXPECT_DOUBLE_EQ(scaled.rows[r].entries[k], table.rows[r].entries[k] / 2);
+      EXPECT_EQ(scaled.rows[r].relative_error_estimates[k],
+                table.rows[r].relative_error_estimates[k]);
+    }
+  }
+}
+
 TEST(ResistanceColumns, NameGapsAndEntriesByTheirSpheres) {
   const auto columns = names_of_columns(3);
   EXPECT_THAT(std::vector(columns.begin(), columns.begin() + 8),
