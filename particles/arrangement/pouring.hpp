@@ -24,9 +24,10 @@ class Pouring {
   Pouring(std::vector<Source>& sources, State& state);
 
   /// Adds the particles that are due at state.time. Each is put at a random place in the region of
-  /// its source where it touches no other particle and no obstacle. One for which 1000 places are
-  /// taken waits for the next call, and those after it wait, too. The neighbour list is made again if
-  /// a particle is added. `setting` has the sources of the constructor.
+  /// its source where it touches no other particle and no obstacle. If 1000 random places are not
+  /// free, the particle waits for the next call, and the later particles of its source wait, too.
+  /// The neighbour list is made again if a particle is added. `setting` has the sources of the
+  /// constructor.
   void pour(const Setting& setting, State& state);
 
  private:
@@ -41,7 +42,8 @@ struct WaitingParticles {
   double radius;       ///< of the first one, for which no place was free [L]
 };
 
-/// The particles that wait in this state, by their sources; `sources` are those of its case.
+/// The waiting particles of each source in this state. `sources` are those of the case of the
+/// state.
 std::vector<WaitingParticles> waiting_particles(const std::vector<Source>& sources,
                                                 const State& state);
 

@@ -36,10 +36,9 @@ struct TimeTable {
 /// results, and empty where they are not known.
 ///
 /// Ids are numbers from 0 in the order of the case. The force of a hinge is that on its body, and
-/// its torque that of its torsion spring and its stops; the
-/// forces of springs and arms are positive where they push the ends apart. Forces are those of the
-/// step that ended at the time, 0 before the first one. The power is the work of an arm in this
-/// step over the length of the step.
+/// its torque that of its torsion spring and its stops. Forces of springs and arms are positive
+/// where they push the ends apart. Forces are those of the step that ended at the time, 0 before
+/// the first one. The power is the work of an arm in this step over the length of the step.
 std::vector<TimeTable> time_tables(const Setting& setting, const Particles& particles);
 
 /// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; appended raw data)
