@@ -34,9 +34,9 @@ struct SweepRequest {
 /// Declares the keys of [sweep] that choose points and what is drawn of them.
 void points_and_plot_keys(Keys& keys, SweepRequest& sweep);
 
-/// Reads the key `units` of the root table, if it is there. Throws Error(kBadInput) with the line if
-/// a word is missing, empty or longer than 20 bytes, or has a character that pages or gnuplot would
-/// read as a command.
+/// Reads the key `units` of the root table, if it is there. Throws Error(kBadInput) with the line
+/// if a word is missing, empty or longer than 20 bytes, or has a character that pages or gnuplot
+/// would read as a command.
 void read_units(const TomlSection& root, Units& units);
 /// What docs/case-file.md says about that key.
 KeyTable table_of_units();

@@ -1,5 +1,5 @@
-// Distances to circles, ellipses and plates. Lengths are in the unit of the case. Nothing is checked
-// or thrown. A change must keep distances to rounding errors.
+// Distances to circles, ellipses and plates. Lengths are in the unit of the case. Nothing is
+// checked or thrown. A change must keep distances to rounding errors.
 #include "viscontact/particles/outline.hpp"
 
 #include <algorithm>

@@ -81,8 +81,8 @@ inline std::size_t ids_left(const Particles& particles) {
                                   largest_id(particles));
 }
 
-/// If particles have ids, gives the last ones, which have none, the largest id so far plus 1, 2, ...
-/// There must be as many ids_left().
+/// If particles have ids, gives the last ones, which have none, the largest id so far plus 1, 2,
+/// ... There must be as many ids_left().
 inline void add_missing_ids(Particles& particles) {
   if (particles.ids.empty()) return;
   auto largest = largest_id(particles);

@@ -43,8 +43,8 @@ struct Pair {
 /// What a source of a run has done, and what decides which particles it pours in and when.
 struct SourceProgress {
   std::int64_t poured = 0;  ///< number of particles that it has poured in, >= 0
-  /// Time from which it pours [T]: Source::begin, or the start of the first run that had the source,
-  /// if this is later.
+  /// Time from which it pours [T]: Source::begin, or the start of the first run that had the
+  /// source, if this is later.
   double begin = 0;
   double begin_of_case = 0;   ///< Source::begin in that run [T], >= 0
   double rate = 0;            ///< Source::rate [1/T], > 0

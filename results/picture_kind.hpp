@@ -35,8 +35,8 @@ inline const PictureKind* picture_kind(const std::filesystem::path& path) {
 /// How a picture is written.
 struct PictureFormat {
   TextKind kind = TextKind::kSvg;  ///< of kPictureKinds
-  /// Width in pixels of an SVG; a PDF has a point for each of them, and a PNG two pixels. The height
-  /// follows it. 0: the width that the picture has by itself.
+  /// Width in pixels of an SVG; a PDF has a point for each of them, and a PNG two pixels. The
+  /// height follows it. 0: the width that the picture has by itself.
   int width = 0;
   double font_size = 14;  ///< in the same unit, > 0
 };

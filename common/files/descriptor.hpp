@@ -15,8 +15,8 @@ class Descriptor {
   explicit Descriptor(int descriptor = -1) : descriptor_(descriptor) {}
   /// Takes over the descriptor of `other`, which has none afterwards.
   Descriptor(Descriptor&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-  /// Exchanges the descriptors of both objects; `other` closes the one that it
-  /// receives when it is destroyed.
+  /// Exchanges the descriptors of both objects; `other` closes the one that it receives when it is
+  /// destroyed.
   Descriptor& operator=(Descriptor&& other) noexcept {
     std::swap(descriptor_, other.descriptor_);
     return *this;

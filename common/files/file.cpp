@@ -60,8 +60,8 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// Opens `beside`, a new file that takes the place of `path`, with these flags of open(2), and locks
-/// it. The lock tells remove_left_behind that the file is in use. Not every disk has locks.
+/// Opens `beside`, a new file that takes the place of `path`, with these flags of open(2), and
+/// locks it. The lock tells remove_left_behind that the file is in use. Not every disk has locks.
 Descriptor open_locked(const std::filesystem::path& path, const std::filesystem::path& beside,
                        int flags) {
   Descriptor file(::open(beside.c_str(), flags | O_CLOEXEC, 0666));
@@ -70,8 +70,8 @@ Descriptor open_locked(const std::filesystem::path& path, const std::filesystem:
   return file;
 }
 
-/// Makes a new file beside `path` by write(beside), which returns its descriptor, flushes it to disk
-/// if `is_flushed`, and renames it. Returns the path that it has then.
+/// Makes a new file beside `path` by write(beside), which returns its descriptor, flushes it to
+/// disk if `is_flushed`, and renames it. Returns the path that it has then.
 template <class Write>
 std::filesystem::path put_in_place(const std::filesystem::path& path, bool is_flushed,
                                    const Write& write) {

@@ -23,8 +23,8 @@ std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// As write_file, for a file that a library writes: `write` must make a file at the path that it is
-/// given, and close it. Throws what `write` throws, too. An old file at `path` is then unchanged, and
-/// what `write` has made is removed.
+/// given, and close it. Throws what `write` throws, too. An old file at `path` is then unchanged,
+/// and what `write` has made is removed.
 void write_file_by(const std::filesystem::path& path,
                    const std::function<void(const std::filesystem::path&)>& write);
 

@@ -146,9 +146,9 @@ struct FixedParticle {
   double radius;
 };
 
-/// The particles that are placed so far, the largest ones first, sorted into cells that are at least
-/// as wide as the least distance of two centres, so that only particles in neighbouring cells can be
-/// too close.
+/// The particles that are placed so far, the largest ones first, sorted into cells that are at
+/// least as wide as the least distance of two centres, so that only particles in neighbouring cells
+/// can be too close.
 class PlacedParticles {
  public:
   /// `radii` [L] fall; `places` has the places of each particle, or one entry for all. Two
@@ -265,8 +265,8 @@ class PlacedParticles {
   std::vector<Vector> centres_;
 };
 
-/// Pushes particles apart that are too close, in up to `rounds` rounds over all of them. True if all
-/// gaps are large enough then.
+/// Pushes particles apart that are too close, in up to `rounds` rounds over all of them. True if
+/// all gaps are large enough then.
 bool push_apart(PlacedParticles& placed, int rounds) {
   // The aim of a push is 1.001 times the distance that two particles must have, because pushes
   // approach their aim without reaching it.
@@ -312,8 +312,8 @@ void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
     span = std::min(span, 0.5 * placed.widest_places().length(d));
   const double step =
       std::min(span, std::max(0.5 * (lattice - placed.distance()), 0.01 * placed.distance()));
-  // After 500 moves of each particle the arrangement no longer depends on the start. At most 20 million
-  // moves are made in all, which bounds the time, but at least 20 of each particle.
+  // After 500 moves of each particle the arrangement no longer depends on the start. At most 20
+  // million moves are made in all, which bounds the time, but at least 20 of each particle.
   constexpr std::size_t kMoves = 20000000, kMost = 500, kLeast = 20;
   const std::size_t moves = count * std::clamp(kMoves / count, kLeast, kMost);
   for (std::size_t move = 0; move < moves; ++move) {

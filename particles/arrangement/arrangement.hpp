@@ -1,6 +1,6 @@
-// Random arrangements of discs or spheres that do not overlap, in the domain of a case. Lengths are in
-// the unit of the case. Cases and sweeps of particles call it. A change must keep the arrangement
-// of each seed bit for bit, because users repeat runs by their seeds.
+// Random arrangements of discs or spheres that do not overlap, in the domain of a case. Lengths are
+// in the unit of the case. Cases and sweeps of particles call it. A change must keep the
+// arrangement of each seed bit for bit, because users repeat runs by their seeds.
 #pragma once
 
 #include <cstddef>

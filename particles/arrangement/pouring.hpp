@@ -1,6 +1,7 @@
 // Pours in the particles of sources while a simulation runs. Lengths, masses and times are in the
-// units of the case; nothing is thrown. Simulation calls it after each step. A change must keep that
-// the particles of each seed are the same bits, and that a run that is continued pours the same ones.
+// units of the case; nothing is thrown. Simulation calls it after each step. A change must keep
+// that the particles of each seed are the same bits, and that a run that is continued pours the
+// same ones.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
-// Sources, from which particles are poured in while a simulation runs. Lengths, masses and times are
-// in the units of the case; nothing is thrown. Setting has them, and pouring.hpp pours. A change must
-// keep the particles and the times of each source, because users repeat runs by their seeds.
+// Sources, from which particles are poured in while a simulation runs. Lengths, masses and times
+// are in the units of the case; nothing is thrown. Setting has them, and pouring.hpp pours. A
+// change must keep the particles and the times of each source, because users repeat runs by their
+// seeds.
 #pragma once
 
 #include <cstddef>

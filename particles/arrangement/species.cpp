@@ -31,11 +31,11 @@ double portable_log(double x) {
   return exponent * kLog2 + 2 * s * sum;
 }
 
-/// exp x for |x| < 700. The relative error is at most a few 1e-16 plus 1.5e-16 |x|, because log 2 and
-/// its product with the number of halvings are rounded. The logarithm of a radius over the median
-/// is at most 12 in magnitude (sigma is at most 1), so that this error is at most 2e-15. Log 2 in
-/// two parts (Cody & Waite 1980) would be more accurate, but would change the radii that belong to
-/// a seed.
+/// exp x for |x| < 700. The relative error is at most a few 1e-16 plus 1.5e-16 |x|, because log 2
+/// and its product with the number of halvings are rounded. The logarithm of a radius over the
+/// median is at most 12 in magnitude (sigma is at most 1), so that this error is at most 2e-15. Log
+/// 2 in two parts (Cody & Waite 1980) would be more accurate, but would change the radii that
+/// belong to a seed.
 double portable_exp(double x) {
   const double halvings = std::floor(x / kLog2 + 0.5);
   const double rest = x - halvings * kLog2;  // at most 0.347 in magnitude

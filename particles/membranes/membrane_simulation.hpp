@@ -29,9 +29,9 @@ namespace viscontact::particles {
 class MembraneSimulation {
  public:
   /// `setting.fluid` has membranes; the particles of `state` that are no beads are discs without
-  /// mass, with forces or a given motion; `state` is what
-  /// read_restart returned, or a state of which only the particles are set. For such a state the
-  /// fluid solver computes the motion at the start, and its errors are thrown.
+  /// mass, with forces or a given motion; `state` is what read_restart returned, or a state of
+  /// which only the particles are set. For such a state the fluid solver computes the motion at the
+  /// start, and its errors are thrown.
   MembraneSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
   ~MembraneSimulation();
 

@@ -33,7 +33,8 @@ std::vector<ClosePair> close_pairs(int dimension, std::span<const double> positi
 
 /// All pairs with |x_j + shift - x_i| < e_i + e_j, i < j, where the shifts are those of the images
 /// -13 to 13 of particle j, in order of first, second, image. `positions` has 2 or 3 numbers for
-/// each extent; other arguments are those of close_pairs(). Positions may lie outside the cell by less than a period.
+/// each extent; other arguments are those of close_pairs(). Positions may lie outside the cell by
+/// less than a period.
 ///
 /// Needs e_i + e_j < each period for all pairs: otherwise further images might be close. A particle
 /// makes no pair with its own images. Particles near the sides are copied to the opposite sides,

@@ -70,8 +70,7 @@ class StepProjection {
   /// would stop particles that only pass each other. `impacts` must outlive this object.
   void follow(const Impacts<D>& impacts) { impacts_ = &impacts; }
   /// Solves the projection and sets the displacements h v, but changes neither pairs nor memories.
-  /// `mean_radius` [L], > 0, is the length
-  /// that the tolerances of `settings` refer to.
+  /// `mean_radius` [L], > 0, is the length that the tolerances of `settings` refer to.
   ProjectionResult solve(const SolverSettings& settings, double mean_radius);
 
  private:

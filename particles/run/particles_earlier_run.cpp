@@ -44,8 +44,8 @@ std::string difference(const results::Provenance& before, const results::Provena
   return "";
 }
 
-/// Says how a source of the case differs from that of the earlier run; empty if the particles that it
-/// pours in, and their times, are the same.
+/// Says how a source of the case differs from that of the earlier run; empty if the particles that
+/// it pours in, and their times, are the same.
 std::string difference(const SourceProgress& before, const Source& now) {
   if (before.begin_of_case != now.begin)
     return fmt::format("begins at {}, not {}", before.begin_of_case, now.begin);
@@ -57,8 +57,8 @@ std::string difference(const SourceProgress& before, const Source& now) {
   return "";
 }
 
-/// Throws Error(kBadInput) that names `restart` if the state has other particles or sources than the
-/// case, or contacts with planes that the case does not have.
+/// Throws Error(kBadInput) that names `restart` if the state has other particles or sources than
+/// the case, or contacts with planes that the case does not have.
 void check_same_particles(const State& state, const ParticlesCase& c, const fs::path& restart) {
   const auto& p = state.particles;
   const auto differs = [&](const std::string& what) {
