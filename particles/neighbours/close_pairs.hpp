@@ -1,6 +1,7 @@
 // Finds all pairs of close particles by cell lists, for any ratio of radii. Memory grows with the
 // number of particles and pairs, and time also with the number of grids. All lengths are in one
-// unit. A change must keep the order of the pairs, on which the results of a simulation depend.
+// unit. Nothing is thrown. A change must keep the order of the pairs, on which the results of a
+// simulation depend.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace viscontact::particles {
 struct ClosePair {
   std::int32_t first,      ///< number of a particle, < second
       second;              ///< number of a particle
-  std::int32_t image = 0;  ///< of second (periods.hpp)
+  std::int32_t image = 0;  ///< which image of `second` (periods.hpp)
   /// True if the particles and the image are the same.
   bool operator==(const ClosePair&) const = default;
 };

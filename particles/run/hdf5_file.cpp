@@ -28,8 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// While it lives, the C library prints no errors, because they are thrown. Then the library does
-/// as before: other code of the process, such as h5py beside the Python module, may rely on it.
+/// While an object of this class exists, the C library prints no errors, because they are thrown.
+/// Afterwards the library prints errors as it did before: other code of the process, such as h5py
+/// beside the Python module, may rely on it.
 class SilentErrors {
  public:
   SilentErrors() {
@@ -46,7 +47,7 @@ class SilentErrors {
 };
 
 /// The cause of the last error of the C library: the message of the operating system, such as "No
-/// space left on device", or else what the library says itself.
+/// space left on device", or otherwise the message of the library.
 std::string cause_of_error() {
   std::string cause;  // the innermost function that failed says it first
   H5Ewalk2(
@@ -173,7 +174,7 @@ class Arrays {
       if (first.has_array(array.section, array.name))
         arrays_.emplace_back(array, Rows<Number>(group, array.target, array.columns, file));
   }
-  /// Appends those of a frame that must have `count` rows each.
+  /// Appends the arrays of a frame, each of which must have `count` rows.
   void append(const AppendedReader& frame, std::size_t count) {
     for (auto& [array, rows] : arrays_) {
       const auto numbers = frame.array<Number>(array.section, array.name);

@@ -162,7 +162,7 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
   take_over_ids(state, c);
   take_over_bodies(state, c, restart);
   if (c.particles.turn() && !state.particles.turn()) {
-    // The earlier run had nothing that turned its particles.
+    // In the earlier run particles did not turn, so that its restart file has no angles.
     state.particles.angles = c.particles.angles;
     state.particles.orientations = c.particles.orientations;
     state.particles.angular_velocities = c.particles.angular_velocities;
