@@ -15,8 +15,8 @@ namespace viscontact::sweep {
 
 /// What is computed at each point.
 struct SpherePlan {
-  std::filesystem::path case_path;  ///< the case whose keys are varied
-  lubrication::Fit fit;  ///< each point multiplies it by its viscosity over that of the fit
+  std::filesystem::path case_path;       ///< the case whose keys are varied
+  lubrication::Fit fit;                  ///< scaled at each point to the viscosity of the point
   lubrication::OutsideInterval outside;  ///< drag outside the interval of the fit
   Points points;                         ///< at least one variation, no draws
   std::vector<std::string> models;       ///< at least one

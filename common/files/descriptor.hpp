@@ -1,5 +1,6 @@
 // A file descriptor (POSIX) that is closed when its object is destroyed. Files, locks and child
-// processes use it. It throws nothing; who opens a file checks the descriptor.
+// processes use it. Nothing is thrown: the code that opens a file checks its descriptor. A change
+// must keep that no descriptor is closed twice.
 #pragma once
 
 #include <unistd.h>

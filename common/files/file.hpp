@@ -28,8 +28,9 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 void write_file_by(const std::filesystem::path& path,
                    const std::function<void(const std::filesystem::path&)>& write);
 
-/// As write_file, for one of many files: it is on disk only after flush_files(), and what killed
-/// processes have left stays until remove_unfinished(), which reads the whole folder.
+/// As write_file, for one of many files, but faster: the file is on disk only after flush_files().
+/// Files that killed processes have left are not removed; call remove_unfinished() for them, which
+/// reads the whole folder.
 void write_unflushed(const std::filesystem::path& path, std::string_view content);
 /// Returns when these files, which lie in one folder, are on disk. Throws Error(kBadInput), which
 /// names a path, if the disk reports an error.

@@ -33,7 +33,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
   for (;;) {
     std::array<pollfd, 2> files = {pollfd{from_child, POLLIN, 0},
                                    pollfd{to_child.get(), POLLOUT, 0}};
-    // The longest delay until a stop is noticed.
+    // The longest delay until a stop is noticed [ms].
     constexpr int kMilliseconds = 100;
     const int ready = ::poll(files.data(), to_child.get() >= 0 ? 2 : 1, kMilliseconds);
     if (stop.stop_requested() || Clock::now() > deadline) return output;
@@ -53,7 +53,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
   }
 }
 
-/// How a child ended, and what it used.
+/// How a child ended, and the resources that it used.
 struct ChildEnd {
   int status = 0;  ///< status from wait4
   rusage usage{};
