@@ -95,8 +95,8 @@ std::vector<case_file::KeyTable> source_tables();
 
 /// Reads [[membrane]], called by read_particles_of_case(): makes beads, which become particles, and
 /// the membranes of c.setting.fluid or, without a fluid, of c.setting.links. Also throws if the
-/// case has what cannot stand beside membranes, or a fluid that cannot have them; if so few beads
-/// cannot have the reduced area; and for membranes that cross.
+/// case has something that cannot be combined with membranes, or a fluid that cannot have them; if
+/// so few beads cannot have the reduced area; and for membranes that cross.
 void read_membranes(const case_file::TomlSection& root, ParticlesCase& c, ParticleLines& lines);
 /// Describes this section.
 std::vector<case_file::KeyTable> membrane_tables();

@@ -286,7 +286,7 @@ bool ContactProblem::solve(bool is_rough) {
   } else if (std::ranges::any_of(contacts_, [](const auto& c) { return !(c.w > 0); })) {
     iterations_ += estimate_w(contacts_, velocities_.size(), mobility_, layout);
   }
-  // A matrix is solved exactly at once.
+  // With a dense W the accurate solution is as fast as a rough one.
   is_rough_ = is_rough && !is_dense;
   auto conditions = conditions_;
   if (is_rough_) {
@@ -305,8 +305,9 @@ bool ContactProblem::solve(bool is_rough) {
     if (is_solved()) return true;
   }
   conditions.velocity_error = kErrorOfSums;
-  // The allowed residuals follow from the impulses, which the first solution tells. Each round also
-  // divides the error that the skew part of W makes by about the symmetric part over the skew one.
+  // The allowed residuals depend on the impulses, which are known only after the first solution.
+  // Each round also divides the error that the skew part of W makes by about the symmetric part
+  // over the skew one.
   constexpr int kRounds = 4, kRoundsOfSkewPart = 40;
   const int rounds = is_dense && !conditions.is_symmetric ? kRoundsOfSkewPart : kRounds;
   for (int round = 0; round < rounds; ++round) {

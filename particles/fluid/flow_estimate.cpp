@@ -1,6 +1,6 @@
 // Computes a flow up to three times and compares the results. Numbers are in the units of the case.
-// Errors are those of FluidSolver. A change must keep the order of the questions, because each
-// `vary` replaces the fluid of the one before.
+// Errors are those of FluidSolver. A change must keep the order of the questions, because
+// vary_penalty() and vary_mesh() replace what the solver had before.
 #include "viscontact/particles/fluid/flow_estimate.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Lists pairs that are close to contact, chooses the contacts of a step among them and measures
 // their residuals. Numbers are in the units of the case. Errors are those of the mobility, and that
-// of plates that lie on each other. A change must keep the order of pairs, which files have.
+// of plates that overlap. A change must keep the order of pairs, which files have.
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 #include <fmt/format.h>
@@ -366,7 +366,8 @@ Mobility remembered(const Mobility& mobility) {
   return
       [&mobility, answers = std::make_shared<std::map<std::vector<double>, std::vector<double>>>()](
           std::span<const double> forces) {
-        // A contact acts on six components. Sums of many forces do not come again.
+        // The force of one contact has at most six components. Sums of many forces are not asked
+        // for again.
         constexpr std::ptrdiff_t kMost = 6;
         if (std::ranges::count_if(forces, [](double f) { return f != 0; }) > kMost)
           return mobility(forces);

@@ -92,8 +92,9 @@ struct MovedDirections {
     root = scales.asDiagonal() * modes.eigenvectors() * roots.asDiagonal();
   }
 
-  /// Takes the sums that no impulse moves from the offsets, where they are as small as `rounding` of
-  /// all of them explains [L]. Otherwise impulses would grow to move what they cannot.
+  /// Subtracts from the offsets the sums that no impulse moves, if they are so small that the error
+  /// `rounding` of the offsets explains them [L]. Otherwise impulses would grow to move what they
+  /// cannot.
   Eigen::VectorXd consistent(const Eigen::VectorXd& offsets, double rounding) const {
     Eigen::VectorXd scaled = offsets.cwiseQuotient(scales);
     for (Index m = 0; m < unmoved.cols(); ++m) {

@@ -162,7 +162,8 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
                                         : solver_->velocities(difference, false);
     for (std::size_t i = 0; i < changed.size(); ++i) changed[i] += added[i];
   }
-  // What the links hold off turns with them; only the answer of the fluid changes.
+  // The forces of links turn with the links. Therefore the earlier velocities get the directions
+  // that the links have now, and only the change of the answer of the fluid is extrapolated.
   if (held_ != nullptr) held_->hold_velocities(earlier);
   const double share = h / (2 * state_.earlier_step);
   for (std::size_t i = 0; i < free.size(); ++i) {

@@ -16,7 +16,7 @@ using Eigen::Index;
 
 namespace {
 
-// What is smaller than this times the errors of the answers counts as zero.
+// Numbers smaller than this times the errors of the solver's answers count as zero.
 constexpr double kAboveErrors = 10;
 
 }  // namespace

@@ -30,8 +30,8 @@ struct HeldRow {
   std::string name{};  ///< in messages
 };
 
-/// Answers as the fluid solver that it owns, with forces in the rows added that keep the
-/// conditions.
+/// A fluid solver that holds the particles: it adds forces in the rows, so that the conditions are
+/// kept, and passes the questions on to the solver that it owns.
 ///
 /// With the mobility S of the fluid, the forces l of the rows A v = rate solve A S A^T l = rate -
 /// A S f, so that one question to the fluid for each row is asked at each placement, and then one
