@@ -1,5 +1,5 @@
 // Starts FreeFEM with membranes.edp, which computes Stokes flow with membranes. Units are those of
-// the solver (freefem_solver.cpp).
+// the solver (freefem_solver.cpp, which calls it).
 #pragma once
 
 #include <memory>
