@@ -21,8 +21,8 @@ constexpr double kOfGapAt24Edges = 0.4;
 /// With fewer edges on the particle, an edge across a gap is still at most this fraction of the
 /// gap, because a film with one edge across it is 7 % too stiff.
 constexpr double kLargestOfGap = 0.5;
-/// At gaps of more than kNarrow smallest radii films matter less. There the edges grow faster with
-/// the gap: by kFurtherAt24Edges per length, with 24 edges.
+/// At gaps of more than kNarrow smallest radii films matter less. With 24 edges, kFurtherAt24Edges
+/// times what the gap exceeds this width is added to the length of an edge.
 constexpr double kNarrow = 0.3, kFurtherAt24Edges = 0.35;
 /// Growth of the edges per distance from a particle, with 24 edges on the smallest one. It is
 /// proportional to the edge length, so that all lengths of a mesh shrink together.
