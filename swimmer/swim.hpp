@@ -1,6 +1,6 @@
 // What a stroke does: displacement, energy, positions, forces and power, and how exact they are.
 // Lengths, masses and times are in the units of the fit and of the stroke. The commands `swimmer`
-// and `sweep` use it. A change must keep sums to round-off.
+// and `sweep` use it. A change may alter sums by rounding errors only.
 #pragma once
 
 #include <Eigen/Core>
