@@ -44,7 +44,7 @@ class Blow {
   std::optional<FluidBlow> solve();
 
  private:
-  // A contact in the course of the blow.
+  // A contact in the course of the blow. e_d is the coefficient of restitution of the solids [1].
   struct Part {
     double drift = 0;        // as drift_of()
     double start = 0;        // gap at the beginning of the step, >= 0 [L]
@@ -56,7 +56,7 @@ class Blow {
     double compressed = 0;   // impulse at the end of the compression, with the load
     double solid = 0;        // impulse s of the hit that the solids take, >= 0
     double left = 0;         // gamma at the end of the compression, <= 0
-    double restored = 0;     // least impulse of the whole blow: compressed + left + restitution * solid
+    double restored = 0;     // least impulse of the whole blow: compressed + left + e_d solid
   };
 
   bool find_hits();
