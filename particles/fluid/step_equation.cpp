@@ -405,7 +405,7 @@ std::array<double, 3> StepEquation::given_motion(const GivenMotion& motion, doub
 
 /// True if the given velocity of a driven particle differs from that in the step before.
 bool StepEquation::has_jump(std::int32_t driven) const {
-  // Before the first step, nothing jumps that theta = 1 does not damp.
+  // The first step has theta = 1, which damps all jumps.
   if (!(state_.earlier_step > 0)) return false;
   const double before = std::max(0.0, state_.time - state_.earlier_step);
   const auto earlier = given_motion(setting_.given_motions.at(driven), before, state_.time);
