@@ -147,9 +147,9 @@ class Iteration {
   /// Makes gaps and bilateral rows exact after a step from the impulses `center` whose slips are
   /// allowed. Between jammed particles that stick, slips are never 0: impulses would grow without
   /// end, and this changes gaps by more than their small tolerance. Therefore further steps change
-  /// the center of normal impulses only. For the slips, an epsilon is taken that is so large that
-  /// the small changes of the gaps hardly change the friction, and the center with which the
-  /// branches of all contacts remain. Returns whether the problem is solved.
+  /// the center of normal impulses only. For the slips, epsilon is so large that the small changes
+  /// of the gaps hardly change the friction, and the center is the one with which all contacts keep
+  /// their branches. Returns whether the problem is solved.
   bool close_gaps(std::vector<double> center, int max_iterations) {
     constexpr int kMostSteps = 12, kMostIterations = 200;
     constexpr double kEpsilonOfSlips = 1e-3, kLeastEpsilon = 1e-6, kFactor = 3;
@@ -271,7 +271,8 @@ class Iteration {
   }
 
   /// Between jammed particles, impulses that balance each other grow by the same small amounts in
-  /// each step, and the residual stays, until a contact slips or opens. Goes there at once.
+  /// each step, and the residual stays, until a contact slips or opens. This function adds all
+  /// these amounts at once.
   void extend_change(const std::vector<double>& center) {
     const auto& p = problem_.impulses;
     double length = std::numeric_limits<double>::infinity();

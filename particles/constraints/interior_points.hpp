@@ -103,8 +103,9 @@ class InteriorPoints {
   std::vector<Motion<D>> y_, direction_, error_;  // error_: impulses that are missing
   std::vector<Motion<D>> right_;                  // of a system of equations, then its solution
   std::vector<double> impulses_;
-  double gap_ = 0;     // mean u.r of the cones
-  double degree_ = 0;  // sum of the degrees of the cones: how many linear conditions they are
+  double gap_ = 0;  // mean u.r of the cones
+  double degree_ =
+      0;  // divisor of this mean: 1 for each gap, e.e for each cone (e: unit of its product)
 };
 
 }  // namespace viscontact::particles
