@@ -130,7 +130,7 @@ class HeldSolver : public FluidSolver {
   std::vector<std::vector<double>> responses_;  // S A^T of each row
   Eigen::MatrixXd matrix_;                      // A S A^T
   // The parts of the matrix in scaled rows: of the rows without stiffness (fixed), of springs for
-  // forces of the fixed rows, and what is left of that of the springs while the others hold.
+  // forces of the fixed rows, and of the springs if the fixed rows hold.
   std::vector<Eigen::Index> fixed_, springs_;
   Eigen::VectorXd scale_;
   Eigen::MatrixXd fixed_matrix_, coupling_, spring_responses_, spring_matrix_;
