@@ -26,8 +26,8 @@ Vector Impacts<D>::offset_at(std::int32_t k, double t) const {
 }
 
 /// The velocity of a member of a body at the time `t` of the step, minus that of its flight on a
-/// parabola. An impulse must see the velocity of the point at which it acts, so that e_d = 1 keeps
-/// the energy.
+/// parabola. With e_d = 1 a blow keeps the energy only if its impulse depends on the velocity of
+/// the point at which it acts.
 template <int D>
 Vector Impacts<D>::turning_velocity(std::int32_t k, double t) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
@@ -184,7 +184,8 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     converged_ = is_solved(ConstraintStart::kSweeps, 10000) && converged_;
   };
   solve(compression);
-  // The film takes what it can, the solids the rest.
+  // The film takes what it can, the solids the rest. All are impulses [M L/T]: what the film can
+  // take, p, s, gamma_c, and gamma_c + e_d s (restitution_law.hpp).
   struct Phases {
     double capacity, compressed, solid, gamma, lowest;
   };

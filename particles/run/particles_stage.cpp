@@ -200,7 +200,7 @@ class Run {
 };
 
 /// Says how the run ended, after its files are written. Throws Error(kInterrupted) if the run was
-/// interrupted, Error(kNotConverged) if a step did not converge.
+/// interrupted, Error(kNotConverged) if a step missed the tolerances by more than kStillAResult.
 void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State& state,
                   const fs::path& folder, const StopToken& stop) {
   terminal::say(fmt::format(
