@@ -73,7 +73,7 @@ struct ParticleLines {
 /// Also throws if there is neither a particle nor a source; for a key of particles in a fluid if the
 /// case has no fluid; for a rotation on an axis; for a force, a torque or an initial velocity of a particle whose
 /// motion is given, because it has no effect; for an arrangement in a domain that is no disc or
-/// box; and if its discs do not fit.
+/// box; and if its particles do not fit.
 ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c);
 
 /// Reads [arrangement], called by read_particles_of_case(), and adds its particles, which are at
