@@ -93,7 +93,7 @@ void add_rigid_body(Particles& particles, const RigidBodyRequest& request);
 
 /// An axis of a periodic cell along which members do not determine which images make the body.
 struct AmbiguousImages {
-  std::size_t axis = 0;  ///< 0: x, 1: y
+  std::size_t axis = 0;  ///< 0: x, 1: y, 2: z
   double distance = 0;   ///< largest distance between neighbours, which occurs repeatedly [L]
 };
 
