@@ -287,7 +287,7 @@ void stretch(const TomlSection& section, double scale, Motion& motion) {
                   scale);
 }
 
-/// A motion without a force, whose other values are read or described.
+/// A motion without a force. Its other values are set later, where the keys are read or described.
 Motion empty_motion() { return {0, 0, 0, 0, ExternalForce({{1, 0}})}; }
 
 /// Reads [motion] and the sections with parameters of models. A section that exists is checked even
@@ -399,7 +399,7 @@ std::vector<std::string_view> sections_with_defaults<Case>() {
 Case read_case(const fs::path& path) { return read_case_file<Case>(path); }
 
 std::vector<KeyTable> tables_of_sphere_case() {
-  // The examples of the parameters of models are their defaults for the other examples.
+  // The example of a model's parameter is its default for the motion with the other examples.
   auto motion = empty_motion();
   motion.end_time = 4;
   motion.initial_gap = 1;

@@ -1,5 +1,5 @@
-// The keys that all kinds of cases have (case_template.hpp). A wrong value is an Error(kBadInput). A
-// change must keep accepting users' cases.
+// The keys that all kinds of cases have (case_template.hpp). A wrong value is an Error(kBadInput).
+// A change must keep accepting users' cases.
 #include "viscontact/case_file/case_template.hpp"
 
 #include "viscontact/case_file/keys.hpp"

@@ -1,6 +1,6 @@
-// What sweeps ask of any kind of case: its section [sweep], and a case file that is read once and
-// from which cases with other numbers are made. Numbers have the units of the case. A kind of case
-// takes part by a specialisation of case_of_root(), which its own header declares.
+// The parts that all kinds of cases share for sweeps: the section [sweep], and a case file that is
+// read once and from which cases with other numbers are made. Numbers have the units of the case. A
+// kind of case takes part by a specialisation of case_of_root(), which its own header declares.
 #pragma once
 
 #include <cstdint>
@@ -31,12 +31,12 @@ struct SweepRequest {
   std::uint64_t draws = 0;
 };
 
-/// Declares the keys of [sweep] that choose points and what is drawn of them.
+/// Declares the keys of [sweep] that choose the points and the picture.
 void points_and_plot_keys(Keys& keys, SweepRequest& sweep);
 
-/// Reads the key `units` of the root table, if it is there. Throws Error(kBadInput) with the line if
-/// a word is missing, empty or longer than 20 bytes, or has a character that pages or gnuplot would
-/// read as a command.
+/// Reads the key `units` of the root table, if it is there. Throws Error(kBadInput) with the line
+/// if a word is missing, empty or longer than 20 bytes, or has a character that pages or gnuplot
+/// would read as a command.
 void read_units(const TomlSection& root, Units& units);
 /// What docs/case-file.md says about that key.
 KeyTable table_of_units();

@@ -29,7 +29,7 @@ void fluid_keys(Keys& keys, double& viscosity, double& density);
 /// the mass. With `needs_mass` the case must give one of the two.
 void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool needs_mass);
 
-/// What gravity pulls at: the mass [M] of a sphere less that of the fluid which it displaces
+/// The mass [M] of a sphere minus that of the fluid which it displaces, on which gravity acts
 /// (physics.md (4.15)). The volume of the sphere is in [L^3]. It is 0 if both densities are equal.
 double mass_less_displaced_fluid(double mass, double fluid_density, double radius);
 

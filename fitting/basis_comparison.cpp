@@ -1,5 +1,6 @@
 // Makes one fit for each basis (docs/theory.md). A basis that cannot be fitted is kept with its
-// error. A change must keep all other settings equal, for the criteria.
+// error. A change must keep all other settings equal, because only then the criteria can be
+// compared.
 #include "viscontact/fitting/basis_comparison.hpp"
 
 #include "viscontact/common/error.hpp"

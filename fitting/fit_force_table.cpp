@@ -64,7 +64,8 @@ double chi_squared_quantile(double degrees_of_freedom) {
   return boost::math::quantile(chi_squared, 0.99);
 }
 
-/// True for a residual above 5 times the scale; of Gaussian residuals one in two million is.
+/// True for a residual above 5 times the scale, which only one of two million Gaussian residuals
+/// exceeds.
 bool is_far(double scaled_residual) { return std::abs(scaled_residual) > 5; }
 
 /// True for a row that a robust loss sets aside.
@@ -183,8 +184,7 @@ std::vector<lubrication::Outlier> outliers(const lubrication::MotionTable& table
   return found;
 }
 
-/// Warns if the fitted resistance is not positive or not decreasing, as far as its shape demands
-/// it.
+/// Warns if the fitted resistance is not positive or not decreasing, if `shape` demands this.
 void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
                    std::vector<std::string>& warnings) {
   bool positive = shape != lubrication::FittedShape::kAny,
@@ -345,7 +345,7 @@ struct Equations {
   Eigen::VectorXd left;
   // A column for each fitted term.
   Eigen::MatrixXd terms;
-  // What the relative residual of each row refers to.
+  // The force to which the relative residual of each row refers [M L/T^2], > 0.
   Eigen::VectorXd scale;
   // The weight of each row: 1/|scale| or 1.
   Eigen::VectorXd weight;

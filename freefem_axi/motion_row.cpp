@@ -80,9 +80,9 @@ bool take(const std::vector<ActionLine>& lines, std::size_t bodies, std::vector<
   return true;
 }
 
-/// By the reciprocal theorem the power of the forces of rolling at the velocities of sliding is
-/// that of the forces of sliding at the velocities of rolling. Returns the difference of both over
-/// what the error estimates allow.
+/// By the reciprocal theorem the power of the forces of rolling at the velocities of sliding equals
+/// that of the forces of sliding at the velocities of rolling. Returns the difference of both,
+/// divided by the difference that the error estimates allow.
 double asymmetry(const Tabulation& tabulation, const std::vector<MotionRow>& rows) {
   const auto& slide = rows.at(0);
   const auto& roll = rows.at(1);

@@ -305,8 +305,8 @@ std::string if_silent() {
 SolverCommand freefem_command(const std::string& script) {
   const auto folder = freefem::find_script_folder("freefem_flow", script);
   auto command = freefem::make_command(freefem::executable_of_user(), folder, script, {});
-  // MUMPS lets Scotch order systems of more than 5000 rows. Scotch takes random numbers, which go
-  // on from one system to the next, and orders with several threads differently each time.
+  // MUMPS lets Scotch order systems of more than 5000 rows. Scotch takes random numbers from one
+  // sequence for all systems, and with several threads its order differs each time.
   command.environment.emplace_back("SCOTCH_PTHREAD_NUMBER=1");
   constexpr std::size_t kMostReproduced = 4000;
   return {std::move(command.arguments), std::move(command.environment), std::move(command.folder),

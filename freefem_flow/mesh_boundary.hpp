@@ -40,12 +40,13 @@ struct MeshBoundary {
   }
 };
 
-/// The boundary of a mesh for these particles, whose gaps must be greater than 0. With a fitted
-/// mesh, edges get shorter where a gap is narrow (boundary/edge_lengths.hpp), and the particles'
-/// surfaces are curves: holes of the mesh if the rigid motions are unknowns, else lines inside it.
-/// Where the domain is periodic, a fitted mesh does not end at straight sides, which would cut
-/// particles, but halfway between neighbours (boundary/periodic_cells.hpp). The edges are about
-/// `coarsening` > 0 times as long as the fluid says.
+/// The boundary of a mesh for these particles, whose gaps must be greater than 0, except that discs
+/// of one body may overlap if the rigid motions are unknowns. With a fitted mesh, edges get shorter
+/// where a gap is narrow (boundary/edge_lengths.hpp), and the particles' surfaces are curves: holes
+/// of the mesh if the rigid motions are unknowns, else lines inside it. Where the domain is
+/// periodic, a fitted mesh does not end at straight sides, which would cut particles, but halfway
+/// between neighbours (boundary/periodic_cells.hpp). The edges are about `coarsening` > 0 times as
+/// long as the fluid says.
 MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
                            const particles::FluidParticles& bodies, double coarsening = 1);
 

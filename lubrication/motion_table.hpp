@@ -11,9 +11,9 @@
 
 namespace viscontact::lubrication {
 
-/// Force and torque of the fluid on a body. The factors are force and torque over those of the
-/// sphere alone but for the sign: force = -6 pi mu r u0 * force_factor if the sphere moves at u0
-/// [L/T], -6 pi mu r^2 w0 * force_factor if it turns at w0 [1/T]; torque = -8 pi mu r^2 u0 *
+/// Force and torque of the fluid on a body. The factors are force and torque divided by those of
+/// the sphere alone, except for the sign: force = -6 pi mu r u0 * force_factor if the sphere moves
+/// at u0 [L/T], -6 pi mu r^2 w0 * force_factor if it turns at w0 [1/T]; torque = -8 pi mu r^2 u0 *
 /// torque_factor, or -8 pi mu r^3 w0 * torque_factor. mu is the viscosity, r always the radius of
 /// the first sphere. The errors of the factors are relative to the sphere's force factor if it
 /// moves, and to its torque factor if it turns.
@@ -32,7 +32,7 @@ struct Action {
 /// approach the torque is 0. The force (torque) of a sphere that moves (turns) is opposed to its
 /// velocity, unless the neighbour moves and pulls it along.
 struct MotionRow : Action {
-  static constexpr bool kIsOfLine = false;  ///< table_codec.hpp
+  static constexpr bool kIsOfLine = false;  ///< its head has one radius
   double gap = 0;                           ///< q [L], > 0
   /// u0 [L/T] of a sphere that moves, < 0 when it approaches; w0 [1/T] of one that turns; not 0.
   double reference_velocity = 0;

@@ -9,8 +9,8 @@
 namespace viscontact::lubrication {
 namespace {
 
-/// Force and torque on the sphere over ln(1/q), in units of mu r U and mu r^2 U, where U is the
-/// velocity of the motion.
+/// Force and torque on the sphere divided by ln(1/q), in units of mu r U and mu r^2 U, where U is
+/// the velocity of the motion.
 struct FilmAction {
   double force = 0, torque = 0;
 };

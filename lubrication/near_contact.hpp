@@ -10,7 +10,7 @@
 
 namespace viscontact::lubrication {
 
-/// The neighbour of a sphere of radius 1, as the film between them sees it.
+/// The neighbour of a sphere of radius 1: its properties on which the film between them depends.
 struct NeighbourSurface {
   /// 1 over the neighbour's radius [1]: 0 of a plane, < 0 of a cavity; > -1.
   double curvature = 0;

@@ -18,9 +18,9 @@ namespace viscontact::lubrication {
 /// with power = 1 for a force per velocity, 2 for a force per angular velocity or a torque per
 /// velocity, and 3 for a torque per angular velocity. Each term is a power of q, or such a power
 /// times ln q (terms.hpp), which becomes a sum of both: ln(q r/r') = ln q - ln(r'/r). A term that
-/// the fit lacks is added for it. Interval, theory's coefficient, errors and lengths in words
-/// follow. If both radii are equal up to rounding, only the factor mu'/mu is applied, and if it is
-/// 1, nothing changes.
+/// the fit lacks is added for this. Interval, theory's coefficient, errors, and lengths in the
+/// words for geometry and container are scaled, too. If both radii are equal up to rounding, only
+/// the factor mu'/mu is applied, and if it is 1, nothing changes.
 Fit scaled_to(Fit fit, double viscosity, double radius, int power = 1);
 
 /// The factor of a term's coefficient in scaled_to() without (mu'/mu) (r'/r)^power: the term at the

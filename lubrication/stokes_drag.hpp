@@ -1,5 +1,6 @@
 // The drag of a sphere in an unbounded fluid, the unit in which tables, fits and limits give other
-// drags. It checks nothing.
+// drags. Nothing is checked or thrown. A change must keep the value, because factors in published
+// tables refer to it.
 #pragma once
 
 #include <numbers>

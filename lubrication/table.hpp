@@ -1,6 +1,6 @@
-// What all tables have in common that FreeFEM computes and the fits read: a head, and rows with
-// named columns of values and error estimates. Lengths, masses and times are in any consistent
-// units. A change must keep the keys of the head, which published tables have.
+// The common part of all tables that FreeFEM computes and fits read: a head, and rows with named
+// columns of values and error estimates. Lengths, masses and times are in any consistent units. A
+// change must keep the keys of the head, which published tables have.
 //
 // A kind of table is a struct Row and four functions beside it: columns_of(), prepare(), complete()
 // and check() (table_codec.hpp). A new column is a member of the row and a line of columns_of();

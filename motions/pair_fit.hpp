@@ -73,7 +73,8 @@ struct PairFit {
 };
 
 /// The value of an entry at a gap [L] > 0, in the dimension that EntryFit gives. Throws
-/// Error(kBadInput) if the fit lacks the entry. Outside the interval the formula goes on.
+/// Error(kBadInput) if the fit lacks the entry. Outside the interval the formula of the fit is
+/// continued.
 double entry_value(const PairFit& fit, PairEntry entry, double gap);
 
 /// The fit for another viscosity [M/(L T)] > 0 and radius [L] > 0 (lubrication/scaling.hpp).

@@ -13,7 +13,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// Where the bodies of a pair are to each other.
+/// The relative place of the two bodies of a pair.
 struct Place {
   double gap = 0;   ///< [L]
   Vector normal{},  ///< unit normal from the first to the second body
@@ -85,8 +85,8 @@ double smallest_gap_of_images(const Particles& p) {
 
 ContactFriction friction_of(const Setting& setting, const PairMemory& memory) {
   // Solvers set the friction of a sliding contact to its bound, so that it has this value within
-  // rounding errors. In a divided step friction and bound are sums over the parts, which are equal
-  // if the direction of the friction did not change.
+  // rounding errors. In a divided step friction and bound are sums over the parts; the sums are
+  // equal if the direction of the friction did not change.
   constexpr double kRounding = 1e-9;
   const double carried = memory[Remembered::kCarried];
   if (!setting.laws.friction || !(carried > 0)) return ContactFriction::kNone;
@@ -145,7 +145,7 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
   std::vector<CurrentContact> contacts;
   const auto& p = state.particles;
   const auto places = positions_of(obstacles_of(setting), state.time);
-  // Particles in a fluid are held at its threshold gap.
+  // Contacts in a fluid act at its threshold gap.
   const double touching = setting.solver.tolerance * mean_radius(p) +
                           (setting.fluid ? setting.fluid->threshold_gap : 0);
   for (const auto* pairs : {&state.pairs, &state.walls})

@@ -37,7 +37,8 @@ struct CurrentContact {
   /// Vector to the centre of `second` from that of `first`, or from the nearest point of an
   /// obstacle [L].
   Vector branch{};
-  /// What laws remember of the pair and files show. It takes no room if there is nothing to show.
+  /// The numbers that laws remember of the pair and files show. It takes no memory if there are
+  /// none.
   [[no_unique_address]] ShownMemory shown{};
 };
 

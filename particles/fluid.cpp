@@ -13,7 +13,8 @@ namespace viscontact::particles {
 
 namespace {
 
-/// The factor of what pulsates.
+/// The factor 1 + amplitude sin(2 pi time/period) of a velocity or pressure gradient; 1 without
+/// period.
 double pulsation(double period, double amplitude, double time) {
   return period > 0 ? 1 + amplitude * std::sin(2 * std::numbers::pi * time / period) : 1;
 }

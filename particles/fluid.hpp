@@ -125,8 +125,9 @@ struct Fluid {
   std::vector<std::array<double, 2>> semi_axes{};
   /// Which particles are plates with round ends, one number for each: 1 or 0. Empty: none is.
   std::vector<char> plates{};
-  /// Area of each disc beyond the chords at which discs of its body that overlap it cut it [L^2]
-  /// (chords_of(), overlapping_members.hpp), >= 0. Empty: no members of bodies overlap.
+  /// Where discs of one body overlap, each is cut at the chord through the points where their
+  /// circles meet (overlapping_members.hpp). This is the area of each disc beyond its chords [L^2],
+  /// >= 0. Empty: no members of bodies overlap.
   std::vector<double> cut_areas{};
 
   /// Membranes in the fluid, in the order of their beads, which are all particles of the case.

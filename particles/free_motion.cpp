@@ -69,7 +69,8 @@ std::vector<BodyLoad> Simulation::loads_of_bodies(
   return loads;
 }
 
-/// Sets the steps of the rigid bodies in free motion, and what follows for their members.
+/// Sets the steps of the rigid bodies in free motion, and the displacements and turns of their
+/// members.
 void Simulation::move_bodies_freely(double h, double next) {
   const auto& p = state_.particles;
   const auto loads = loads_of_bodies(

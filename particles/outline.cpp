@@ -1,5 +1,5 @@
-// Distances to circles, ellipses and plates. Lengths are in the unit of the case. Nothing is checked
-// or thrown. A change must keep distances to rounding errors.
+// Distances to circles, ellipses and plates. Lengths are in the unit of the case. Nothing is
+// checked or thrown. A change must keep distances exact to rounding errors.
 #include "viscontact/particles/outline.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ double distance_to_ellipse(double a, double b, double x, double y) {
   const double u = x / a, v = y / b;
   double near_x = 0, near_y = b;
   if (v > 0) {
-    double s = std::max(v - 1, square * (u - 1));  // where one term alone is 1
+    double s = std::max(v - 1, square * (u - 1));  // where one of the two terms alone is 1
     for (int n = 0; n < 100; ++n) {
       const double p = square * u / (s + square), q = v / (s + 1);
       const double value = p * p + q * q - 1;
@@ -45,8 +45,8 @@ double distance_to_ellipse(double a, double b, double x, double y) {
   return u * u + v * v < 1 ? -distance : distance;
 }
 
-/// The least value of a function on the outline, which has at most two local minima: among evenly
-/// spaced parameters, then by thirds around the least of them.
+/// The least value of a function on the outline, which has at most two local minima: first at
+/// evenly spaced parameters, then around the best of them by ternary search.
 template <class Function>
 double least_on(const Outline& outline, const Function& function) {
   constexpr int kSamples = 128;
@@ -60,7 +60,7 @@ double least_on(const Outline& outline, const Function& function) {
     }
   double low = at - kStep, high = at + kStep;
   constexpr int kDivisions =
-      60;  // (2/3)^60 is 3e-11: the value is exact to the rounding of its square
+      60;  // (2/3)^60 is 3e-11: its square is below rounding errors of the value
   for (int n = 0; n < kDivisions; ++n) {
     const double first = low + (high - low) / 3, second = high - (high - low) / 3;
     if (value(first) < value(second))
@@ -200,7 +200,7 @@ double Outline::curvature_radius_at(double t) const {
 
 double distance_to(const Outline& outline, const Point& x) {
   const double dx = x[0] - outline.centre[0], dy = x[1] - outline.centre[1];
-  // Not hypot, which takes ten times as long and matters for lengths beyond 1e150 only.
+  // std::hypot would take ten times as long, and is better only for lengths beyond 1e150.
   if (outline.is_circle()) return std::sqrt(dx * dx + dy * dy) - outline.radius;
   if (outline.is_plate)
     return distance(nearest_on_line(outline.spine(), x), x) - outline.end_radius();

@@ -19,9 +19,10 @@ namespace viscontact::particles {
 /// semi_axes[1]) through the centre along `angle`. The spine of a circle is its centre.
 struct Outline {
   std::array<double, 2> centre{};  ///< [L]
-  /// Of the circle, or the larger semi-axis of the ellipse: that of the circle around it [L], > 0.
+  /// Radius of the circle or, for an ellipse or plate, of the circle around it: its larger
+  /// semi-axis [L], > 0.
   double radius = 0;
-  std::array<double, 2> semi_axes{};  ///< of an ellipse [L], > 0; equal to each other: a circle
+  std::array<double, 2> semi_axes{};  ///< of an ellipse or plate [L], > 0; equal: a circle
   double angle = 0;       ///< of the first semi-axis of an ellipse or plate with the x axis
   bool is_plate = false;  ///< whether it is a plate; then semi_axes[0] > semi_axes[1]
 
@@ -60,18 +61,18 @@ SpinePoints nearest_on_spines(const Outline& first, const Outline& second);
 /// have the numbers 0 and 1 of the ends of the first spine, and 2 and 3 of those of the second one.
 /// The nearest place is a contact. Another contact is the nearest place of which neither point is
 /// within a tenth of the smaller end radius of those of the first contact, so that it keeps the
-/// other ends apart where plates lie on each other. Each further place belongs to the contact that
-/// is nearer to it.
+/// other ends apart if plates lie side by side. Each further place belongs to the contact that is
+/// nearer to it.
 class SpineContacts {
  public:
-  /// Of both outlines as they are now.
+  /// Finds the contacts of both outlines at their present places.
   SpineContacts(const Outline& first, const Outline& second);
   /// The place of each contact, one or two.
   const std::vector<int>& places() const { return places_; }
   /// The place of the contact to which the place `place` belongs.
   int contact_of(int place) const { return contact_of_[static_cast<std::size_t>(place)]; }
-  /// The points of the contact to which the place `place` belongs, when the outlines have become
-  /// `first` and `second`: of all its places the nearest one.
+  /// The points of the contact to which the place `place` belongs, after the outlines have moved to
+  /// `first` and `second`: those of the place of this contact with the least distance.
   SpinePoints at(int place, const Outline& first, const Outline& second) const;
 
  private:

@@ -1,7 +1,8 @@
-// What contact laws remember of a pair besides gamma, declared once: the restart file,
-// contacts.csv, final_contacts.csv and the frames learn it from kMemoryFields. To add a memory, add
-// a row there and its place in Remembered, whose comment says the unit. A memory is dropped when
-// gamma is 0 and the pair leaves the lists of close pairs; a law must not rely on it longer.
+// What contact laws remember of a pair besides gamma. It is declared once, in kMemoryFields, from
+// which the restart file, contacts.csv, final_contacts.csv and the frames take it. To add a memory,
+// add a row to kMemoryFields and a place to Remembered, with the unit in its comment. A memory is
+// dropped when gamma is 0 and the pair leaves the lists of close pairs; a law must not rely on it
+// longer.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +30,7 @@ enum class Remembered : std::uint8_t {
 /// How files know a number that a law remembers.
 struct MemoryField {
   std::string_view name;  ///< in restart files and as a column
-  bool is_impulse;        ///< of the last step: a step that is divided sums it over its parts
+  bool is_impulse;        ///< an impulse of the last step, summed over the parts of a divided step
   bool is_shown;          ///< whether contacts.csv and the frames have the number
 };
 

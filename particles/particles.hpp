@@ -29,10 +29,10 @@ struct Particles {
   std::vector<double> velocities;  ///< [L/T]
   std::vector<double> radii;       ///< [L], > 0
   std::vector<double> masses;      ///< [M], > 0; >= 0 in a fluid
-  /// Name of each particle in files, >= 0; no two are equal. Empty: k is named k.
+  /// Name of each particle in files, >= 0; no two are equal. Empty: particle k has the name k.
   std::vector<std::int32_t> ids{};
-  // Rotation. Empty if nothing in the case makes rotation matter (docs/particles.md), and on an
-  // axis.
+  // The next four arrays describe rotation. They are empty if nothing in the case depends on
+  // rotation (docs/particles.md), and on an axis.
   std::vector<double> angles{};  ///< of discs, counter-clockwise [rad]; empty for spheres
   /// Orientations of spheres: unit quaternions, four numbers (w, x, y, z) for each particle, which
   /// turn directions of the start into those of now; empty for discs.
@@ -81,8 +81,8 @@ inline std::size_t ids_left(const Particles& particles) {
                                   largest_id(particles));
 }
 
-/// If particles have ids, gives the last ones, which have none, the largest id so far plus 1, 2, ...
-/// There must be as many ids_left().
+/// If particles have ids, the last particles, which have none yet, get the largest id so far plus
+/// 1, 2, ... ids_left() must be at least their number.
 inline void add_missing_ids(Particles& particles) {
   if (particles.ids.empty()) return;
   auto largest = largest_id(particles);
@@ -117,8 +117,9 @@ inline double size_of_plate(const std::array<double, 2>& semi_axes) {
   return size_of_particle(2, b) + 4 * (a - b) * b;
 }
 
-/// Moment of inertia of a homogeneous plate about its centre [M L^2]: that of the rectangle of the
-/// half sides l = a - b and b, and of the two half discs, whose centroids are 4 b/(3 pi) beyond it.
+/// Moment of inertia of a homogeneous plate about its centre [M L^2]: the sum for the rectangle of
+/// the half sides l = a - b and b and for the two half discs, whose centroids are 4 b/(3 pi) beyond
+/// it; a and b are the semi-axes.
 inline double homogeneous_inertia_of_plate(double mass, const std::array<double, 2>& semi_axes) {
   const auto [a, b] = semi_axes;
   const double l = a - b, discs = size_of_particle(2, b), rectangle = 4 * l * b;

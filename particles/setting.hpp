@@ -25,11 +25,11 @@ namespace viscontact::particles {
 /// Velocities of a driven particle, which no force changes. Both are 0 after their last piece.
 struct GivenMotion {
   PiecewiseConstant velocity;          ///< of the centre [L/T]
-  PiecewiseConstant angular_velocity;  ///< counter-clockwise, value[2] of each piece [1/T]
+  PiecewiseConstant angular_velocity;  ///< counter-clockwise, Piece::value[2] [1/T]
 };
 
-/// At which time the velocities u^n of the scheme stand, docs/physics.md (5.3) and (5.10); t^n is
-/// the time at the end of step n.
+/// The time to which the velocities u^n of the scheme belong, docs/physics.md (5.3) and (5.10); t^n
+/// is the time at the end of step n.
 enum class Scheme {
   kEuler,     ///< u^n is the velocity at t^n; positions are of first order in the step
   kLeapfrog,  ///< u^n is the velocity half a step before t^n; of second order away from impacts
@@ -53,7 +53,7 @@ struct Setting {
   Scheme scheme = Scheme::kEuler;  ///< kLeapfrog only without a fluid
   SolverSettings solver;           ///< tolerances and limits of the projection
   std::optional<Fluid> fluid;      ///< around the particles; needs a domain
-  /// Torques on single particles, by the number of the particle [M L^2/T^2]; for discs value[2],
+  /// Torques on single particles, by the number of the particle [M L^2/T^2]; for discs component 2,
   /// counter-clockwise. Needs particles that turn. A particle with a torque has no entry in
   /// `given_motions`.
   std::map<std::int32_t, PiecewiseConstant> torques;

@@ -44,7 +44,8 @@ std::array<std::int32_t, 3> key_of(const Pair& pair) {
   return {pair.first, pair.second, pair.image};
 }
 
-/// Calls `change` for each number that `memory` keeps of impulses of a step, and that of `other`.
+/// Calls `change` with each number of `memory` that is an impulse of the step, and the same number
+/// of `other`.
 template <class Change>
 void for_impulses(PairMemory& memory, const PairMemory& other, const Change& change) {
   for (std::size_t f = 0; f < kMemoryFields.size(); ++f)
@@ -67,7 +68,8 @@ Simulation::Simulation(Setting setting, State state, int threads)
   wrap_into_cell(state_);
   if (state_.steps > 0) check_shapes(setting_.links.membranes, state_.particles);
   if (setting_.sources.empty()) return;
-  // The arrays have room for all particles to come, because callers may view them.
+  // The arrays get room for all particles that sources will pour in, so that they stay where they
+  // are and callers may view them.
   auto& p = state_.particles;
   auto most = p.count();
   for (const auto& source : setting_.sources) most += source.due(source.end);
@@ -91,7 +93,8 @@ void Simulation::pour() {
   if (!setting_.added_torques.empty()) added_torques();
 }
 
-/// Multiplies the impulses of all pairs, which are guesses for a part of a step of another length.
+/// Multiplies the impulses of all pairs by `factor`. They serve as guesses for a part of a step of
+/// another length.
 void Simulation::scale_impulses(double factor) {
   for_pairs([&](Pair& pair) {
     pair.impulse *= factor;
@@ -354,7 +357,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     scale_impulses(0.5);
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
-    // The caller may go on with a part of twice the length, for which the impulses are the guess.
+    // The next part may have twice the length; its guess are these impulses times 2.
     if (halvings > 0) scale_impulses(2);
     return;
   }

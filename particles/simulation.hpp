@@ -50,9 +50,9 @@ class Simulation {
   ~Simulation();
   Simulation(Simulation&&) noexcept;  ///< the other simulation must not be used afterwards
 
-  /// Computes one step and pours in the particles of Setting::sources that are due at its end. A new
-  /// simulation begins with those that are due at its begin. Arrays of the particles keep their places
-  /// in memory.
+  /// Computes one step and pours in the particles of Setting::sources that are due at its end.
+  /// Those that are due at the time at which a new simulation begins are poured in at once. Arrays
+  /// of the particles keep their places in memory.
   ///
   /// The step has the length h = Setting::time_step, but for steps at jumps (step_times.hpp).
   /// If the time `end` [T] is earlier than the end of this step by more than a millionth of h, the
@@ -156,7 +156,7 @@ class Simulation {
   State state_;
   Pouring pouring_;
   double mean_radius_;
-  double first_time_;  // time at which this object began [T]
+  double first_time_;  // time of the state given to the constructor [T]
   std::unique_ptr<ThreadPool> pool_;
   std::vector<double> displacements_;  // h u*, later h v [L]
   std::vector<double> mobilities_;     // h/m [T/M]

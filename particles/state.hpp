@@ -27,12 +27,13 @@ struct Pair {
   /// all impulses that gamma is the sum of. It is 0 where gamma is at one of its bounds, because
   /// these values are known.
   double gamma_error = 0;
-  /// The image of `second` that meets `first` (periods.hpp); two may touch it, and are two pairs.
+  /// The image of `second` that meets `first` (periods.hpp). If two images of `second` touch
+  /// `first`, they are two pairs.
   std::int32_t image = 0;
-  /// Number of what else the laws remember of the pair, in State::memories.
+  /// Row in State::memories of what the laws remember of the pair besides gamma.
   std::int32_t memory = PairMemories::kNone;
-  /// Which contact of both bodies it is: of a plate at an obstacle that of its end 0 or 1 on the
-  /// spine, of two plates a place of SpineContacts, 0 to 3, otherwise 0.
+  /// Which contact of the two bodies it is, because plates may have two: at an obstacle the end 0
+  /// or 1 of the plate's spine, between two plates a place of SpineContacts, 0 to 3, otherwise 0.
   std::int32_t place = 0;
   /// Place of the plane in the list of planes; only if `first` is negative.
   std::size_t plane() const { return static_cast<std::size_t>(-1 - first); }
@@ -43,8 +44,8 @@ struct Pair {
 /// What a source of a run has done, and what decides which particles it pours in and when.
 struct SourceProgress {
   std::int64_t poured = 0;  ///< number of particles that it has poured in, >= 0
-  /// Time from which it pours [T]: Source::begin, or the start of the first run that had the source,
-  /// if this is later.
+  /// Time from which it pours [T]: Source::begin, or the start of the first run that had the
+  /// source, if this is later.
   double begin = 0;
   double begin_of_case = 0;   ///< Source::begin in that run [T], >= 0
   double rate = 0;            ///< Source::rate [1/T], > 0
@@ -98,9 +99,9 @@ struct State {
   /// With membranes: the positions of all particles before the last step [L]. Empty if there was no
   /// step, and without membranes.
   std::vector<double> earlier_positions;
-  /// Of each of Setting::sources. A simulation adds those that the state does not have when it
-  /// begins. The particles that were poured in come after those of the case, in the order of their
-  /// coming.
+  /// The progress of each of Setting::sources. A simulation that begins adds an entry for each
+  /// source that the state does not have. Particles that were poured in stand behind those of the
+  /// case, in the order in which they came.
   std::vector<SourceProgress> sources;
 };
 

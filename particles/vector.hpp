@@ -32,7 +32,7 @@ inline Vector operator*(double s, const Vector& a) { return {s * a[0], s * a[1],
 inline Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-/// Length, without a guard against overflow of its square.
+/// Length. It is infinite if its square overflows.
 inline double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
 
 /// Vector k of a flat array with `dimension` (1, 2 or 3) numbers for each vector.

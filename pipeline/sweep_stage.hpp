@@ -13,7 +13,7 @@
 
 namespace viscontact::pipeline {
 
-/// What is asked of a sweep, besides its study.
+/// The options of a sweep.
 struct SweepStageRequest {
   std::string output;  ///< file of the rows
   int jobs = 1;        ///< number of rows at once
@@ -21,7 +21,7 @@ struct SweepStageRequest {
 };
 
 /// Computes the missing rows and writes their file, shows the progress, and says how many rows
-/// there are and how many failed. `part` is what a row has several of, any of which may fail, as
+/// there are and how many failed. `part` is the word for the parts of a row that may fail, such as
 /// "model". Throws Error(kNotConverged) after all is written if every part failed in every row, and
 /// Error(kInterrupted) if `stop` requests a stop; finished rows are kept.
 void run_sweep(const sweep::Study& study, const SweepStageRequest& request,

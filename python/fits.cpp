@@ -33,7 +33,8 @@ namespace fs = std::filesystem;
   throw Error(ErrorKind::kWrongUsage, message);
 }
 
-/// The limits with these names; none: an error outside the interval of the fit.
+/// The limits of the drag with these names; without a name, a gap outside the interval of the fit
+/// is an error.
 lubrication::OutsideInterval outside_of(const std::optional<std::string>& below,
                                         const std::optional<std::string>& above) {
   lubrication::OutsideInterval outside;
@@ -51,7 +52,7 @@ lubrication::OutsideInterval outside_of(const std::optional<std::string>& below,
   return outside;
 }
 
-/// `value` if it is there, which must be > 0, else `other`.
+/// `value`, which must be > 0, or `other` if there is none.
 double positive_or(const std::optional<double>& value, double other, const char* name) {
   if (value && !(*value > 0 && std::isfinite(*value)))
     refuse(fmt::format("{} is {}; it must be a finite number > 0", name, *value));

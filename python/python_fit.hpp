@@ -1,5 +1,5 @@
 // A fit with its force, as the class Fit of Python and the function simulate use it. Numbers are in
-// the units of the fit.
+// the units of the fit. A change must keep the values bit for bit those of the libraries.
 #pragma once
 
 #include <string>

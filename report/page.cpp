@@ -41,8 +41,8 @@ std::string doubled_percent(const std::string& text) {
 
 constexpr int kWidth = 860;  // [pixels]
 
-/// The names that gnuplot (pointtype) and curves.js have for a kind of point. The rows must be in
-/// the order of PointKind.
+/// The names that gnuplot (pointtype) and report/page/axes.js have for a kind of point. The rows
+/// must be in the order of PointKind.
 struct PointName {
   PointKind kind;
   int gnuplot;
@@ -143,7 +143,7 @@ std::string svg_of(const Plot& plot, const StopToken& stop) {
   return draw_svg(panels, kWidth, plot.height, stop);
 }
 
-/// The plot as JSON for report/page/panels.js; the text may stand in a script element.
+/// The plot as JSON for report/page/panels.js. The text can be the content of a script element.
 std::string json_of(const Plot& plot) {
   auto panels = nlohmann::ordered_json::array();
   for (const auto& panel : plot.panels) {

@@ -1,8 +1,8 @@
 // The writer of all reports (one sphere, rolling, swimmer, particles): report.html, with plots that
 // can be zoomed in a browser, and a still picture plots/NAME.svg of each, for browsers without
 // scripts and for printing. Pieces of HTML that all pages share are here, too. Numbers in plots
-// have no units here; the labels of their axes name the units. A change must keep report/page/*.js,
-// which read the plots as JSON, in step.
+// have no units here; the labels of the axes name the units. report/page/*.js read the plots as
+// JSON; a change of the JSON must be made in both.
 #pragma once
 
 #include <exception>
@@ -46,7 +46,7 @@ struct PlotCurve {
 struct PlotAxis {
   std::string label{};                  ///< what it shows, with the unit
   bool logarithmic = false;             ///< true: values <= 0 are not drawn
-  std::optional<double> low{}, high{};  ///< range before zooming; nothing: as the curves need
+  std::optional<double> low{}, high{};  ///< range before zooming; nothing: that of the curves
 };
 
 /// Where the legend of the still picture is.
@@ -90,8 +90,8 @@ std::string table_row(const Cells&... cells) {
 /// A row of headings "<tr><th>a</th><th>b</th></tr>", which must be HTML already.
 std::string headings(std::initializer_list<std::string_view> cells);
 
-/// A table with these rows, which can be scrolled if it is wider than the page. `head` are its rows
-/// of headings; empty: they are among the rows, if there are any.
+/// A table with these rows, which can be scrolled if it is wider than the page. `head` has the rows
+/// of headings; if it is empty, headings, if any, are in `rows`.
 std::string table_of(const std::string& rows, const std::string& head = {});
 
 /// A line of HTML below a table or text that says from which files the numbers above it are.
@@ -153,7 +153,7 @@ class Report {
   std::exception_ptr failure_;
 };
 
-/// What report.html has if, and only if, it has still pictures.
+/// report.html contains this text if, and only if, it has still pictures.
 inline constexpr std::string_view kStillPicture = "<div class=still><svg";
 
 }  // namespace viscontact::report

@@ -1,6 +1,6 @@
 // The plots of a run's report: trajectories, their comparison, the fit, and the effect of its
 // errors. Gaps [L], times [T], gamma [M L/T] and forces [M L/T^2] are in the units of the case.
-// Nothing is thrown. The names of the plots, names of files, must stay.
+// Nothing is thrown. A change must keep the names of the plots, which are names of files.
 #include "viscontact/report/run_plots.hpp"
 
 #include <fmt/format.h>
@@ -66,9 +66,9 @@ std::string legend_of(std::string_view model) {
   return choice ? reduced_model::description_of(*choice) : std::string(model);
 }
 
-/// So many rows of a trajectory as a page can have. The rows are divided into runs of n rows. Of
-/// each run the first row is kept, and the rows in which `value` is smallest and largest, so that
-/// no extreme is lost.
+/// The rows of a trajectory, thinned so that the page stays small: the rows are divided into runs
+/// of n rows. Of each run the first row is kept, and the rows in which `value` is smallest and
+/// largest, so that no extreme is lost.
 std::vector<const reduced_model::TrajectoryRow*> thinned(
     const std::vector<reduced_model::TrajectoryRow>& rows, std::size_t trajectories, Value value) {
   // At most 400 runs for a trajectory and about 3200 for all of them keep the page small.

@@ -1,5 +1,5 @@
-// The warnings of a run (run_warnings.hpp). A change of a limit changes what users are told of runs
-// that they have made.
+// The warnings of a run (run_warnings.hpp). Gaps are in the unit of length of the case. A change of
+// a limit changes which warnings reports of earlier runs show when they are made again.
 #include "viscontact/report/run_warnings.hpp"
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ struct Warnings {
 
 /// Warns of gaps and recovered films outside the fit's interval, where the table has no row.
 void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
-  if (run.fit.terms.empty()) return;  // exact
+  if (run.fit.terms.empty()) return;  // the exact drag has no interval
   const auto [low, high] = run.fit.gap_interval;
   const lubrication::LubricationForce force(run.fit,
                                             {lubrication::BelowInterval::kLubricationLimit});

@@ -1,7 +1,7 @@
-// What the report warns of: drag and fits that cannot be trusted, accuracy that was not reached,
-// models that do not know what the case has, and files that do not belong together. Gaps [L] and
-// times [T] are in the units of the case. report.cpp shows the warnings; nothing is thrown but the
-// errors of reading a file of the folder.
+// The warnings of a report: drag and fits that cannot be trusted, accuracy that was not reached,
+// models that ignore something in the case (roughness), and files that do not belong together. Gaps
+// [L] and times [T] are in the units of the case. report.cpp shows the warnings; nothing is thrown
+// but the errors of reading a file of the folder.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace viscontact::report {
 
-/// A fit is called poor if its largest relative residual is above this.
+/// A fit counts as poor if its largest relative residual [1] is above this.
 inline constexpr double kPoorFit = 0.01;
 
 /// A warning of the report.

@@ -20,7 +20,8 @@ namespace {
 /// and line ends, so the characters between these two words are not compared.
 bool has_provenance(std::string_view text) {
   constexpr std::string_view kName = "provenance", kFirstKey = "\"command\"";
-  // Between the two words are a quote, a colon, a brace, spaces and a line end.
+  // Largest number of characters between the two words: a quote, a colon, a brace, spaces and a
+  // line end.
   constexpr std::size_t kMostBetween = 40;
   for (auto at = text.find(kName); at != std::string_view::npos; at = text.find(kName, at + 1))
     if (text.substr(at + kName.size(), kMostBetween + kFirstKey.size()).find(kFirstKey) !=

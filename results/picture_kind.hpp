@@ -16,7 +16,7 @@ namespace viscontact::results {
 /// A kind of picture.
 struct PictureKind {
   std::string_view name;  ///< ending of the file's name
-  TextKind kind;          ///< how the provenance is written into it
+  TextKind kind;          ///< kind of the text, which decides where its provenance is
   std::string_view
       marker;  ///< text in every such file, by which refuse_other_kind() knows the kind
 };
@@ -27,7 +27,7 @@ inline constexpr std::array kPictureKinds = {
     PictureKind{".png", TextKind::kPng, "PNG\r\n"},
     PictureKind{".gp", TextKind::kHashComment, "# gnuplot script by Viscontact"}};
 
-/// The kind of picture that the ending of a path asks for; nullptr if it asks for none of them.
+/// The kind of picture that belongs to the ending of a path; nullptr if the ending is unknown.
 inline const PictureKind* picture_kind(const std::filesystem::path& path) {
   return find_named(kPictureKinds, path.extension().string());
 }
@@ -35,19 +35,19 @@ inline const PictureKind* picture_kind(const std::filesystem::path& path) {
 /// How a picture is written.
 struct PictureFormat {
   TextKind kind = TextKind::kSvg;  ///< of kPictureKinds
-  /// Width in pixels of an SVG; a PDF has a point for each of them, and a PNG two pixels. The height
-  /// follows it. 0: the width that the picture has by itself.
+  /// Width in pixels of an SVG; a PDF has a point for each of them, and a PNG two pixels. The
+  /// height follows it. 0: the width that the picture has by itself.
   int width = 0;
   double font_size = 14;  ///< in the same unit, > 0
 };
 
-/// A picture that a command is asked for.
+/// The picture that the options of a command ask for.
 struct PictureRequest {
   std::string path;       ///< its ending is that of one of kPictureKinds; empty: no picture
   int width = 0;          ///< PictureFormat::width
   double font_size = 14;  ///< PictureFormat::font_size
 
-  /// Needs a path.
+  /// The format of the picture; `path` must not be empty.
   PictureFormat format() const { return {picture_kind(path)->kind, width, font_size}; }
 };
 

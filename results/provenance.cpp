@@ -24,7 +24,7 @@
 namespace viscontact::results {
 namespace {
 
-// A line is a provenance if it contains this name followed by this beginning of an object.
+// A line is a provenance if it contains kName followed by kBegin, the beginning of a JSON object.
 constexpr std::string_view kName = "provenance";
 constexpr std::string_view kBegin = "{\"command\":[";
 

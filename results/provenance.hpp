@@ -18,7 +18,7 @@ namespace viscontact::results {
 struct InputFile {
   std::string file;           ///< path, relative to the folder of the command
   std::string sha256;         ///< SHA-256 of the file's bytes; empty if it is a pipe
-  bool intermediate = false;  ///< true if the same command made it, as `run` makes its table
+  bool intermediate = false;  ///< true: the same command made the file, as `run` makes its table
 };
 
 /// How a file was made: command, inputs and versions.

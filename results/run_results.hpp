@@ -23,7 +23,7 @@ struct RunResults {
   lubrication::Fit fit;        ///< for the radius and the viscosity of the case
   bool fit_is_scaled = false;  ///< true: fit.json is that of another radius or viscosity
   reduced_model::Comparison comparison;
-  /// The trajectories of the models in the comparison, as far as their files exist; at least one.
+  /// The trajectories of those models of the comparison whose files exist; at least one.
   std::vector<reduced_model::Trajectory> trajectories;
   /// The table that the fit was made from; nothing if the run needs no table.
   std::optional<lubrication::MotionTable> table;

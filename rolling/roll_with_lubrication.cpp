@@ -335,7 +335,7 @@ class LubricatedRun {
     cvode_.set_state(state);
   }
 
-  /// An impulse along x on the lowest point.
+  /// Changes the state by an impulse along x on the lowest point [M L/T].
   void push(RollingStateVector& state, double impulse) const {
     state[kMove] += impulse / motion_.mass;
     state[kTurn] -= equation_.radius() * impulse / motion_.moment_of_inertia;

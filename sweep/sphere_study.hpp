@@ -15,8 +15,8 @@ namespace viscontact::sweep {
 
 /// What is computed at each point.
 struct SpherePlan {
-  std::filesystem::path case_path;  ///< the case whose keys are varied
-  lubrication::Fit fit;  ///< each point multiplies it by its viscosity over that of the fit
+  std::filesystem::path case_path;       ///< the case whose keys are varied
+  lubrication::Fit fit;                  ///< scaled at each point to its viscosity and radius
   lubrication::OutsideInterval outside;  ///< drag outside the interval of the fit
   Points points;                         ///< at least one variation, no draws
   std::vector<std::string> models;       ///< at least one
@@ -34,11 +34,12 @@ SpherePlan planned_sphere(const case_file::Case& c);
 /// MODEL.minimal_gap_time [T], MODEL.film [L] (the thinnest recovered film), MODEL.contact_from
 /// [T], MODEL.contact_until [T], MODEL.sup_gap_distance [L], MODEL.l1_gap_distance [L T] and
 /// MODEL.l1_velocity_distance [L] (to the reference), MODEL.film_ratio [1] (thinnest film over that
-/// of the reference) and MODEL.steps. Those of a model that fails are empty, and so are all
+/// of the reference), MODEL.steps, MODEL.solid_contact_from [T] and MODEL.solid_contact_velocity
+/// [L/T] (empty if the solids do not touch). Those of a model that fails are empty, and so are all
 /// distances if the reference fails. `version` is that of Viscontact.
 ///
 /// Reads the case. Throws Error(kBadInput) if the case has no [motion], if the first or the last
-/// point of the plan gives no valid case, or if its radius is not that of the fit. Throws
+/// point of the plan gives no valid case, or if the fit cannot be scaled to it. Throws
 /// Error(kWrongUsage) if nothing is varied, if there is no fit, if the reference is not one of
 /// the models, if a key or a model occurs twice, or if a key changes no row, because a sweep does
 /// not read it or none of the models depends on it.

@@ -132,8 +132,8 @@ std::uint64_t run_rows(
     const std::function<std::string(std::uint64_t index, const StopToken& stop)>& row,
     const std::function<void(std::uint64_t index, const std::string& row)>& take,
     const StopToken& stop) {
-  // At most this number of rows is begun and not yet taken, which limits the memory. 32 rows for
-  // each thread keep the threads busy while one row takes much longer than the others.
+  // Largest number of rows that are computed or wait to be passed on, which limits the memory. 32
+  // rows for each thread keep the threads busy while one row takes much longer than the others.
   const std::uint64_t window = 32 * static_cast<std::uint64_t>(jobs);
   std::mutex mutex;
   std::condition_variable row_taken;

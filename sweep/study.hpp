@@ -47,8 +47,9 @@ struct Study {
   /// Lines "# key: value" for the head of the file. Files with the same head and the same columns
   /// have the same rows.
   std::map<std::string, std::string> comments;
-  /// Computes the results of a row. Several threads call it at once. It throws Error(kInterrupted)
-  /// if `stop` requests a stop; any other Error that it throws ends the whole sweep.
+  /// Computes the results of a row. Several threads call this function at once. It throws
+  /// Error(kInterrupted) if `stop` requests a stop; any other Error that it throws ends the whole
+  /// sweep.
   std::function<RowResults(std::uint64_t index, const StopToken& stop)> run;
 
   std::uint64_t size() const { return points.rows(); }  ///< number of rows, > 0

@@ -75,7 +75,7 @@ struct Points {
 /// The text " KEY = VALUE KEY = VALUE ...", for messages; it begins with a space.
 std::string in_words(const std::vector<std::pair<std::string, double>>& numbers);
 
-/// A text that differs if the points do, for hashes of sweeps that have no draws.
+/// A text that is different for different points, for hashes of sweeps that have no draws.
 std::string text_of(const Points& points);
 
 /// The key that draws vary.

@@ -12,7 +12,7 @@
 
 namespace viscontact::swimmer {
 
-/// What is asked for.
+/// The conditions for the optimal stroke.
 struct OptimalStrokeRequest {
   double displacement = 0;        ///< [L], not 0
   Eigen::VectorXd through;        ///< the shape at which the stroke begins and ends [L]

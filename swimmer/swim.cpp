@@ -1,6 +1,6 @@
 // Integrates displacement and power along a stroke (swim.hpp). Numbers are in the units of the fit.
-// A stroke outside the table is an Error(kBadInput), sums that do not settle an
-// Error(kNotConverged). A change must keep sums to round-off.
+// A stroke outside the table is an Error(kBadInput); sums that do not converge are an
+// Error(kNotConverged). A change may alter sums by rounding errors only.
 #include "viscontact/swimmer/swim.hpp"
 
 #include <fmt/format.h>
@@ -14,11 +14,11 @@
 namespace viscontact::swimmer {
 namespace {
 
-/// The integrals over a leg or a part of it.
+/// The integrals over a leg or a part of it: displacement [L], energy [M L^2/T^2].
 struct Integrals {
   double displacement = 0, energy = 0;
-  double length = 0;  ///< integral of the square root of the power
-  double towing = 0;  ///< integral of the towing resistance over time
+  double length = 0;  ///< integral of the root of the power [M^(1/2) L/T^(1/2)]
+  double towing = 0;  ///< integral of the towing resistance over time [M]
   double path = 0;    ///< length of the path of the arms [L], to which errors are relative
 
   Integrals& operator+=(const Integrals& other) {

@@ -1,6 +1,6 @@
 // What a stroke does: displacement, energy, positions, forces and power, and how exact they are.
 // Lengths, masses and times are in the units of the fit and of the stroke. The commands `swimmer`
-// and `sweep` use it. A change must keep sums to round-off.
+// and `sweep` use it. A change may alter sums by rounding errors only.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +24,8 @@ struct SwimRow {
 struct SwimSums {
   double displacement = 0;  ///< [L], > 0 towards the last sphere
   double energy = 0;        ///< [M L^2/T^2]: the integral of the power
-  /// The least energy of any time law with this loop and period, which has constant power.
+  /// The least energy of any time law with this loop and period [M L^2/T^2]; that law has constant
+  /// power.
   double energy_at_constant_power = 0;
   /// Lighthill's efficiency [1]: power to tow the rigid swimmer at its mean velocity, with the mean
   /// drag of its shapes, over the mean power (Lighthill 1952, Commun. Pure Appl. Math. 5, 109).

@@ -1,7 +1,7 @@
 // What a person at a terminal sees on standard error: a progress line, and messages with coloured
-// words. If standard error is not a terminal, messages are plain text, and progress is a line of its
-// own once a minute; a change must keep that, because scripts read the messages and logs of long
-// jobs tell how far they are. app, pipeline and report write by it.
+// words. If standard error is not a terminal, messages are plain text, and progress is a line of
+// its own once a minute; a change must keep that, because scripts read the messages and logs of
+// long jobs tell how far they are. app, pipeline and report call it.
 #pragma once
 
 #include <chrono>

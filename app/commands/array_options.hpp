@@ -25,22 +25,24 @@ struct ArrayOptions {
   bool is_slurm() const { return launcher == "slurm"; }  ///< whether a job is submitted
 };
 
-/// Adds the options. `results` says in --help what is written from the rows: "the tables".
+/// Adds the options. `results` is what --help calls the output of the command: "the tables".
 void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& results);
 
 /// Throws Error(kWrongUsage) if options are given that only --launcher slurm uses, or if --task is
 /// not K/T with 0 <= K < T.
 void check_array_options(const ArrayOptions& o);
 
-/// The share of --task; the whole if the option is not given.
+/// The rows that --task asks for; all rows if the option is not given.
 pipeline::Share share_of(const ArrayOptions& o);
 
-/// What is asked of an array job. `jobs_option` is CLI11's object of --jobs, with the value `jobs`.
+/// The request that these options make, for an array job that computes the rows of `output`.
+/// `jobs_option` is CLI11's object of --jobs, and `jobs` its value, the number of rows at once in a
+/// task.
 pipeline::ArrayRequest array_request(const ArrayOptions& o, const std::string& output,
                                      const CLI::Option& jobs_option, int jobs);
 
-/// Calls `call`. The message of an Error for missing rows or of Slurm is followed by `remedy`,
-/// which names the options that help.
+/// Calls `call`. If it throws Error(kNotConverged), because rows are missing, or
+/// Error(kExternalProgram), because Slurm failed, `remedy` is appended to the message.
 template <class Call>
 void with_remedy(std::string_view remedy, const Call& call) {
   try {
@@ -52,7 +54,7 @@ void with_remedy(std::string_view remedy, const Call& call) {
   }
 }
 
-/// The remedies for the errors of a submission and of --gather.
+/// The options that help if a submission or --gather fails, for with_remedy().
 inline constexpr std::string_view kRemedyOfSlurm =
     "see --slurm-options, --tasks, or leave out --launcher slurm";
 inline constexpr std::string_view kRemedyOfGather =

@@ -1,7 +1,8 @@
 // The command `doctor`: checks which programs are installed, says how to install missing ones, and
 // compares a drag factor that FreeFEM computes with its exact value. --json prints the same
 // findings. Lengths, masses and times have the unit 1. A failure of FreeFEM is a finding and no
-// error; main.cpp returns a failure if one finding is bad. A change must keep the keys of the JSON.
+// error; the program ends with an exit code of failure if one finding is bad. A change must keep
+// the keys of the JSON.
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -132,7 +132,7 @@ void fit_table(FitOptions& o) {
   if (without_picture) throw Error(*without_picture);
 }
 
-/// What `export` is asked for.
+/// The values of the options of `export`.
 struct ExportOptions {
   std::string fit, target, output, below, above;
   double radius = 0, viscosity = 0;  // 0: those of the fit

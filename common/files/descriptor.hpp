@@ -1,5 +1,6 @@
 // A file descriptor (POSIX) that is closed when its object is destroyed. Files, locks and child
-// processes use it. It throws nothing; who opens a file checks the descriptor.
+// processes use it. Nothing is thrown: the code that opens a file checks its descriptor. A change
+// must keep that no descriptor is closed twice.
 #pragma once
 
 #include <unistd.h>
@@ -15,8 +16,8 @@ class Descriptor {
   explicit Descriptor(int descriptor = -1) : descriptor_(descriptor) {}
   /// Takes over the descriptor of `other`, which has none afterwards.
   Descriptor(Descriptor&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-  /// Exchanges the descriptors of both objects; `other` closes the one that it
-  /// receives when it is destroyed.
+  /// Exchanges the descriptors of both objects; `other` closes the one that it receives when it is
+  /// destroyed.
   Descriptor& operator=(Descriptor&& other) noexcept {
     std::swap(descriptor_, other.descriptor_);
     return *this;

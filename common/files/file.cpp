@@ -33,10 +33,10 @@ namespace {
 // A file NAME that is not finished is named NAME.viscontact-PID.tmp.
 constexpr std::string_view kUnfinishedOf = ".viscontact-", kUnfinished = ".tmp";
 
-/// Removes the files NAME.viscontact-PID.tmp in a folder that killed processes have left; those of
-/// any NAME if `of` is empty.
+/// Removes the files NAME.viscontact-PID.tmp that killed processes have left in a folder, where
+/// NAME is `of`, or any name if `of` is empty.
 void remove_left_behind(const std::filesystem::path& folder, const std::string& of) {
-  std::error_code ignored;  // such files do no harm
+  std::error_code ignored;  // a file that cannot be removed does no harm
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
     const auto after = name.rfind(kUnfinishedOf);
@@ -60,8 +60,8 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// Opens `beside`, a new file that takes the place of `path`, with these flags of open(2), and locks
-/// it. The lock tells remove_left_behind that the file is in use. Not every disk has locks.
+/// Opens `beside`, a new file that takes the place of `path`, with these flags of open(2), and
+/// locks it. The lock tells remove_left_behind that the file is in use. Not every disk has locks.
 Descriptor open_locked(const std::filesystem::path& path, const std::filesystem::path& beside,
                        int flags) {
   Descriptor file(::open(beside.c_str(), flags | O_CLOEXEC, 0666));
@@ -70,8 +70,9 @@ Descriptor open_locked(const std::filesystem::path& path, const std::filesystem:
   return file;
 }
 
-/// Makes a new file beside `path` by write(beside), which returns its descriptor, flushes it to disk
-/// if `is_flushed`, and renames it. Returns the path that it has then.
+/// Makes a new file beside `path` by write(beside), which returns its descriptor, flushes it to
+/// disk if `is_flushed`, and renames it. Returns the path of the file that was replaced, which is
+/// not `path` if that is a link.
 template <class Write>
 std::filesystem::path put_in_place(const std::filesystem::path& path, bool is_flushed,
                                    const Write& write) {
@@ -91,7 +92,7 @@ std::filesystem::path put_in_place(const std::filesystem::path& path, bool is_fl
   }
 }
 
-/// As put_in_place, for a file with these bytes.
+/// put_in_place() for a file with these bytes.
 std::filesystem::path put_content(const std::filesystem::path& path, std::string_view content,
                                   bool is_flushed) {
   return put_in_place(path, is_flushed, [&](const std::filesystem::path& beside) {
@@ -106,7 +107,7 @@ std::filesystem::path put_content(const std::filesystem::path& path, std::string
   });
 }
 
-/// What follows after the file at `place` was replaced.
+/// The last steps of writing a file, after the file at `place` was replaced.
 void finish_replacement(const std::filesystem::path& place) {
   sync_folder_of(place);
   remove_left_behind(folder_of(place), place.filename().string());

@@ -23,13 +23,14 @@ std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// As write_file, for a file that a library writes: `write` must make a file at the path that it is
-/// given, and close it. Throws what `write` throws, too. An old file at `path` is then unchanged, and
-/// what `write` has made is removed.
+/// given, and close it. Throws what `write` throws, too. An old file at `path` is then unchanged,
+/// and what `write` has made is removed.
 void write_file_by(const std::filesystem::path& path,
                    const std::function<void(const std::filesystem::path&)>& write);
 
-/// As write_file, for one of many files: it is on disk only after flush_files(), and what killed
-/// processes have left stays until remove_unfinished(), which reads the whole folder.
+/// As write_file, for one of many files, but faster: the file is on disk only after flush_files().
+/// Files that killed processes have left are not removed; call remove_unfinished() for them, which
+/// reads the whole folder.
 void write_unflushed(const std::filesystem::path& path, std::string_view content);
 /// Returns when these files, which lie in one folder, are on disk. Throws Error(kBadInput), which
 /// names a path, if the disk reports an error.

@@ -1,6 +1,6 @@
-// Writes lines over the foot of the file and the foot behind them in one call (growing_file.hpp).
-// Lengths are in bytes. A change must keep that the file ends with a whole line and the foot, also
-// after a failed write, which is an Error(kBadInput).
+// Overwrites the foot of the file with new lines, followed by the foot again, in one call
+// (growing_file.hpp). Lengths are in bytes. A change must keep that the file ends with a whole line
+// and the foot, also after a failed write, which is an Error(kBadInput).
 #include "viscontact/common/files/growing_file.hpp"
 
 #include <fcntl.h>
@@ -69,7 +69,7 @@ void GrowingFile::sync() {
 
 void GrowingFile::write_waiting() {
   if (file_.get() < 0) {
-    // In one step, so that a file never has a part of its head only.
+    // The new file appears in one step, so that no reader finds only a part of its head.
     write_file(path_, waiting_ + foot_);
     file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CLOEXEC));
     if (file_.get() < 0) throw_cannot_be("written", path_);
@@ -78,7 +78,7 @@ void GrowingFile::write_waiting() {
     try {
       write_at(place, waiting_ + foot_);
     } catch (const Error&) {
-      // The foot fits, because it was there before.
+      // The disk has space for the foot, because it was there before.
       if (::ftruncate(file_.get(), static_cast<off_t>(place)) == 0) write_at(place, foot_);
       throw;
     }

@@ -1,7 +1,7 @@
-// A text file to which lines are only ever added, as to a table with a row for each step. A process
-// that was killed continues the file from an earlier end of it: keep that end (FileEnd) in another
-// file, which is replaced after sync(). Logs of particle runs use it. A change must keep that what
-// sync() has written is never changed.
+// A text file to which lines are only ever added, as to a table with a row for each step. If a
+// process is killed, the next one continues the file from an earlier end of it: after each sync(),
+// keep that end (FileEnd) in another file. Logs of particle runs use it. A change must keep that
+// what sync() has written is never changed.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
-// Talks with a child process by poll on its three streams at once. No failure of the child is an
-// error here; the state of a reading says what happened. At most one buffer is received ahead of
-// what is read, so that a child that writes without end takes no memory.
+// Talks with a child process by poll on its three streams at once. Only a program that cannot be
+// run is an Error (kExternalProgram); a child that fails later is not, and the state of a reading
+// says what happened. A change must keep that at most one buffer is received ahead of what is read,
+// so that a child that writes without end takes no memory.
 #include "viscontact/common/system/child_process.hpp"
 
 #include <fmt/format.h>
@@ -71,7 +72,8 @@ ChildProcess::ChildProcess(const ProcessCommand& command, const StopToken& stop)
 
 ChildProcess::~ChildProcess() {
   if (child_.id < 0) return;
-  // finish() was not called, so that no other group can have the number of the child's group.
+  // finish() was not called. The child is therefore still waited for, and the system has not given
+  // the number of its process group to another one.
   ::kill(-child_.id, SIGKILL);
   while (::waitpid(child_.id, nullptr, 0) < 0 && errno == EINTR) {
   }
@@ -94,7 +96,7 @@ void ChildProcess::send_some() {
 void ChildProcess::receive() {
   std::array<char, kBufferSize> buffer{};
   const auto text = receive_from(child_.from_child, buffer);
-  // Of what was read, only the last word is kept, which may be put back.
+  // Removes what was read before, except for the last word, because put_word_back() may need it.
   const std::size_t done = std::min(word_start_, at_);
   output_.erase(0, done);
   at_ -= done;
@@ -135,7 +137,7 @@ ChildProcess::Reading ChildProcess::more_or(Clock::time_point deadline, std::siz
 }
 
 ChildProcess::Reading ChildProcess::read_word(Clock::time_point deadline) {
-  std::size_t searched = 0;  // number of bytes of the word that are known to be no white space
+  std::size_t searched = 0;  // bytes of the word that are known not to be white space
   for (;;) {
     if (searched == 0) {
       at_ = std::min(output_.find_first_not_of(kWhiteSpace, at_), output_.size());

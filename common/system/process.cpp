@@ -1,6 +1,7 @@
 // Runs a child process to its end (process.hpp): sends its input while it collects its output.
-// Times are in milliseconds. A change must keep that a child that neither reads nor writes nor ends
-// is killed at its time limit or at a stop.
+// Times are in milliseconds. A program that cannot be run is no exception: the result says so (exit
+// status 127, as in a shell). A change must keep that a child that neither reads nor writes nor
+// ends is killed at its time limit or at a stop.
 #include "viscontact/common/system/process.hpp"
 
 #include <poll.h>
@@ -32,7 +33,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
   for (;;) {
     std::array<pollfd, 2> files = {pollfd{from_child, POLLIN, 0},
                                    pollfd{to_child.get(), POLLOUT, 0}};
-    // The longest delay until a stop is noticed.
+    // The longest delay until a stop is noticed [ms].
     constexpr int kMilliseconds = 100;
     const int ready = ::poll(files.data(), to_child.get() >= 0 ? 2 : 1, kMilliseconds);
     if (stop.stop_requested() || Clock::now() > deadline) return output;
@@ -52,7 +53,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
   }
 }
 
-/// How a child ended, and what it used.
+/// How a child ended, and the resources that it used.
 struct ChildEnd {
   int status = 0;  ///< status from wait4
   rusage usage{};

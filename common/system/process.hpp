@@ -1,5 +1,6 @@
 // Runs a child process to its end and collects its output (Linux): a row of FreeFEM, gnuplot,
-// sbatch. A change must keep that no child outlives this process.
+// sbatch. A change must keep that no child outlives this process. Used by app/, freefem/,
+// freefem_axi/, pipeline/ and report/.
 #pragma once
 
 #include <chrono>
@@ -15,7 +16,7 @@ namespace viscontact {
 struct ProcessResult {
   /// False if there is no such program or it cannot be run; `output` then says why.
   bool started = false;
-  int exit_status = 0;  ///< 128 + signal if a signal ended the process
+  int exit_status = 0;  ///< as in a shell: 128 + number of a signal, 127: not started
   /// Standard output and standard error, in the order in which they came. If a signal ended the
   /// process, the name of the signal follows.
   std::string output;

@@ -1,4 +1,4 @@
-// The worker threads of a ThreadPool (thread_pool.hpp). Which thread computes a block is left to
+// The worker threads of a ThreadPool (thread_pool.hpp). Which thread computes a block depends on
 // chance; a change must keep that no result depends on it. The first exception of a loop is thrown
 // again in the thread that called run().
 #include "viscontact/common/system/thread_pool.hpp"

@@ -1,5 +1,5 @@
 // Reads CSV files by fast-cpp-csv-parser. Every fault of a file becomes an Error(kBadInput) with
-// file and line, in our words and not in those of the library.
+// file and line; the messages are not those of the library.
 #include "viscontact/common/text/csv.hpp"
 
 #include <fmt/format.h>
@@ -88,7 +88,8 @@ constexpr std::size_t kColumnsAtOnce = 16;
 void read_columns(const std::string& text, const std::string& file,
                   std::span<const std::string> names, std::size_t required,
                   const std::function<void(Fields fields, int line)>& add_row) {
-  // The names beyond those of the requested columns are such that no header line can contain them.
+  // The library needs kColumnsAtOnce names. The surplus ones are such that no header line can
+  // contain them.
   std::array<std::string, kColumnsAtOnce> all_names;
   all_names.fill("\n");
   std::ranges::copy(names, all_names.begin());

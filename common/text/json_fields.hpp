@@ -269,7 +269,7 @@ class JsonFields {
     JsonFields(*document_, json, path_of(key)).read_into(value);
   }
 
-  std::set<std::string> keys_;  ///< those that were read
+  std::set<std::string> keys_;  ///< keys that fields_of() has named
   Json written_ = Json::object();
   const JsonDocument* document_ = nullptr;
   const Json* json_ = nullptr;

@@ -1,4 +1,5 @@
-// Composes the words of units (units.hpp). Nothing is thrown.
+// Composes the words of units (units.hpp), such as "kg m/s²". Nothing is thrown. A change must keep
+// the words of files, which users' scripts read.
 #include "viscontact/common/text/units.hpp"
 
 #include <array>

@@ -142,7 +142,7 @@ class AppendedReader {
   }
 
  private:
-  /// What follows the name of an array in its element and in the rest of the section.
+  /// The text that follows the name of an array: the rest of its element and of the section.
   std::optional<std::string_view> after_name(std::string_view section,
                                              std::string_view name) const {
     const auto begin = head_.find("<" + std::string(section));

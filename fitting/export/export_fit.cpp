@@ -73,8 +73,8 @@ Outside outside_of(const lubrication::Fit& fit, const lubrication::OutsideInterv
   return outside;
 }
 
-/// What a quantity, R or Gamma, is in a language: expressions in q and l = ln q inside the
-/// interval, and in q outside of it; empty if there is none.
+/// A quantity, R or Gamma, as code of a language: expressions in q and l = ln q inside the
+/// interval, and in q outside of it; an expression is empty if there is none.
 struct Expressions {
   std::string inside, below, above;
 };
@@ -106,7 +106,7 @@ Expressions impulse_of(const Sum& sum, const Outside& o, Literal number, std::st
   return e;
 }
 
-/// What a reader must know to use the numbers, one line for each fact.
+/// The facts that a user of the numbers must know, one line for each.
 std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view source,
                                const Outside& outside = {}) {
   const auto version = fit.versions.find("Viscontact");

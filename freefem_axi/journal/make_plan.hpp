@@ -26,7 +26,7 @@ struct PlannedRow {
   std::filesystem::path path;  ///< of its table; not used for the first that is asked
 };
 
-/// What make_plan() needs to know. Members that are said to be as in TablePlan are copied to it.
+/// The argument of make_plan(). Members with the comment "as in TablePlan" are copied to the plan.
 template <class Row>
 struct PlanParts {
   /// Everything that the numbers depend on. Tables with another text are computed again.

@@ -1,7 +1,7 @@
-// What the journal and the commands need to know of a table whose rows FreeFEM computes one by one,
-// whatever its rows contain: forces and torques on a sphere (motion_table_plan.hpp), or resistance
-// matrices of spheres on a line (swimmer/tabulation). make_plan.hpp makes it. Times are in seconds;
-// other numbers have the units that the plan defines.
+// A table whose rows FreeFEM computes one by one, as the journal and the commands see it, whatever
+// its rows contain: forces and torques on a sphere (motion_table_plan.hpp), or resistance matrices
+// of spheres on a line (swimmer/tabulation). make_plan.hpp makes it. Times are in seconds; other
+// numbers have the units that the plan defines.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // The lengths of edges (edge_lengths.hpp), from distances to particles and walls. Lengths are in
 // the unit of the case. An edge that is too short is an Error(kNotConverged). A change of a
-// constant changes all meshes, and bench/README.md.
+// constant changes all meshes, and the errors in bench/README.md must be measured again.
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 
 #include <fmt/format.h>
@@ -18,11 +18,11 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 /// Edges across a gap follow the accuracy that is asked: with 24 edges on the smallest particle, an
 /// edge is at most this fraction of the gap.
 constexpr double kOfGapAt24Edges = 0.4;
-/// With fewer edges on the particle a gap still gets this many across, because a film with one edge
-/// across it is 7 % too stiff.
+/// With fewer edges on the particle, an edge across a gap is still at most this fraction of the
+/// gap, because a film with one edge across it is 7 % too stiff.
 constexpr double kLargestOfGap = 0.5;
-/// Beyond a gap of this many smallest radii, films matter less, and the edges grow faster with the
-/// gap, by this factor with 24 edges.
+/// At gaps of more than kNarrow smallest radii films matter less. With 24 edges, kFurtherAt24Edges
+/// times what the gap exceeds this width is added to the length of an edge.
 constexpr double kNarrow = 0.3, kFurtherAt24Edges = 0.35;
 /// Growth of the edges per distance from a particle, with 24 edges on the smallest one. It is
 /// proportional to the edge length, so that all lengths of a mesh shrink together.
@@ -75,7 +75,8 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
   if (fluid.has_inertia())
     growth_ = std::max(growth_, std::min(kFasterWithInertia * growth_, kFastestWithInertia));
   of_gap_ = coarsening * std::min(kOfGapAt24Edges * ratio, kLargestOfGap);
-  // A few spheres on an axis cost little, and their films carry all of the load.
+  // On an axis edges do not grow faster: a few spheres cost little, and their films carry all of
+  // the load.
   further_ = p.dimension == 1 ? 0 : coarsening * kFurtherAt24Edges * ratio;
   narrow_ = kNarrow * smallest;
   const auto periods = particles::periods_of(domain);
@@ -87,7 +88,7 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
         image.centre[1] += j * periods[1];
         images_.push_back(image);
       }
-  // Further neighbours leave the edges as long as they are.
+  // Neighbours further away than this do not shorten edges.
   const double reach = longest_ / of_gap_;
   for (std::size_t k = 0; k < p.count(); ++k) {
     const auto& outline = outlines_[k];

@@ -39,8 +39,8 @@ class EdgeLengths {
   /// more curved than the smallest particle.
   double on_outline(std::size_t k, double t) const;
 
-  /// At a point on a wall: longer the further the nearest particle is, and at most a fraction of
-  /// the distance to it.
+  /// At a point on a wall: the length grows with the distance of the nearest particle, and is at
+  /// most a fraction of this distance.
   double on_wall(const Point& x) const;
 
   /// At a point on the axis or on a periodic side, in the gap between the two nearest surfaces.
@@ -67,7 +67,7 @@ class EdgeLengths {
   double per_radius_;  // edge on a particle over the radius of curvature there
   std::vector<particles::Outline> outlines_;  // of the particles
   std::vector<particles::Outline> images_;    // of the particles and, in a period, of their images
-  // Of each particle: those that shorten its edges.
+  // For each particle the outlines that shorten its edges.
   std::vector<std::vector<particles::Outline>> neighbours_;
 };
 

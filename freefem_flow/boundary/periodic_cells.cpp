@@ -77,7 +77,8 @@ Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
                   {{high[0], low[1]}, {-1, 2, {}}},
                   {{high[0], high[1]}, {-1, 4, {}}},
                   {{low[0], high[1]}, {-1, 1, {}}}};
-  // Near particles cut first, so that the lines of the others are soon known to pass by the cell.
+  // Near particles cut the cell first. It is then so small that the lines of most others need no
+  // cut.
   const double near = 16 * period[0] * period[1] / static_cast<double>(circles.size());
   double reach = square_of_reach(cell, own.centre);
   for (const bool is_near : {true, false})

@@ -1,4 +1,5 @@
 // The boundary of the mesh around membranes, which are curves inside it. All lengths have one unit.
+// membrane_process.cpp uses it. A change of labels must be made in membranes.edp, too.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,5 @@
-// The dialogue with membranes.edp (membrane_process.hpp).
+// The dialogue with membranes.edp (membrane_process.hpp), in the units of the solver. A solver that
+// fails is an Error(kExternalProgram). A change must agree with the script.
 #include "viscontact/freefem_flow/membranes/membrane_process.hpp"
 
 #include <fmt/format.h>
@@ -231,7 +232,7 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
 std::vector<double> MembraneProcess::mobility(std::size_t components) {
   solver_->ask("mobility", "mobility\n");
   solver_->expect("mobility");
-  // Torques on beads move nothing.
+  // Beads do not turn, so that torques on them move nothing: their rows are 0.
   std::vector<double> rows(components * components);
   for (const auto row : components_)
     for (const auto column : components_) rows[row * components + column] = solver_->number();

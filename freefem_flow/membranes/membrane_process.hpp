@@ -1,5 +1,5 @@
 // Starts FreeFEM with membranes.edp, which computes Stokes flow with membranes. Units are those of
-// the solver (freefem_solver.cpp).
+// the solver (freefem_solver.cpp, which calls it).
 #pragma once
 
 #include <memory>
@@ -13,10 +13,10 @@ namespace viscontact::freefem_flow {
 /// Starts the process and waits until it is ready. `domain` is a disc, or a box that is not
 /// periodic along y; `fluid` has membranes, no inertia, and no solver of the user's own; `unit` is
 /// that of the length in the unit of the case, for messages. The particles, which have these
-/// `radii`, are the beads of the
-/// membranes, which feel no torque, and rigid discs, free or driven. The solver computes no second
-/// mesh and no quantities but the dissipation. Throws Error(kExternalProgram) if FreeFEM cannot be
-/// run, and Error(kBadInput) if there are more membranes than the script has labels for.
+/// `radii`, are the beads of the membranes, which feel no torque, and rigid discs, free or driven.
+/// The solver computes no second mesh and no quantities but the dissipation. Throws
+/// Error(kExternalProgram) if FreeFEM cannot be run, and Error(kBadInput) if there are more
+/// membranes than the script has labels for.
 ///
 /// The mesh has `edges_per_particle` edges on each membrane, at least two thirds of its beads.
 /// Edges grow with the distance from the membranes. Where the box is periodic along x, the mesh

@@ -26,11 +26,11 @@ namespace {
 
 using particles::FluidParticles;
 
-// How much longer the edges of the coarser mesh are from which an error is estimated.
+// Factor by which the edges of the coarser mesh are longer, from which an error is estimated.
 constexpr double kCoarsening = 2;
 
-// The error of the finer mesh over the difference from the coarser one. Errors fall as h^4, which
-// makes a fifteenth; but so coarse a mesh does not follow this law yet, and h^3 makes a seventh.
+// The error on the finer mesh, divided by the difference of both meshes. For errors that fall as
+// h^4 it would be 1/15. So coarse a mesh does not follow this law yet; 1/7 is the value for h^3.
 constexpr double kErrorOfDifference = 1.0 / 7;
 
 /// One line for each particle: its centre and, in the plane, its angle.
@@ -92,7 +92,8 @@ FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain&
       command_(std::move(command)),
       limits_(limits),
       opening_(opening(fluid, domain, radii, dimension)) {
-  // A run with inertia needs it to save its state: an error must not come after the first steps.
+  // A run with inertia needs such a folder to save its state. If it cannot be made, the error must
+  // come now and not after the first steps.
   if (fluid.has_inertia()) const TemporaryFolder needed;
   start();
 }
@@ -265,7 +266,8 @@ particles::FlowField read_flow(SolverDialogue& solver) {
   const std::int64_t nodes = solver.whole_number(kMost);
   const std::int64_t triangles = solver.whole_number(kMost);
   if (nodes == 0 && triangles > 0) solver.refuse("0 triangles, as there are no nodes,");
-  // The memory grows with what comes: a wrong count must not take all of it at once.
+  // The arrays grow with the numbers that arrive, because a wrong count must not take all memory at
+  // once.
   particles::FlowField field;
   for (std::int64_t k = 0; k < nodes; ++k)
     for (auto* column : {&field.x, &field.y, &field.velocity_x, &field.velocity_y, &field.pressure})

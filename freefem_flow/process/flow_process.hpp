@@ -43,8 +43,8 @@ struct SolverLimits {
 };
 
 /// The process starts with the object and ends with it; a command may ask for a new process from
-/// time to time (SolverCommand). It also ends with the thread that made the
-/// object, so that this thread must live as long as the object. Functions of the base class throw
+/// time to time (SolverCommand). It also ends with the thread that made the object, so that this
+/// thread must live as long as the object. Functions of the base class throw
 /// Error(kExternalProgram), which names the solver, the request and the solver's last lines, if the
 /// solver ends, is silent beyond the limit, reports an error, or answers with anything but the
 /// finite numbers that the protocol asks for. They throw Error(kNotConverged) if a number that the

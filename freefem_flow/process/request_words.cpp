@@ -1,4 +1,4 @@
-// Writes numbers and boundaries (request_words.hpp).
+// Writes numbers and boundaries (request_words.hpp). Numbers must read back to the same double.
 #include "viscontact/freefem_flow/process/request_words.hpp"
 
 #include <fmt/format.h>

@@ -74,7 +74,7 @@ void SolverDialogue::ask(std::string_view name, std::string_view text) {
   if (!process_)
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("the fluid solver ({}) has ended after an earlier error", name_));
-  // What comes before the first request is read when `ready` is expected.
+  // Output before the first request is read when `ready` is expected.
   if (requests_ > 0 && process_->has_unread_output())
     fail("it wrote more than the answer", kGraceOfFailed);
   request_ = name;

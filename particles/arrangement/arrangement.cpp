@@ -1,7 +1,7 @@
 // Places particles at random (arrangement.hpp). Lengths are in the unit of the case. Particles that
-// do not fit are an Error(kBadInput). Each seed must keep its arrangement. The compiler must not contract
-// products and sums (-ffp-contract=off in CMakeLists.txt), and only + - * / and sqrt may be used,
-// because these give the same bits on every machine.
+// do not fit cause Error(kBadInput). Each seed must keep its arrangement. The compiler must not
+// contract products and sums (-ffp-contract=off in CMakeLists.txt), and only + - * / and sqrt may
+// be used, because these give the same bits on every machine.
 #include "viscontact/particles/arrangement/arrangement.hpp"
 
 #include <fmt/format.h>
@@ -133,7 +133,7 @@ double length_of(const Vector& x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] +
 /// that of the C library differs between machines.
 double edge_of(double size, std::size_t dimension) {
   if (dimension == 2) return std::sqrt(size);
-  double root = size < 1 ? 1 : size;  // above the root, from where the iterates fall
+  double root = size < 1 ? 1 : size;  // above the root; the iterates then fall to it
   for (double next = 0;; root = next) {
     next = root - (root - size / (root * root)) / 3;
     if (!(next < root)) return root;
@@ -146,12 +146,13 @@ struct FixedParticle {
   double radius;
 };
 
-/// The particles that are placed so far, the largest ones first, sorted into cells that are at least
-/// as wide as the least distance of two centres, so that only particles in neighbouring cells can be
-/// too close.
+/// The particles that are placed so far, the largest ones first, sorted into cells that are at
+/// least as wide as the least distance of two centres, so that only particles in neighbouring cells
+/// can be too close.
 class PlacedParticles {
  public:
-  /// `radii` fall, and have the places that `places` gives for each.
+  /// `radii` [L] fall; `places` has the places of each particle, or one entry for all. Two
+  /// particles must be `gap` [L] apart.
   PlacedParticles(const std::vector<Places>& places, std::vector<double> radii, double gap,
                   std::vector<FixedParticle> fixed)
       : places_(places), radii_(std::move(radii)), gap_(gap), fixed_(std::move(fixed)) {
@@ -170,7 +171,7 @@ class PlacedParticles {
   const std::vector<Vector>& centres() const { return centres_; }
   /// The places of particle k.
   const Places& places(std::size_t k) const { return places_[places_.size() == 1 ? 0 : k]; }
-  /// Those of the smallest particle, which has most of them.
+  /// The places of the smallest particle, which may be where any other may be.
   const Places& widest_places() const { return places_.back(); }
   /// Least distance of two particles of mean size [L].
   double distance() const {
@@ -264,11 +265,11 @@ class PlacedParticles {
   std::vector<Vector> centres_;
 };
 
-/// Pushes particles apart that are too close, in up to `rounds` rounds over all of them. True if all
-/// gaps are large enough then.
+/// Pushes particles apart that are too close, in up to `rounds` rounds over all of them. True if
+/// all gaps are large enough then.
 bool push_apart(PlacedParticles& placed, int rounds) {
-  // Particles are pushed to 1.001 times the distance that they must have, because the pushes approach
-  // the distance that they aim at without reaching it.
+  // The aim of a push is 1.001 times the distance that two particles must have, because pushes
+  // approach their aim without reaching it.
   constexpr double kFurther = 1 + 1e-3;
   for (int round = 0; round < rounds; ++round) {
     bool all_free = true;
@@ -311,8 +312,8 @@ void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
     span = std::min(span, 0.5 * placed.widest_places().length(d));
   const double step =
       std::min(span, std::max(0.5 * (lattice - placed.distance()), 0.01 * placed.distance()));
-  // After 500 moves of each particle the arrangement no longer depends on the start. At most 20 million
-  // moves are made in all, which bounds the time, but at least 20 of each particle.
+  // After 500 moves of each particle the arrangement no longer depends on the start. At most 20
+  // million moves are made in all, which bounds the time, but at least 20 of each particle.
   constexpr std::size_t kMoves = 20000000, kMost = 500, kLeast = 20;
   const std::size_t moves = count * std::clamp(kMoves / count, kLeast, kMost);
   for (std::size_t move = 0; move < moves; ++move) {
@@ -365,8 +366,8 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
   for (std::size_t d = 0; d < places.front().dimension(); ++d)
     if (places.front().period(d) > 0 && places.front().period(d) < 2 * largest + gap)
       refuse("a period is shorter than one of them with its gap");
-  // With half of the gap around each, those that do not overlap cover at most the fraction that
-  // the densest lattice covers, triangular or face-centred cubic, if they are equal.
+  // Equal particles, enlarged by half of the gap, do not overlap. They therefore cover at most the
+  // fraction that the densest lattice (triangular, face-centred cubic) covers.
   const double densest = !are_equal       ? 1
                          : dimension == 2 ? 0.9068996821171089   // pi/sqrt(12)
                                           : 0.7404804896930610;  // pi/sqrt(18)
@@ -378,7 +379,7 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
   for (std::size_t k = 0; k < present.count(); ++k)
     fixed.push_back({present.position(k), present.radii[k]});
   SplitMix64 random(asked.seed);
-  // Pushing can fail although there is an arrangement. Then it begins again from other places.
+  // Pushing can fail although there is an arrangement. It then begins again from other places.
   constexpr int kBeginnings = 10, kTries = 1000, kRounds = 2000;
   for (int beginning = 0; beginning < kBeginnings; ++beginning) {
     PlacedParticles placed(places, falling, gap, fixed);

@@ -1,6 +1,6 @@
-// Random arrangements of discs or spheres that do not overlap, in the domain of a case. Lengths are in
-// the unit of the case. Cases and sweeps of particles call it. A change must keep the arrangement
-// of each seed bit for bit, because users repeat runs by their seeds.
+// Random arrangements of discs or spheres that do not overlap, in the domain of a case. Lengths are
+// in the unit of the case. Cases and sweeps of particles call it. A change must keep the
+// arrangement of each seed bit for bit, because users repeat runs by their seeds.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace viscontact::particles {
 
-/// What is asked of an arrangement.
+/// The particles that are to be placed, and the gaps that they must have.
 struct Arrangement {
   std::vector<double> radii;  ///< of the particles [L], > 0; at least one
   double smallest_gap = 0;    ///< least gap of two particles, and of one and a wall [L], >= 0
@@ -38,11 +38,13 @@ double size_of(const Arrangement& asked, int dimension);
 /// 3. Each particle is moved at random some hundred times. A move is kept if the gaps stay large
 ///    enough (Metropolis et al. 1953).
 ///
-/// In a periodic box with gaps of 0.05 r, area fractions of 0.6 need less than a second for 1000
-/// discs. The result depends on the arguments alone, bit for bit, with arithmetic of IEEE 754.
+/// 1000 equal discs in a periodic box, with gaps of 0.05 radii and an area fraction of 0.6, take
+/// less than a second. The result depends on the arguments alone, bit for bit, with arithmetic of
+/// IEEE 754.
 ///
-/// Throws Error(kBadInput) if the particles do not fit or no arrangement is found. The message has
-/// no place; it names the number of particles and their area or volume fraction.
+/// Throws Error(kBadInput) if the particles do not fit or no arrangement is found. The message
+/// names the number of particles and their area or volume fraction, but no file and line, which the
+/// caller knows.
 std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
                             const Particles& present);
 

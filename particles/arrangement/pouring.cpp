@@ -13,7 +13,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// The particles that one in the region of a source may touch.
+/// Numbers of the particles that a new one of this radius [L] in the region of the source may
+/// touch.
 std::vector<std::size_t> near_region(const Source& source, double radius, const Particles& p) {
   const Vector middle = 0.5 * (source.from + source.to), half = source.to - middle;
   std::vector<std::size_t> near;
@@ -21,7 +22,7 @@ std::vector<std::size_t> near_region(const Source& source, double radius, const 
     const Vector apart = nearest_image(p.cell, p.position(k) - middle);
     const double reach = p.radii[k] + radius;
     bool is_near = true;
-    // A region that is wider than half of a period is near to everything along it.
+    // If the region is wider than half of a period, all particles count as near along this axis.
     for (std::size_t d = 0; d < 3; ++d)
       is_near = is_near && (std::abs(apart[d]) <= half[d] + reach ||
                             (p.cell.lengths[d] > 0 && half[d] + reach > 0.5 * p.cell.lengths[d]));
@@ -36,7 +37,8 @@ std::optional<Vector> free_place(const Source& source, double radius, std::size_
   constexpr int kTries = 1000;
   const auto& p = state.particles;
   const auto near = near_region(source, radius, p);
-  // The numbers depend on the state alone, so that a run that is continued has the same ones.
+  // The random numbers depend on the state alone, so that a run that is continued draws the same
+  // ones.
   SplitMix64 random(splitmix_hash(source.seed ^ splitmix_hash(number)) +
                     static_cast<std::uint64_t>(state.steps));
   for (int i = 0; i < kTries; ++i) {
@@ -106,7 +108,7 @@ void Pouring::pour(const Setting& setting, State& state) {
       const auto place =
           free_place(source, next->radius, static_cast<std::size_t>(count), state, obstacles);
       if (!place) break;
-      // Velocities of the state may be those at an earlier time.
+      // With the leapfrog scheme the state has the velocities of an earlier time.
       add(*next, *place, source.velocity - state.velocity_lag * setting.gravity, turns, p);
       next.reset();
       ++count;

@@ -1,6 +1,7 @@
 // Pours in the particles of sources while a simulation runs. Lengths, masses and times are in the
-// units of the case; nothing is thrown. Simulation calls it after each step. A change must keep that
-// the particles of each seed are the same bits, and that a run that is continued pours the same ones.
+// units of the case; nothing is thrown. Simulation calls it after each step. A change must keep
+// that the particles of each seed are the same bits, and that a run that is continued pours the
+// same ones.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +25,10 @@ class Pouring {
   Pouring(std::vector<Source>& sources, State& state);
 
   /// Adds the particles that are due at state.time. Each is put at a random place in the region of
-  /// its source where it touches no other particle and no obstacle. One for which 1000 places are
-  /// taken waits for the next call, and those after it wait, too. The neighbour list is made again if
-  /// a particle is added. `setting` has the sources of the constructor.
+  /// its source where it touches no other particle and no obstacle. If 1000 random places are not
+  /// free, the particle waits for the next call, and the later particles of its source wait, too.
+  /// The neighbour list is made again if a particle is added. `setting` has the sources of the
+  /// constructor.
   void pour(const Setting& setting, State& state);
 
  private:
@@ -41,7 +43,8 @@ struct WaitingParticles {
   double radius;       ///< of the first one, for which no place was free [L]
 };
 
-/// The particles that wait in this state, by their sources; `sources` are those of its case.
+/// The waiting particles of each source in this state. `sources` are those of the case of the
+/// state.
 std::vector<WaitingParticles> waiting_particles(const std::vector<Source>& sources,
                                                 const State& state);
 

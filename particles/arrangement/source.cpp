@@ -8,7 +8,7 @@
 namespace viscontact::particles {
 
 std::size_t Source::due(double time) const {
-  // A particle is due at a time that rounding errors have made a little too early.
+  // Rounding errors may make a time slightly too early; a particle counts as due then, too.
   constexpr double kRounding = 1e-9;
   const double past = std::min(time, end) - begin;
   if (past < -kRounding * begin) return 0;

@@ -31,10 +31,11 @@ double portable_log(double x) {
   return exponent * kLog2 + 2 * s * sum;
 }
 
-/// exp x for |x| < 700. The relative error is at most a few 1e-16 plus 1.5e-16 |x|, because log 2 and
-/// its product with the halvings are rounded. Logarithms of radii over their median are at most 12 in
-/// magnitude (sigma is at most 1), which makes 2e-15. Two-part logarithms (Cody & Waite 1980) would
-/// be more accurate, but change the radii of seeds.
+/// exp x for |x| < 700. The relative error is at most a few 1e-16 plus 1.5e-16 |x|, because log 2
+/// and its product with the number of halvings are rounded. The logarithm of a radius over the
+/// median is at most 12 in magnitude (sigma is at most 1), so that this error is at most 2e-15. Log
+/// 2 in two parts (Cody & Waite 1980) would be more accurate, but would change the radii that
+/// belong to a seed.
 double portable_exp(double x) {
   const double halvings = std::floor(x / kLog2 + 0.5);
   const double rest = x - halvings * kLog2;  // at most 0.347 in magnitude
@@ -67,7 +68,7 @@ double radius_of(const RadiusDistribution& radius, std::size_t number, SplitMix6
 }  // namespace
 
 DrawnSpecies::DrawnSpecies(std::vector<Species> species, int dimension, std::uint64_t seed)
-    // The places of an arrangement have the random numbers of the seed itself.
+    // An arrangement takes the random numbers of the seed itself for places; radii need others.
     : species_(std::move(species)),
       counts_(species_.size()),
       dimension_(dimension),
@@ -75,9 +76,9 @@ DrawnSpecies::DrawnSpecies(std::vector<Species> species, int dimension, std::uin
 
 DrawnParticle DrawnSpecies::next() {
   // Tijdeman's rule ("The chairman assignment problem", Discrete Mathematics 32, 1980) keeps each
-  // count within 1 - 1/(2m - 2) of its share, for m species. A species may be the next one if it
-  // does not get further ahead of its share than that. Of these, the next one is that which would
-  // get that far behind its share first.
+  // count within 1 - 1/(2m - 2) of its share, for m species. A species may come next if its count
+  // does not get ahead of its share by more than this bound. Of these species the one comes next
+  // that would otherwise be the first to fall behind its share by this bound.
   double shares = 0, total = 1;
   for (std::size_t s = 0; s < species_.size(); ++s) {
     shares += species_[s].share;

@@ -15,7 +15,7 @@ namespace viscontact::particles {
 struct RadiusDistribution {
   /// The distributions.
   enum class Kind {
-    kList,      ///< the radii of `list`, one after the other, and again from its begin
+    kList,      ///< the radii of `list`, one after the other, then again from the first
     kUniform,   ///< every radius from `from` to `to` is equally likely
     kLognormal  ///< the logarithm is normally distributed
   };
@@ -64,13 +64,13 @@ class DrawnSpecies {
 /// The first `count` particles.
 std::vector<DrawnParticle> drawn(DrawnSpecies species, std::size_t count);
 
-/// As many of the first particles as make their area or volume together nearest to `size` [L^2,
-/// L^3], at least 1 and at most `largest_count`.
+/// The first particles, at least 1 and at most `largest_count`: as many as bring the sum of their
+/// areas or volumes nearest to `size` [L^2, L^3].
 std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, double size,
                                          std::size_t largest_count);
 
-/// A number that differs, but for chance, if the species differ in anything that decides the radii or
-/// masses that they give with one seed.
+/// A hash of everything in the species that decides the radii and masses that they give with one
+/// seed.
 std::uint64_t hash_of(const std::vector<Species>& species);
 
 }  // namespace viscontact::particles

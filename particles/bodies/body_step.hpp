@@ -18,15 +18,16 @@ struct BodyLoad {
 };
 
 /// The motion of a body in a step of length h, with its velocity u, angular velocity w, mass m and
-/// moment of inertia I: first the motion without constraints, then that of the solution.
+/// moment of inertia I: before the constraints are solved the motion without them, afterwards that
+/// of the solution.
 struct BodyStep {
   Vector displacement{};      ///< h u of the centre [L]
-  Vector turn{};              ///< h w [rad]; of discs value[2]
+  Vector turn{};              ///< h w [rad]; of discs only component 2
   Vector angular_momentum{};  ///< at the end [M L^2/T]
-  /// Velocity of the centre at the end of the step less displacement/h [L/T]. It is 0 unless blows
+  /// Velocity of the centre at the end of the step minus displacement/h [L/T]. It is 0 unless blows
   /// (impacts/) changed the velocity within the step.
   Vector late_velocity{};
-  /// In the plane: angular momentum at the end less I turn/h [M L^2/T]; 0 without blows.
+  /// In the plane: angular momentum at the end minus I turn/h [M L^2/T]; 0 without blows.
   Vector late_momentum{};
   double mobility = 0;              ///< h/m [T/M]
   Matrix3 turn_mobility{};          ///< h I^-1 [T/(M L^2)]; discs use only the last entry

@@ -26,28 +26,29 @@ inline Vector operator*(const Matrix3& a, const Vector& x) {
           a[6] * x[0] + a[7] * x[1] + a[8] * x[2]};
 }
 
-/// A body whose members are particles. Their masses and moments of inertia are part of its own, and
-/// forces and torques on them act on it.
+/// A body whose members are particles. Its mass and inertia include those of the members, and
+/// forces and torques on members act on the body.
 struct RigidBody {
   std::vector<std::int32_t> members;  ///< numbers of particles, increasing, at least one
   std::vector<Vector> offsets;        ///< of the members' centres from `centre` at the start [L]
-  /// Orientations of the members relative to the body: their angles at the start [rad] in value[2]
-  /// for discs; not used for spheres, whose orientation at the start is that of the body.
+  /// Orientations of the members relative to the body: for discs their angles at the start [rad].
+  /// Not used for spheres, whose orientation at the start is that of the body.
   std::vector<double> member_angles;
   double mass = 0;  ///< [M], > 0; >= 0 in a fluid
-  /// About the centre, in the axes of the start [M L^2]. Discs use only the last entry.
+  /// Moment of inertia about the centre, in the axes of the start [M L^2]; discs use only the last
+  /// entry.
   Matrix3 inertia{};
   // The motion.
   Vector centre{};    ///< centre of mass [L]
   Vector velocity{};  ///< of the centre [L/T]
-  /// Discs: the angle by which the body has turned since the start, in value[2] [rad].
+  /// Discs: the angle by which the body has turned since the start, in component 2 [rad].
   Vector angle{};
   /// Spheres: the orientation as a unit quaternion (w, x, y, z), 1 at the start.
   std::array<double, 4> orientation{1, 0, 0, 0};
-  /// About the centre [M L^2/T]; of discs only value[2]. It is constant where no torque acts, which
-  /// the angular velocity in space is not.
+  /// Angular momentum about the centre [M L^2/T]; of discs only component 2. It is constant where
+  /// no torque acts, unlike the angular velocity in three dimensions.
   Vector angular_momentum{};
-  Vector angular_velocity{};  ///< [1/T]; of discs only value[2]
+  Vector angular_velocity{};  ///< [1/T]; of discs only component 2
 };
 
 /// The rigid bodies of a case, and which particle belongs to which.
@@ -74,25 +75,25 @@ struct RigidBodies {
 struct RigidBodyRequest {
   std::vector<std::int32_t> members;  ///< numbers of particles, at least one, each only once
   double mass = -1;                   ///< [M]; < 0: the sum of the members' masses
-  /// About the centre of mass [M L^2]; < 0: that of the members at their places, whose masses and
-  /// moments are scaled if `mass` is given. In space only < 0.
+  /// Moment of inertia about the centre of mass [M L^2]; < 0: that of the members at their places,
+  /// whose masses and moments are scaled if `mass` is given. In three dimensions it must be < 0.
   double moment_of_inertia = -1;
 };
 
 /// Adds a body with the members at their present places, velocities and angles. Its centre is the
 /// centre of mass of the members (the mean of their centres if none has a mass), its velocity and
 /// angular momentum are those of the members together, and their velocities become those of the
-/// rigid motion. In a periodic cell (Particles::cell) those images of the members make the body
-/// with which it is shortest along each axis: along the axis the members, with their images, leave
-/// distances between neighbours, and the body does not reach across the largest one. It must be
-/// smaller than the cell (diameter()). If two distances are the largest (ambiguous_images()), the
-/// images depend on the order of the particles. The velocities are those of the images. The
-/// particles must turn (add_rotation), unless their dimension is 1, and belong to no other body.
+/// rigid motion. In a periodic cell (Particles::cell) the body consists of those images of the
+/// members with which it is shortest along each axis: of the distances between neighbours along the
+/// axis, from member to member or image, it leaves out the largest one. It must be smaller than the
+/// cell (diameter()). If two distances are the largest (ambiguous_images()), the images depend on
+/// the order of the particles. The velocities are those of the images. The particles must turn
+/// (add_rotation), unless their dimension is 1, and belong to no other body.
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request);
 
 /// An axis of a periodic cell along which members do not determine which images make the body.
 struct AmbiguousImages {
-  std::size_t axis = 0;  ///< 0: x, 1: y
+  std::size_t axis = 0;  ///< 0: x, 1: y, 2: z
   double distance = 0;   ///< largest distance between neighbours, which occurs repeatedly [L]
 };
 
@@ -123,11 +124,12 @@ Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension)
 /// entry.
 Matrix3 present_inertia(const RigidBody& body, int dimension);
 
-/// Sets the angular velocity from the angular momentum. A body without inertia keeps it.
+/// Sets the angular velocity from the angular momentum. A body without inertia keeps its angular
+/// velocity.
 void update_angular_velocity(RigidBody& body, int dimension);
 
-/// The masses of the members [M], scaled so that their sum is that of the body. Equal parts of it
-/// if no member has a mass.
+/// The masses of the members [M], scaled so that their sum is the mass of the body. If no member
+/// has a mass, each gets an equal part.
 std::vector<double> member_masses(const RigidBody& body, const Particles& particles);
 
 /// Sets positions, velocities, orientations and angular velocities of all members to those of their

@@ -15,7 +15,8 @@ constexpr std::string_view kRadiusWords =
     "a number, a list of numbers, `{ uniform = [a, b] }` or `{ lognormal = { median, sigma } }`";
 
 void lognormal_keys(case_file::Keys& keys, RadiusDistribution& radius) {
-  // Four standard deviations, beyond which 6 in 1e5 radii are, are then a factor of 55.
+  // With sigma = 1, four standard deviations are a factor of 55; only 6 in 1e5 radii are beyond
+  // them.
   constexpr Allowed kSigma = {[](double v) { return v >= 1e-6 && v <= 1; }, "from 1e-6 to 1"};
   keys.required("median", case_file::number(radius.median, kModeratelyPositive), {"median radius"});
   keys.required("sigma", case_file::number(radius.sigma, kSigma),

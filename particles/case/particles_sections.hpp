@@ -73,7 +73,7 @@ struct ParticleLines {
 /// Also throws if there is neither a particle nor a source; for a key of particles in a fluid if the
 /// case has no fluid; for a rotation on an axis; for a force, a torque or an initial velocity of a particle whose
 /// motion is given, because it has no effect; for an arrangement in a domain that is no disc or
-/// box; and if its discs do not fit.
+/// box; and if its particles do not fit.
 ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c);
 
 /// Reads [arrangement], called by read_particles_of_case(), and adds its particles, which are at
@@ -95,8 +95,8 @@ std::vector<case_file::KeyTable> source_tables();
 
 /// Reads [[membrane]], called by read_particles_of_case(): makes beads, which become particles, and
 /// the membranes of c.setting.fluid or, without a fluid, of c.setting.links. Also throws if the
-/// case has what cannot stand beside membranes, or a fluid that cannot have them; if so few beads
-/// cannot have the reduced area; and for membranes that cross.
+/// case has something that cannot be combined with membranes, or a fluid that cannot have them; if
+/// so few beads cannot have the reduced area; and for membranes that cross.
 void read_membranes(const case_file::TomlSection& root, ParticlesCase& c, ParticleLines& lines);
 /// Describes this section.
 std::vector<case_file::KeyTable> membrane_tables();

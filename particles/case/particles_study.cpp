@@ -144,8 +144,8 @@ std::string ParticlesSweep::identity(std::uint64_t index, const std::string& ver
 }
 
 sweep::Study ParticlesSweep::study(const std::string& version, ParticlesRunner run) const {
-  // The case of a row has everything that determines its results; a row begins with the numbers
-  // that differ from those of the first one.
+  // The identities of the first and the last row stand for all rows: the other rows differ from
+  // them only in the varied numbers, which are in the file.
   return {points_, result_columns_,
           sweep::head_of("sweep of particles", read_file(case_path()), points_,
                          identity(0, version) + identity(points_.rows() - 1, version), version),

@@ -202,7 +202,7 @@ void read_sources(const case_file::TomlSection& root, ParticlesCase& c) {
     count += radii.back().count;
     require_ids(section, section.has("number") ? "number" : "rate", p, count);
   }
-  // The mean radius changes while particles come.
+  // The mean radius changes while particles are poured in.
   const double at_end = sum / static_cast<double>(p.count() + count);
   const double at_start = p.count() > 0 ? mean_radius(p) : at_end;
   for (std::size_t s = 0; s < sections.size(); ++s)

@@ -271,7 +271,7 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
     const auto& body = p.bodies.bodies[b];
     const auto masses = member_masses(body, p);
     double least = 0;
-    std::vector<std::size_t> union_of(masses.size());  // the lowest member of the union of each one
+    std::vector<std::size_t> union_of(masses.size());  // lowest member of its union
     std::iota(union_of.begin(), union_of.end(), 0U);
     for (std::size_t m = 0; m < masses.size(); ++m) {
       least += masses[m] * dot(body.offsets[m], body.offsets[m]);
@@ -346,7 +346,7 @@ void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
                       "projected in the norm of the masses, but the mass of {} is 0; it must be "
                       "\"constrained\", or the particle must have a mass",
                       names(k)));
-  // Forces turn particles by their moments of inertia alone.
+  // With splitting, friction turns particles by their moments of inertia alone.
   for (std::size_t k = 0; k < c.particles.count() && c.setting.laws.friction; ++k)
     if (c.particles.inertias[k] == 0 && !is_driven(c, static_cast<std::int32_t>(k)))
       root.section("fluid").fail(
@@ -358,7 +358,7 @@ void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
               names(k)));
 }
 
-/// Checks that nothing in the case is known of discs only if there are ellipses.
+/// If there are ellipses, checks that the case has nothing that can be computed for discs only.
 void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
                     const ParticleNames& names) {
   const auto& fluid = *c.setting.fluid;
@@ -474,8 +474,8 @@ void check_mean_flow(const case_file::TomlSection& root, const ParticlesCase& c)
                c.end_time, c.setting.time_step);
 }
 
-/// Checks an arrangement in a fluid by its smallest gap that is asked for, and not by the gaps of
-/// its discs, so that it is accepted or refused whatever its seed is.
+/// Checks an arrangement in a fluid by the smallest gap that the case demands, and not by the gaps
+/// of its discs, so that it is accepted or refused whatever its seed is.
 void check_arrangement(const case_file::TomlSection& root, const ParticlesCase& c) {
   if (!c.arrangement) return;
   const auto& fluid = *c.setting.fluid;

@@ -15,7 +15,7 @@
 
 namespace viscontact::particles {
 
-/// A point of a cone of up to three dimensions; what is beyond its dimension is 0.
+/// A point of a cone of up to three dimensions; components beyond the dimension are 0.
 using ConePoint = std::array<double, 3>;
 
 /// Sum of the products of the components.
@@ -153,8 +153,8 @@ struct SecondOrderCone {
 };
 
 /// The same for the cone of the plane, |x_1| <= x_0, in the coordinates (x_0 + x_1, x_0 -
-/// x_1)/2^0.5, which are positive numbers. Points near its boundary lose no digits in them. What is
-/// a half-line has the first coordinate only, and no change of coordinates.
+/// x_1)/2^0.5, which are positive numbers. Points near its boundary lose no digits in them. A
+/// half-line has the first coordinate only, without the change of coordinates.
 struct LinearCones {
   /// W of a point u and a dual point r: the roots of the ratios of their coordinates.
   class Scaling {

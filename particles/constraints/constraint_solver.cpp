@@ -93,8 +93,8 @@ class Iteration {
     gained_residual_ = best_.result.residual;
     gained_at_ = best_.result.iterations;
   }
-  /// Whether the best residual was not halved for a long time. With a patience of 2000 iterations
-  /// three steps more of 200 were given up in bench/box2d.cpp.
+  /// Whether the best residual was not halved for a long time. With a patience of 2000 iterations,
+  /// three more of the 200 steps of bench/box2d.cpp ended without a solution.
   bool is_stagnant() const {
     constexpr int kPatience = 3000;
     return best_.result.iterations - gained_at_ > kPatience;
@@ -102,8 +102,9 @@ class Iteration {
 
   /// Takes a proximal step, or goes back and makes the next one easier to solve. Between jammed
   /// particles that stick, impulses that balance each other must grow until a contact slips or
-  /// opens. Small epsilons go there fast, but Newton's method then fails more often, so that
-  /// epsilon follows what it achieves. Where even the easiest step fails, sweeps go on.
+  /// opens. Small epsilons reach this state fast, but Newton's method then fails more often.
+  /// Therefore epsilon falls after a success and grows after a failure. If even the easiest step
+  /// fails, sweeps continue.
   void take_proximal_step(int max_iterations) {
     constexpr int kMostIterations = 200, kFewIterations = 2;
     constexpr double kLeastEpsilon = 1e-12, kLargestEpsilon = 1, kFactor = 3, kLargeFactor = 10;
@@ -145,10 +146,10 @@ class Iteration {
 
   /// Makes gaps and bilateral rows exact after a step from the impulses `center` whose slips are
   /// allowed. Between jammed particles that stick, slips are never 0: impulses would grow without
-  /// end, which changes gaps by more than the little that they may be wrong. Therefore further steps
-  /// change the center of normal impulses only. For the slips, an epsilon is taken that is so large
-  /// that the small changes of the gaps hardly change the friction, and the center with which the
-  /// branches of all contacts remain. Returns whether the problem is solved.
+  /// end, and this changes gaps by more than their small tolerance. Therefore further steps change
+  /// the center of normal impulses only. For the slips, epsilon is so large that the small changes
+  /// of the gaps hardly change the friction, and the center is the one with which all contacts keep
+  /// their branches. Returns whether the problem is solved.
   bool close_gaps(std::vector<double> center, int max_iterations) {
     constexpr int kMostSteps = 12, kMostIterations = 200;
     constexpr double kEpsilonOfSlips = 1e-3, kLeastEpsilon = 1e-6, kFactor = 3;
@@ -178,14 +179,14 @@ class Iteration {
     return false;
   }
 
-  /// Solves a convex problem. Where loads of its contacts are given, interior points first find the
-  /// loads of the solution with these, which are given in the solution that follows. A rough
-  /// solution finds loads for the next one.
+  /// Solves a convex problem. If loads of its contacts are given, interior points first solve it
+  /// with these. The loads of that solution are then given in a second solution. A rough solution
+  /// only finds loads for the next one.
   void solve_with_own_loads(int max_iterations) {
     if (has_given_loads_ && !problem_.keeps_loads && !problem_.is_rough) {
       find_interior_solution(max_iterations);
       take_loads();
-      // What was found with other loads is not a solution.
+      // The best solution so far belongs to other loads, and does not count.
       best_.result.residual = std::numeric_limits<double>::infinity();
       update();
     }
@@ -249,8 +250,9 @@ class Iteration {
     update();
     const bool is_solved = !proximal_->failed() && taken < most && std::isfinite(residual_);
     const bool is_largest = epsilon_ >= kFirstEpsilon, is_least = epsilon_ <= kLeastEpsilon;
-    // Gaps that hardly improve although contacts hardly slip are those of jammed particles. The
-    // projection on a cone moves normal and tangential impulses together, which excludes cones.
+    // If gaps hardly improve although contacts hardly slip, particles are jammed. This test does
+    // not hold for contacts in cones, whose projection moves normal and tangential impulses
+    // together.
     constexpr double kLittleSlip = 0.01, kSlow = 0.1;
     if (is_solved && !has_cones_ && residual_ > 1 && residual_ > kSlow * before &&
         largest_slip() <= kLittleSlip && close_gaps(center, max_iterations))
@@ -269,7 +271,8 @@ class Iteration {
   }
 
   /// Between jammed particles, impulses that balance each other grow by the same small amounts in
-  /// each step, and the residual stays, until a contact slips or opens. Goes there at once.
+  /// each step, and the residual stays, until a contact slips or opens. This function adds all
+  /// these amounts at once.
   void extend_change(const std::vector<double>& center) {
     const auto& p = problem_.impulses;
     double length = std::numeric_limits<double>::infinity();

@@ -106,7 +106,8 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c,
   block.capacity = tangents.capacity;
   block.allowed = contact.allowed;
   block.allowed_slip = allowed_slip;
-  // A film that no impulse of this step can use up leaves no friction, and needs no rows for it.
+  // A film without lower bound (of smooth particles) carries all impulses, so that there is no
+  // friction.
   const bool rubs = block.friction > 0 && std::isfinite(block.capacity);
   block.rows = rubs ? static_cast<std::size_t>(D) : 1;
   if (problem_.is_convex && rubs) {
@@ -321,8 +322,8 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   if (is_rough)
     for (auto& block : problem_.blocks) block.allowed = allowed_slip;
   if (has_given_up_) give_loads_of_step();
-  // A correction gains about a factor of the turn in the step. With turns of a radian, these many
-  // gain little, and the step does not converge.
+  // A correction multiplies the error by about the turn in the step. With turns of a radian, even
+  // this many corrections gain little, and the step does not converge.
   constexpr int kMostCorrections = 40;
   ConstraintSolution<D> solution;
   SolverResult result;

@@ -25,7 +25,7 @@ namespace viscontact::particles {
 /// simulation: before the solution they hold the motion without constraints, after it that of the
 /// solution.
 struct ConstraintStep {
-  /// Of the contacts.
+  /// The laws of all contacts.
   const ContactLaws& laws;
   /// The planes, which may move.
   std::span<const Plane> obstacles;

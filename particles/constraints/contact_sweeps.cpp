@@ -1,5 +1,5 @@
-// The impulses of one block after another (contact_sweeps.hpp). A change must keep the order of
-// sums.
+// The impulses of one block after another (contact_sweeps.hpp), in the units of the case. Nothing
+// is thrown. A change must keep the order of sums.
 #include "viscontact/particles/constraints/contact_sweeps.hpp"
 
 #include <algorithm>
@@ -68,8 +68,9 @@ void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w
 /// the contact act on each other, which they do in rigid bodies.
 template <int D>
 void ContactSweeps<D>::solve_in_cone(const ConstraintBlock& block, const double* w) {
-  // The sums of the rows of (what the rows do to each other)/w bound the eigenvalues. With steps
-  // that are shorter by the largest sum the energy of the block falls.
+  // In the matrix of what impulses on the rows change in each other, divided by w, the largest sum
+  // of magnitudes in a row bounds the eigenvalues. With steps shorter by this factor the energy of
+  // the block falls.
   double largest = 1;
   for (std::size_t k = 0; k < block.rows; ++k) {
     double sum = 0;

@@ -1,4 +1,4 @@
-// Least squares of the constraints of a step (contradiction.hpp).
+// Least squares of the constraints of a step (contradiction.hpp), in the units of the case.
 #include "viscontact/particles/constraints/contradiction.hpp"
 
 #include <algorithm>
@@ -10,8 +10,9 @@ namespace viscontact::particles {
 
 template <int D>
 std::vector<double> least_violations(const ConstraintProblem<D>& problem) {
-  // Proximal steps of the least squares: what M/h holds back of a step vanishes as they go on, by a
-  // factor kEpsilon each for what all rows determine well.
+  // Proximal steps of the least squares. The term M/h keeps the matrix regular and holds each step
+  // back; the part that is missing falls by about kEpsilon in each step for motions that the rows
+  // determine well.
   constexpr double kEpsilon = 1e-6;
   constexpr int kSteps = 30;
   const auto w = row_mobilities(problem);

@@ -1,4 +1,4 @@
-// Iterations of the interior-point method (interior_points.hpp).
+// Iterations of the interior-point method (interior_points.hpp), in the units of the case.
 #include "viscontact/particles/constraints/interior_points.hpp"
 
 #include <algorithm>
@@ -147,7 +147,7 @@ double InteriorPoints<D>::measure() {
     part.error = values(part, true, y_);
     for (std::size_t k = 0; k < dimension(part); ++k) part.error[k] -= part.u[k];
     if (part.is_bound_given) {
-      // No row tells z.
+      // There is no row for z.
       auto components = Cone::coordinates(part.error);
       components[0] = 0;
       part.error = Cone::coordinates(components);
@@ -268,7 +268,7 @@ void InteriorPoints<D>::find_direction(int solutions) {
     for (std::size_t k = 0; k < dimension(part); ++k)
       part.change_of_u[k] += kRegularisation * part.change_of_r[k];
     if (!part.is_bound_given) continue;
-    // z is what the first row of W^2 dr + du = goal says.
+    // The change of z follows from the first row of W^2 dr + du = goal.
     auto change = Cone::coordinates(part.change_of_u);
     change[0] = Cone::coordinates(part.goal)[0] -
                 part.scaling.square_along(Cone::coordinates(part.change_of_r));
@@ -334,7 +334,7 @@ void InteriorPoints<D>::move(double length) {
 }
 
 /// Takes the impulses. Those of contacts that open are 0 at the solution, and are made exactly 0,
-/// so that no film remembers what is left of them.
+/// so that no film absorbs their small remainders.
 template <int D>
 void InteriorPoints<D>::take_impulses() {
   std::ranges::fill(impulses_, 0.0);

@@ -1,5 +1,6 @@
 // Convex problems with friction, (5.9) and (5.17) of docs/physics.md, by interior points
-// (constraint_problem.hpp). Units are those of the case.
+// (constraint_problem.hpp). Units are those of the case. constraint_solver.cpp uses it; nothing is
+// thrown. A change must keep the order of sums.
 #pragma once
 
 #include <array>
@@ -33,9 +34,9 @@ class InteriorPoints {
   /// `problem` must outlive this object; `w` are its row_mobilities().
   InteriorPoints(const ConstraintProblem<D>& problem, const std::vector<double>& w);
 
-  /// Solves the problem until what is left of all its conditions is `accuracy` of what they are
-  /// without impulses, in (0, 1), and returns the number of factorisations. Stops early where
-  /// rounding errors make a matrix singular, or after `max_iterations`.
+  /// Solves the problem until the violations of its conditions are at most `accuracy`, in (0, 1),
+  /// times those without impulses. Returns the number of factorisations. Stops early where rounding
+  /// errors make a matrix singular, or after `max_iterations`.
   int solve(double accuracy, int max_iterations);
 
   /// Impulses of the rows that the last solve() found [M L/T].
@@ -56,7 +57,7 @@ class InteriorPoints {
     double compliance = 0;  // of an equation
     double u = 0, r = 0;    // the present point; an equation has no u
     double change_of_u = 0, change_of_r = 0;
-    double error = 0;   // value of the row less u; of an equation, what should be 0
+    double error = 0;   // value of the row minus u; of an equation its value
     double goal = 0;    // (u/r) dr + du
     double weight = 0;  // d(r)/d(goal - error)
   };
@@ -69,7 +70,7 @@ class InteriorPoints {
     ConePoint u{}, r{};                        // the present point
     ConePoint change_of_u{}, change_of_r{};
     double scaled_bound = 0;  // first component of r of a given bound
-    ConePoint error{};        // value of the rows less u
+    ConePoint error{};        // value of the rows minus u
     ConePoint goal{};         // W^2 dr + du
     typename Cone::Scaling scaling;
     std::array<ConePoint, 3> inverse{};  // d(r)/d(goal - error)
@@ -102,8 +103,9 @@ class InteriorPoints {
   std::vector<Motion<D>> y_, direction_, error_;  // error_: impulses that are missing
   std::vector<Motion<D>> right_;                  // of a system of equations, then its solution
   std::vector<double> impulses_;
-  double gap_ = 0;     // mean u.r of the cones
-  double degree_ = 0;  // sum of the degrees of the cones: how many linear conditions they are
+  double gap_ = 0;  // mean u.r of the cones
+  double degree_ =
+      0;  // divisor of this mean: 1 for each gap, e.e for each cone (e: unit of its product)
 };
 
 }  // namespace viscontact::particles

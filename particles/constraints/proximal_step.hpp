@@ -34,11 +34,11 @@ namespace viscontact::particles {
 /// the factors of the iteration before serve again.
 ///
 /// In the plane the equation is linear between changes of branches. Where no step along the
-/// direction of Newton's method makes the error smaller, the path on which the error is a multiple
-/// of what it was is followed from branch to branch, also where it turns back (Katzenelson 1965,
-/// "An algorithm for solving nonlinear resistor networks"; Chien & Kuh 1976, "Solving
-/// piecewise-linear equations for resistive networks"). Coulomb's law of jammed particles has such
-/// turns.
+/// direction of Newton's method makes the error smaller, solve() follows the path on which the
+/// error is a multiple of that at its start, from branch to branch, also where it turns back
+/// (Katzenelson 1965, "An algorithm for solving nonlinear resistor networks"; Chien & Kuh 1976,
+/// "Solving piecewise-linear equations for resistive networks"). Coulomb's law of jammed particles
+/// has such turns.
 template <int D>
 class ProximalStep {
  public:

@@ -1,5 +1,6 @@
 // The matrices of Newton's methods for the constraints of a step: inverse mobilities of the units
-// and products of rows (constraint_problem.hpp). Units are those of the case.
+// and products of rows (constraint_problem.hpp). Units are those of the case. Nothing is thrown.
+// Used by interior_points.hpp, proximal_step.hpp and contradiction.cpp.
 #pragma once
 
 #include <cstddef>

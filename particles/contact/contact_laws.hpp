@@ -1,9 +1,9 @@
-// The laws that all contacts of a case obey, together: what they make of a pair before a step, and
-// what they remember after it. A new law is a class of its own (film_law.hpp, friction_law.hpp,
-// restitution_law.hpp), a member here, and, if it remembers something, a row in pair_memory.hpp.
-// Lengths, masses and times are in any consistent units; gamma and impulses of discs in a fluid are
-// per length [M/T], all others [M L/T]. The projection, the fluid and the blows ask them; nothing
-// is thrown.
+// All laws that the contacts of a case obey. Before a step they bound the impulse of a pair; after
+// it they update gamma and what is remembered of the pair. A new law is a class of its own
+// (film_law.hpp, friction_law.hpp, restitution_law.hpp), a member here, and, if it remembers
+// something, a row in pair_memory.hpp. Lengths, masses and times are in any consistent units; gamma
+// and impulses of discs in a fluid are per length [M/T], all others [M L/T]. The projection, the
+// fluid and the blows ask them; nothing is thrown.
 #pragma once
 
 #include <limits>
@@ -51,8 +51,8 @@ struct ContactLaws {
     return film.lowest_gamma(radii.second, radii.first);
   }
 
-  /// Takes over the impulse of a pair after a step of length `h` [T]: gamma, and the memories of
-  /// the laws. `impulse_error` is that of FilmLaw::absorb().
+  /// Updates gamma and the memories of the laws with Pair::impulse after a step of length `h` [T].
+  /// `impulse_error` is that of FilmLaw::absorb().
   void remember(Pair& pair, PairMemories& memories, const PairRadii& radii, double impulse_error,
                 double /*h*/) const {
     FilmLaw::absorb(pair, impulse_error, lowest_gamma(pair, memories.of(pair.memory), radii));

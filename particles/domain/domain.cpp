@@ -1,5 +1,6 @@
-// Measures domains, and makes obstacles of their walls. Lengths are in the unit of the case. Nothing is checked
-// or thrown. A change must keep the order, which numbers obstacles in files.
+// Measures domains, and makes obstacles of their walls. Lengths are in the unit of the case.
+// Nothing is checked or thrown. A change must keep the order of the walls, by which files number
+// obstacles.
 #include "viscontact/particles/domain/domain.hpp"
 
 #include <numbers>

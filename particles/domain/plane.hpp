@@ -27,7 +27,7 @@ struct PlanePosition {
 struct Plane {
   PlanePosition start;         ///< position at time 0
   PiecewiseConstant velocity;  ///< [L/T]
-  /// Constant [1/T]; for discs it is (0, 0, omega).
+  /// Angular velocity, which is constant [1/T]; for discs (0, 0, omega).
   Vector angular_velocity{};
   Vector pivot{};  ///< position of the pivot at time 0 [L]
 

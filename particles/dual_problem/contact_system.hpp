@@ -16,7 +16,8 @@
 namespace viscontact::particles {
 
 /// Particles that take part are called bodies, also if they belong to a rigid body; they are
-/// numbered in the order in which the contacts name them. Contacts are only added, never removed.
+/// numbered in the order in which the contacts name them. Contacts are only added, never removed. h
+/// is the length of the step, u* the velocity without contacts, v that with them, and m the mass.
 template <int D>
 class ContactSystem {
  public:
@@ -36,8 +37,9 @@ class ContactSystem {
   /// Makes two particles take part, in one island. `first` may be -1: only `second`.
   void connect(std::int32_t first, std::int32_t second);
 
-  /// Solves the dual problem; the impulses are the guess. Sets the impulses, and the displacements
-  /// h v of the bodies.
+  /// Solves the dual problem, with the impulses of `contacts` as the guess. Sets these impulses,
+  /// and the displacements h v of the bodies in the array of the constructor. If `is_rough`, the
+  /// solution serves only to find contacts that must be added (MassDualProblem).
   SolverResult solve(bool is_rough, int max_iterations, ThreadPool& pool);
 
   /// The contacts, with the numbers of particles, not of bodies. `impulse` and `allowed` may be

@@ -24,8 +24,10 @@ struct SolverResult {
   double residual = 0;
 };
 
-/// The dual problem in impulses p = h lambda. Without contact, particles move by h u*, and impulses
-/// add the mobility S times G^T p, where G v is the velocity at which gaps open. The problem is
+/// The dual problem in impulses p = h lambda, where h is the length of the step and lambda are the
+/// forces of the contacts. Without contact, particles move by h u*, and impulses add the mobility S
+/// times G^T p, where G v is the velocity at which gaps open. D are the gaps at the beginning of
+/// the step, and gamma^n the lower bounds of the impulses. The problem is
 ///
 ///     minimise  1/2 p^T W p + b^T p  over  p_ij >= gamma_ij^n,
 ///     W = G S G^T,   b = D + h G u*;   the gradient W p + b is D + h G v.

@@ -1,6 +1,6 @@
 // Builds and applies the sparse Cholesky factor of W with Eigen. The scaling is that of
-// mass_dual_problem.hpp, without dimension. A factor that fails is no error: there is none then. A
-// change must keep one order of elimination, for equal results.
+// mass_dual_problem.hpp, without dimension. If the factor cannot be computed, this is no error:
+// exists() is then false. A change must keep one order of elimination, for equal results.
 #include "viscontact/particles/dual_problem/free_set_factor.hpp"
 
 #include <Eigen/SparseCholesky>

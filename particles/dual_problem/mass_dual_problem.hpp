@@ -1,7 +1,8 @@
-// The dual problem of particles that only their masses resist: the two products with W that all
-// methods use, in flat arrays of contacts and bodies. Lengths, masses and times are in the units of
-// the case. A change must keep the order of all sums, because the results must not depend on the
-// threads. Used by dual_solver.cpp, dual_solver.hpp and free_set_factor.hpp.
+// The dual problem (dual_problem.hpp) of particles whose motion only their masses resist, because
+// there is no fluid: the contacts and bodies in flat arrays, and the products with the matrix W
+// that all methods need. Lengths, masses and times are in the units of the case. Nothing is checked
+// or thrown. A change must keep the order of all sums, because the results must not depend on the
+// number of threads. Used by dual_solver.cpp, dual_solver.hpp and free_set_factor.hpp.
 #pragma once
 
 #include <array>
@@ -15,9 +16,11 @@
 
 namespace viscontact::particles {
 
-/// The dual problem with the mobility S = h M^-1, so that w = W_cc = h/m_i + h/m_j of contact c. B
-/// z denotes the displacements y = h M^-1 G^T p that the scaled impulses z cause. The gradient of
-/// contact c and the quadratic form are then
+/// The dual problem with the mobility S = h M^-1, where h is the length of the step and M has the
+/// masses. A contact c of the bodies i and j with the unit normal e, from i to j, has Contact::w =
+/// h/m_i + h/m_j, and the scaled W has the diagonal 1. The scaled impulses z displace the bodies by
+/// y = B z = h M^-1 G^T p [L] (b, p and G: dual_problem.hpp). The gradient of contact c and the
+/// quadratic form are then
 ///
 ///     b_c/sqrt(w) + (e.(y_j - y_i))/sqrt(w),   z^T W z = sum over the bodies b of |y_b|^2 m_b/h.
 template <int D>
@@ -26,9 +29,10 @@ class MassDualProblem : public DualProblem {
   /// D components of a vector in space.
   using Vec = std::array<double, D>;
 
-  /// `displacements`: h u* of each body, a flat array [L]. `mobilities`: h/m of each body [T/M].
-  /// All planes together are one additional body, which does not move. `body_of` is the body of
-  /// each particle; without it the numbers in the contacts are those of bodies.
+  /// `displacements`: h u* of each body, D numbers [L]: how far it moves in the step without
+  /// contacts. `mobilities`: h/m of each body [T/M]. All planes together are one additional body,
+  /// which does not move. `body_of` has the body of each particle; if it is empty, `first` and
+  /// `second` of a contact are numbers of bodies.
   MassDualProblem(std::span<const Contact<D>> contacts, std::span<const double> displacements,
                   std::span<const double> mobilities, ThreadPool& pool,
                   std::span<const std::int32_t> body_of = {});
@@ -36,11 +40,11 @@ class MassDualProblem : public DualProblem {
   /// Number of bodies, of which the last one stands for all planes.
   std::size_t bodies() const { return offsets_.size() - 1; }
   std::size_t displacement_count() const { return bodies() * D; }  ///< numbers in a vector y = B z
-  /// The threads that work on the blocks of contacts.
+  /// The threads. Each takes blocks of ThreadPool::kBlock contacts or bodies.
   ThreadPool& pool() const { return *pool_; }
 
-  std::size_t largest_island = 0;  ///< number of bodies of the largest island
-  bool is_rough = false;  ///< the solution serves only to find which other contacts take part
+  std::size_t largest_island = 0;  ///< bodies in the largest set that contacts join
+  bool is_rough = false;           ///< true: solved only to find contacts to add
 
   /// Computes y = B z, D numbers for each body [L]. Returns z^T W z.
   double to_bodies(std::span<const double> values, std::span<double> y) const {
@@ -75,8 +79,9 @@ class MassDualProblem : public DualProblem {
     return product(row, y + index_of(row.first) * D, y + index_of(row.second) * D);
   }
 
-  // Within one block of the thread pool, on the bodies of this block only, the same product and the
-  // addition of B (change of z_c) to y. They leave out the contacts of other blocks.
+  // The next three functions are for sweeps through the contacts of one block of the thread pool.
+  // They know the displacements that these contacts cause, and not those of the contacts of other
+  // blocks.
 
   /// Returns zeros, D numbers for each body of the block that begins at contact `begin`.
   std::vector<double> block_bodies(std::size_t begin) const {

@@ -19,7 +19,8 @@
 namespace viscontact::particles {
 
 /// The state of the iteration: z, its gradient g and the direction in which z moves. Free contacts
-/// have z above the bound. A step is one of three:
+/// have z above the bound. PassStatistics below defines the free and the chopped gradient. A step
+/// is one of three:
 ///
 /// - proportioning: along the chopped gradient, if it is larger than the free gradient;
 /// - otherwise a preconditioned conjugate gradient step;

@@ -1,6 +1,8 @@
-// Solves the contact problem of a step in a fluid (fluid_contacts.hpp): computes w, and chooses
-// between the matrix W and products with it. Numbers are in the units of the case. Errors are those
-// of the mobility. Results may depend on nothing but the arguments. Used by fluid_contacts.cpp.
+// Solves the contact problem of a step in a fluid (fluid_contacts.hpp). W [T/M] is the matrix of
+// the rates at which gaps open per impulse of each contact, w its diagonal. If contacts are few, W
+// is computed, otherwise only products with it. Numbers are in the units of the case. Errors are
+// those of the mobility. Results may depend on nothing but the arguments. Used by
+// fluid_contacts.cpp.
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <set>
@@ -15,7 +17,7 @@ namespace {
 
 using Eigen::Index;
 
-/// D - D_c + h G v [L] with the velocities without contact.
+/// The gap at the end of the step [L] for the velocities without contact.
 double free_gap(const Contact<2>& contact, const ContactConditions& conditions) {
   return gap_after(contact, conditions.free_velocities.data(), conditions.h, conditions.layout);
 }
@@ -132,7 +134,8 @@ Eigen::MatrixXd dense_w(std::span<const Contact<2>> contacts,
 class DenseDualProblem : public DualProblem {
  public:
   /// The problem has the symmetric part of `full_w`, dense_w() of the contacts. If `conditions` say
-  /// that W is not symmetric, its gaps contain what the skew part does with the present impulses.
+  /// that W is not symmetric, the gaps of the problem contain the product of the skew part with the
+  /// present impulses.
   DenseDualProblem(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
                    const Eigen::MatrixXd& full_w)
       : DualProblem(contacts.size()) {
@@ -187,9 +190,9 @@ class DenseFactor {
     for (std::size_t c = 0; c < free.size(); ++c)
       if (free[c] != 0) chosen_.push_back(static_cast<Index>(c));
     w_ = problem.w(chosen_, chosen_);
-    // Redundant contacts make W singular but for its errors. A term as large as these bounds the
-    // impulses that such contacts exert on each other. Refinement removes what it changes
-    // elsewhere.
+    // Redundant contacts make W singular, up to its errors. A term as large as these errors bounds
+    // the impulses that such contacts exert on each other. Refinement in solve() removes the error
+    // that the term causes in other impulses.
     Eigen::MatrixXd regular = w_;
     regular.diagonal() *= 1 + error_of_w_;
     factor_.compute(regular);
@@ -286,7 +289,7 @@ bool ContactProblem::solve(bool is_rough) {
   } else if (std::ranges::any_of(contacts_, [](const auto& c) { return !(c.w > 0); })) {
     iterations_ += estimate_w(contacts_, velocities_.size(), mobility_, layout);
   }
-  // A matrix is solved exactly at once.
+  // With a dense W the accurate solution is as fast as a rough one.
   is_rough_ = is_rough && !is_dense;
   auto conditions = conditions_;
   if (is_rough_) {
@@ -305,8 +308,9 @@ bool ContactProblem::solve(bool is_rough) {
     if (is_solved()) return true;
   }
   conditions.velocity_error = kErrorOfSums;
-  // The allowed residuals follow from the impulses, which the first solution tells. Each round also
-  // divides the error that the skew part of W makes by about the symmetric part over the skew one.
+  // The allowed residuals depend on the impulses, which are known only after the first solution.
+  // Each round also divides the error that the skew part of W makes by about the symmetric part
+  // over the skew one.
   constexpr int kRounds = 4, kRoundsOfSkewPart = 40;
   const int rounds = is_dense && !conditions.is_symmetric ? kRoundsOfSkewPart : kRounds;
   for (int round = 0; round < rounds; ++round) {

@@ -1,6 +1,6 @@
 // Computes a flow up to three times and compares the results. Numbers are in the units of the case.
-// Errors are those of FluidSolver. A change must keep the order of the questions, because each
-// `vary` replaces the fluid of the one before.
+// Errors are those of FluidSolver. A change must keep the order of the questions, because
+// vary_penalty() and vary_mesh() replace what the solver had before.
 #include "viscontact/particles/fluid/flow_estimate.hpp"
 
 #include <algorithm>
@@ -23,8 +23,8 @@ std::vector<double> difference(std::span<const double> of, std::span<const doubl
   return result;
 }
 
-/// For each component the length of its vector: velocity or force; angular velocity or torque count
-/// alone.
+/// For each component the length of its vector: velocity or force; an angular velocity or torque is
+/// a vector of its own.
 std::vector<double> lengths(std::span<const double> of, std::size_t components) {
   std::vector<double> result;
   for (const double x : of) result.push_back(std::abs(x));
@@ -33,7 +33,8 @@ std::vector<double> lengths(std::span<const double> of, std::size_t components) 
   return result;
 }
 
-/// The largest length. Angular velocities (`power` 1) and torques (-1) count times radius^power.
+/// The largest length. Angular velocities (`power` 1) and torques (-1) are multiplied by
+/// radius^power.
 double largest(std::span<const double> of, const Particles& particles, int power) {
   const auto components = motion_components(particles.dimension);
   const auto all = lengths(of, components);
@@ -46,8 +47,8 @@ double largest(std::span<const double> of, const Particles& particles, int power
   return result;
 }
 
-/// For each load of a particle in the plane the largest change of all its loads, where torques
-/// count divided by the radius. A change that is small by chance then hides no error.
+/// For each load of a particle in the plane the largest change of all its loads, where torques are
+/// divided by the radius. A change that is small by chance then hides no error.
 std::vector<double> of_loads(std::span<const double> changes, const Particles& particles) {
   auto result = lengths(changes, motion_components(particles.dimension));
   if (particles.dimension == 1) return result;

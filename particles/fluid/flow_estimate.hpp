@@ -19,11 +19,12 @@ namespace viscontact::particles {
 struct FlowEstimate {
   std::vector<double> velocities;  ///< the most accurate ones [L/T, 1/T]
   FlowQuantities quantities;       ///< the most accurate ones
-  /// Of the velocities, where angular velocities count times the radius. They are relative to the
-  /// largest velocity, or to the change of a linear flow over the largest radius if that is larger.
+  /// Of the velocities, where angular velocities are multiplied by the radius. They are relative to
+  /// the largest velocity, or to the change of a linear flow over the largest radius if that is
+  /// larger.
   RelativeErrors of_velocities;
-  /// Of the forces of the fluid, relative to the largest of them, where torques count divided by
-  /// the radius.
+  /// Of the forces of the fluid, relative to the largest of them, where torques are divided by the
+  /// radius.
   RelativeErrors of_forces;
   /// Errors >= 0 of `quantities.fluid_forces`, as many numbers [M L/T^2, M L^2/T^2]. In the plane
   /// the components of the force on a particle have one error, and its torque has this error times

@@ -82,8 +82,8 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   auto& p = state_.particles;
   state_.pairs = std::move(motion.contact.pairs);
   state_.walls = std::move(motion.contact.walls);
-  // The second step computes the impulses of such a step again: films and solids book them once,
-  // and a contact that solids may hit has borne no load yet.
+  // In a fluid with inertia the second step computes the impulses of the first step again. Films
+  // and solids must absorb them only once, and contacts count as not loaded yet if solids rebound.
   const bool is_unloaded = setting_.laws.restitution.is_on() && is_computed_twice();
   std::size_t c = 0;
   for (auto* pairs : {&state_.pairs, &state_.walls})

@@ -1,5 +1,6 @@
-// Solves the two phases of a blow in a fluid. Numbers are in the units of the case. Errors are
-// those of the mobility. The work of a blow must not be positive.
+// Solves a blow in a fluid, that is all hits of solids in one step (fluid_blow.hpp), in two phases:
+// compression and restitution. Numbers are in the units of the case. Errors are those of the
+// mobility. A change must keep that the work of a blow is not positive.
 #include "viscontact/particles/fluid/fluid_blow.hpp"
 
 #include <algorithm>
@@ -43,11 +44,11 @@ class Blow {
   std::optional<FluidBlow> solve();
 
  private:
-  // A contact in the course of the blow.
+  // A contact in the course of the blow. e_d is the coefficient of restitution of the solids [1].
   struct Part {
     double drift = 0;        // as drift_of()
     double start = 0;        // gap at the beginning of the step, >= 0 [L]
-    double pull = 0;         // rate of the gap that the loads give between solids at rest [L/T]
+    double pull = 0;         // rate of the gap by the loads, for solids at rest [L/T]
     bool is_closed = false;  // at the beginning of the step
     bool is_hit = false;     // its gap closes by an approach, not by a load
     double late = 0;         // time of the hit over the length of the step, 0 to 1
@@ -55,7 +56,7 @@ class Blow {
     double compressed = 0;   // impulse at the end of the compression, with the load
     double solid = 0;        // impulse s of the hit that the solids take, >= 0
     double left = 0;         // gamma at the end of the compression, <= 0
-    double restored = 0;     // impulse, with that of the compression, which pulls the film open
+    double restored = 0;     // least impulse of the whole blow: compressed + left + e_d solid
   };
 
   bool find_hits();
@@ -66,7 +67,7 @@ class Blow {
   void move(FluidBlow& blow);
   void book(FluidBlow& blow) const;
 
-  // A stop is a contact without film; no list has a pair of it.
+  // A stop of a hinge is a contact without film, and has no pair in the lists.
   const Pair& pair(std::size_t c) const {
     static const Pair kOfStop{};
     const auto n = ordinary_.pairs.size();
@@ -127,7 +128,7 @@ bool Blow::find_hits() {
     if (approaches(c)) approaching.push_back(c);
   }
   if (approaching.empty()) return false;
-  // The approach of a driven particle is no load.
+  // The velocity of a driven particle is given, and not an effect of loads.
   const auto of_free = [&](std::span<const double> velocities) {
     std::vector<double> result(velocities.begin(), velocities.end());
     for (const auto& [particle, motion] : step_.setting.given_motions)

@@ -1,6 +1,6 @@
 // Lists pairs that are close to contact, chooses the contacts of a step among them and measures
 // their residuals. Numbers are in the units of the case. Errors are those of the mobility, and that
-// of plates that lie on each other. A change must keep the order of pairs, which files have.
+// of plates that overlap. A change must keep the order of pairs, which is that of the files.
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 #include <fmt/format.h>
@@ -177,9 +177,9 @@ Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const P
   return contact;
 }
 
-/// contact_of() a pair. On an axis the normal has one component. A round wall is taken as its
-/// tangent where the particle is after it moved with the velocities without contact. Sets `place`
-/// in the plane.
+/// The contact of a pair, as by contact_of(). On an axis the normal has one component. A round wall
+/// is taken as its tangent where the particle is after it moved with the velocities without
+/// contact. Sets `place` in the plane.
 Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& pair,
                             std::span<const PlanePosition> obstacles,
                             const ContactConditions& conditions, FrictionPlace& place) {
@@ -366,7 +366,8 @@ Mobility remembered(const Mobility& mobility) {
   return
       [&mobility, answers = std::make_shared<std::map<std::vector<double>, std::vector<double>>>()](
           std::span<const double> forces) {
-        // A contact acts on six components. Sums of many forces do not come again.
+        // The force of one contact has at most six components. Sums of many forces are not asked
+        // for again.
         constexpr std::ptrdiff_t kMost = 6;
         if (std::ranges::count_if(forces, [](double f) { return f != 0; }) > kMost)
           return mobility(forces);
@@ -457,7 +458,7 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
     make_contacts(step, p, fluid, obstacles, conditions, friction);
     step.contacts.insert(step.contacts.end(), stops.begin(), stops.end());
     solve(step);
-    // Each correction gains about a factor of the angle by which plates turn in the step.
+    // Each correction multiplies the error by about the angle by which plates turn in the step.
     constexpr int kMostCorrections = 20;
     for (int n = 0; n < kMostCorrections && !fluid.plates.empty(); ++n) {
       if (!correct_turns(step, p, fluid, obstacles, conditions)) break;

@@ -68,7 +68,7 @@ inline void add_contact_force(const Contact<2>& contact, double force, std::span
 
 /// Velocities [L/T, 1/T] of all particles that forces and torques [M L/T^2, M L^2/T^2] add to those
 /// without contact; linear, and positive definite on the forces of contacts, along which it is
-/// symmetric but in a fluid with inertia.
+/// symmetric except in a fluid with inertia.
 using Mobility = std::function<std::vector<double>(std::span<const double> forces)>;
 
 /// The step without contact, and how exact its contacts must be.

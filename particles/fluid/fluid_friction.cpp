@@ -49,8 +49,9 @@ std::array<double, 2> velocity_of_wall(const Setting& setting, std::size_t wall,
   return velocity.at((begin + end) / 2, begin, end);
 }
 
-/// The residual of Coulomb's law as a length: the friction misses the projection of p_t - slip/w on
-/// [-mu_s p_s, mu_s p_s] by the residual over w [L].
+/// The residual of Coulomb's law as a length [L]: w times the difference between the friction p_t
+/// and the projection of p_t - slip/w on [-bound, bound]; w [T/M] is the change of the slip per
+/// impulse of friction.
 double residual_of_friction(double p_t, double bound, double slip, double w) {
   if (bound == 0 && p_t == 0) return 0;
   return w * std::abs(p_t - std::clamp(p_t - slip / w, -bound, bound));
@@ -73,11 +74,12 @@ struct CoupledRows {
   std::vector<ConstraintBlock> blocks;              ///< one for each contact
 };
 
-/// What impulses of rows move, for a symmetric W with a positive diagonal that has an error.
+/// The modes of a symmetric W with a positive diagonal that is known up to a relative error: those
+/// that impulses move, and those that they do not.
 struct MovedDirections {
   Eigen::MatrixXd root;  ///< L with W = L L^T but for the error
-  /// Columns that no impulse moves but for the error: sums of the rows, each divided by its root of
-  /// W_rr, that stay as they are.
+  /// Each column has the weights of a sum of the rows, each row divided by the root of W_rr. No
+  /// impulse changes such a sum by more than the error of W explains.
   Eigen::MatrixXd unmoved;
   Eigen::VectorXd scales;  ///< roots of W_rr
 
@@ -92,8 +94,9 @@ struct MovedDirections {
     root = scales.asDiagonal() * modes.eigenvectors() * roots.asDiagonal();
   }
 
-  /// Takes the sums that no impulse moves from the offsets, where they are as small as `rounding` of
-  /// all of them explains [L]. Otherwise impulses would grow to move what they cannot.
+  /// Removes from the offsets the sums that no impulse changes, if they are so small that the error
+  /// `rounding` of the offsets explains them [L]. Otherwise the impulses would grow in vain,
+  /// because they cannot change these sums.
   Eigen::VectorXd consistent(const Eigen::VectorXd& offsets, double rounding) const {
     Eigen::VectorXd scaled = offsets.cwiseQuotient(scales);
     for (Index m = 0; m < unmoved.cols(); ++m) {
@@ -131,8 +134,9 @@ void add_rows(const Eigen::MatrixXd& root, std::span<const double> offsets,
 
 /// Improves the impulses of the rows with the matrix W of the relative error `error`, in `most`
 /// iterations; offsets have the error `rounding` [L]. The skew part of W, which is not 0 in a fluid
-/// with inertia, acts as an offset. With `gives_loads` the friction has the bounds of the loads of
-/// the guesses, (5.17). Returns the number of iterations.
+/// with inertia, acts as an offset. With `gives_loads` the friction is bounded by mu_s times the
+/// load that the solids carry in the guesses, (5.17), instead of the load in the solution. Returns
+/// the number of iterations.
 int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_loads, int most,
             CoupledRows& rows) {
   const Eigen::MatrixXd symmetric = (w + w.transpose()) / 2, skew = w - symmetric;
@@ -194,7 +198,8 @@ class FrictionSolver {
       if (step_.iterations >= conditions_.solver.max_iterations) break;
       solve_together(false);
     }
-    // As without a fluid, the loads of the best round take the place of Coulomb's law.
+    // As without a fluid, the loads on solids in the best round now bound the friction, (5.17),
+    // instead of the loads of the solution.
     take(best);
     solve_together(true);
     solve_gaps(true);
@@ -283,7 +288,7 @@ class FrictionSolver {
       ++step_.iterations;
       friction.w =
           friction.slip_rate(contact_of(friction), of_slips_[f].data(), conditions_.layout);
-      // What a hinge holds bears no friction.
+      // A place that a hinge holds has no friction.
       if (!(friction.w > conditions_.least_w)) friction.w = 0;
     }
     return of_slips_[f];

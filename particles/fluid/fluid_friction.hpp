@@ -32,9 +32,9 @@ struct FrictionPlace {
   Vector on_obstacle{};  ///< the point of the obstacle at the contact [L]
 };
 
-/// The friction of a contact, but for its number. `contact` has the gap between the surfaces, and
-/// the particles are where the step begins. The first guess of the impulse is that in the memory of
-/// the pair.
+/// The friction of a contact, without ContactFrictionInFluid::contact. `contact` has the gap
+/// between the surfaces, and the particles are where the step begins. The first guess of the
+/// impulse is that in the memory of the pair.
 ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Particles& particles,
                                            const Pair& pair, const Contact<2>& contact,
                                            const FrictionPlace& place,

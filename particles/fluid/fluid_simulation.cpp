@@ -31,8 +31,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Links are held to this part of the tolerance of lengths, so that their errors do not add up. Each
-// change gains about a factor of the angle by which a body or an arm turns in the step, so that few
-// changes are needed unless it turns by a radian.
+// change multiplies the error by about the angle by which a body or an arm turns in the step, so
+// that few changes are needed unless this angle is about a radian.
 constexpr double kOfTolerance = 1e-3;
 constexpr int kMostChanges = 20;
 
@@ -162,7 +162,8 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
                                         : solver_->velocities(difference, false);
     for (std::size_t i = 0; i < changed.size(); ++i) changed[i] += added[i];
   }
-  // What the links hold off turns with them; only the answer of the fluid changes.
+  // The forces of links turn with the links. Therefore the earlier velocities get the directions
+  // that the links have now, and only the change of the answer of the fluid is extrapolated.
   if (held_ != nullptr) held_->hold_velocities(earlier);
   const double share = h / (2 * state_.earlier_step);
   for (std::size_t i = 0; i < free.size(); ++i) {
@@ -238,7 +239,7 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
   const FrictionOfStep friction{setting_, obstacles_, state_.memories, state_.time, next};
   const bool has_inertia = fluid.has_inertia();
   const auto before = has_inertia ? state_.earlier_velocities : equation.velocities();
-  // BlowStep::loaded: what is left of the velocities without contact if no particle had a momentum.
+  // BlowStep::loaded: the velocities without contact if no particle had a momentum.
   const auto loaded = [&] {
     if (has_inertia) return solver_->velocities(equation.forces(), false);
     std::vector<double> momentum(before.size());
@@ -380,8 +381,8 @@ void FluidSimulation::keep_and_extrapolate(const StepEquation& equation, Motion&
   if (setting_.fluid->coupling == Coupling::kSplitting)
     for (std::size_t i = 0; i < motion.kept.size(); ++i)
       motion.kept[i] += motion.after[i] - motion.free[i];
-  // The fluid may have been set in motion at once at the start, so that the first change of the
-  // velocity says nothing of the next one.
+  // The fluid may have started with a jump of its velocity, so that the first change of the
+  // velocity says nothing about the next one.
   const double share = state_.steps > 1 ? 2 * equation.share_of_change() : 0;
   motion.at_end = motion.kept;
   for (std::size_t i = 0; i < motion.at_end.size(); ++i) {

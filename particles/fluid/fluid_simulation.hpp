@@ -1,7 +1,8 @@
 // Simulates rigid particles in a fluid with viscous contact, docs/physics.md (6.1) to (6.5)
 // (Lefebvre 2007, "Fluid-particle simulations with FreeFem++"; Lefebvre 2009, "Numerical simulation
 // of gluey particles"). Lengths, masses and times are in any consistent units. particles/run uses
-// it. Restarts must give the same bits. Used by fluid_motion.hpp and run/.
+// it. A continued run must give the same bits as one without a break. Used by fluid_motion.hpp and
+// run/.
 #pragma once
 
 #include <memory>
@@ -44,10 +45,10 @@ struct ForceErrors {
 ///     U = S^n g^n,   U^+ = U + (h^n/(2 h^{n-1})) (S^n g* - U^{n-1}),   x^{n+1} = x^n + h U^+,
 ///     g* = F^{n-1} + M/(theta h) U^{n-1},
 ///
-/// in which the second term is the change that the motion of the particles over half a step makes.
+/// in which the second term is the change of the velocities because places change in half a step.
 /// Without inertia and with a constant force g* = g^n, so that this is the formula of Adams and
 /// Bashforth; it remains of second order where a force jumps. Links between particles with mass are
-/// those in the middle of the step, and U^{n-1} is brought to their directions (6.7). A particle
+/// those in the middle of the step, and U^{n-1} is projected on their directions (6.7). A particle
 /// that was in contact in the step before moves with U, of first order, and so do all where a given
 /// motion jumps.
 ///

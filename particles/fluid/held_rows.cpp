@@ -89,7 +89,7 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
       row.name = fmt::format("body {}", number);
       row.accelerates = link_time(first) >= 0;
       row.entries = {{layout_.at(member, d), 1}, {layout_.at(first, d), -1}};
-      // velocity of the member less that of the first one's rigid motion
+      // velocity of the member minus that of the rigid motion of the first one
       if (d < 2) {
         row.entries.emplace_back(layout_.at(first, 2), d == 0 ? apart[1] : -apart[0]);
         row.image_rate = of_images[m][d] - of_images[0][d];
@@ -115,9 +115,9 @@ void HeldMotion::add_entries(const LinkPart& part, HeldRow& row) const {
 
 std::vector<HeldRow> HeldMotion::rows() const { return rows_of(in_rows_); }
 
-/// The rate of a hinge or an arm in the velocities. Those of a step take away what is left of the
-/// equation; those at its beginning are the rate at that time, because the momentum of the fluid
-/// must not have what corrects a place.
+/// The rate of a hinge or an arm in the velocities. In the velocities of a step the rate also
+/// removes the residual of the equation. In velocities at its beginning it is the rate at that
+/// time, because a correction of places must not enter the momentum of the fluid.
 double HeldMotion::rate_of(const LinkEquations& link, const LinkRow& row) const {
   if (!(times_.rate_to > times_.rate_from)) return -row.value / times_.h;
   if (link.kind != LinkEquations::Kind::kArm) return 0;

@@ -36,8 +36,8 @@ class HeldMotion {
   /// By how much the sums of the rows must change, so that hinges and arms hold after a step with
   /// these velocities, in which bodies turn by finite angles [L/T, 1/T]; 0 for the other rows. For
   /// springs between units of which one accelerates, whose forces are `row_forces` so far, it is
-  /// what the extension and the force lack of obeying HeldRow::stiffness; `thetas` are those of the
-  /// rows.
+  /// the error of extension and force in the equation at HeldRow::stiffness; `thetas` are those of
+  /// the rows.
   std::vector<double> missing(std::span<const double> velocities,
                               std::span<const double> row_forces,
                               std::span<const double> thetas) const;

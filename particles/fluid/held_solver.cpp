@@ -16,7 +16,7 @@ using Eigen::Index;
 
 namespace {
 
-// What is smaller than this times the errors of the answers counts as zero.
+// Numbers smaller than this times the errors of the solver's answers count as zero.
 constexpr double kAboveErrors = 10;
 
 }  // namespace
@@ -81,8 +81,7 @@ double HeldSolver::theta(Index r) const {
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
-/// By how much the sums of the rows without stiffness differ from their rates; of springs, minus
-/// the sum.
+/// What the sums of the rows without stiffness lack of their rates; for a spring, minus its sum.
 Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
   Eigen::VectorXd missing = -sums(velocities);
   for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -101,7 +100,8 @@ void HeldSolver::factorise() {
   scale_ = matrix_.diagonal().unaryExpr([](double x) { return x > 0 ? 1 / std::sqrt(x) : 1; });
   const Eigen::MatrixXd scaled = scale_.asDiagonal() * matrix_ * scale_.asDiagonal();
   fixed_matrix_ = scaled(fixed_, fixed_);
-  // Redundant rows, which are singular but for the errors of the answers, share the least forces.
+  // Redundant rows make the matrix singular, up to the errors of the answers, and get the least
+  // forces.
   const double noise = kAboveErrors * relative_error_;
   factor_.setThreshold(noise);
   if (!fixed_.empty()) factor_.compute(fixed_matrix_);
@@ -109,7 +109,8 @@ void HeldSolver::factorise() {
   if (springs_.empty()) return;
   spring_responses_ = solve_fixed(scaled(fixed_, springs_));
   spring_matrix_ = scaled(springs_, springs_) - coupling_ * spring_responses_;
-  // Where the other rows leave no motion, a stiff spring must not see the errors of the answers.
+  // Where the other rows leave no motion, the matrix has only errors of the answers, which a stiff
+  // spring must not take for a mobility.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
       (spring_matrix_ + spring_matrix_.transpose()) / 2);
   const Eigen::VectorXd kept =

@@ -15,7 +15,7 @@
 namespace viscontact::particles {
 
 /// A linear condition on the velocities v of all particles: the sum of coefficient times component,
-/// and `image_rate`, is `rate`, or, for a spring, the force follows from this sum.
+/// plus `image_rate`, is `rate`. For a spring, the force follows from this sum instead.
 struct HeldRow {
   /// Components of the motions (motion_components() of each particle) and their coefficients.
   std::vector<std::pair<std::size_t, double>> entries;
@@ -30,27 +30,27 @@ struct HeldRow {
   std::string name{};  ///< in messages
 };
 
-/// Answers as the fluid solver that it owns, with forces in the rows added that keep the
-/// conditions.
+/// A fluid solver that holds the particles: it adds forces in the rows, so that the conditions are
+/// kept, and passes the questions on to the solver that it owns.
 ///
 /// With the mobility S of the fluid, the forces l of the rows A v = rate solve A S A^T l = rate -
-/// A S f, so that one question to the fluid for each row is asked at each placement, and then one
-/// for each question to this solver, and another one where walls and driven particles move. Springs
-/// have theta = (1 + z)/(2 + z) with z = h stiffness (A S A^T)_rr, as masses have in StepEquation;
-/// between particles that accelerate z^2 stands for z, because z = (omega h)^2 theta is small there
-/// of second order, and an oscillation that the step resolves must not be damped.
+/// A S f. Each placement asks the fluid one question for each row. Each question to this solver
+/// then asks the fluid once, or twice if walls and driven particles move (`driving`). Springs have
+/// theta = (1 + z)/(2 + z) with z = h stiffness (A S A^T)_rr, as masses have in StepEquation;
+/// between particles that accelerate z^2 takes the place of z = (omega h)^2 theta, with the
+/// frequency omega, because an oscillation that the step resolves must not be damped.
 ///
 /// In a fluid with inertia the velocities are those at the beginning of the step, where the
 /// extensions are known, and theta = 2 z^2/(2 + z^2): a spring that the step resolves has the force
 /// at that time up to the second order of the step, and a stiff one is damped. The limit 2 is above
 /// 1 because the step extrapolates velocities by half of their change: with V = -x/theta, x^{n+1} =
 /// x^n + 3/2 V^n - 1/2 V^{n-1} would not decay with theta = 1. S is not symmetric there, because
-/// moving fluid carries what a force does.
+/// moving fluid carries the effect of a force along.
 ///
-/// A S A^T of rows that depend on each other is singular but for the errors of the answers. Its
-/// rank is found without the springs, whose compliance 1/(theta h stiffness) may be far larger or
-/// smaller than all other entries: the rows without stiffness are eliminated first, and the springs
-/// see the mobility that is left.
+/// A S A^T of rows that depend on each other is singular, up to the errors of the answers. Its rank
+/// is found without the springs, whose compliance 1/(theta h stiffness) may be far larger or
+/// smaller than all other entries: the rows without stiffness are eliminated first, which leaves a
+/// mobility for the springs.
 class HeldSolver : public FluidSolver {
  public:
   /// `relative_error` > 0 is that of the answers of `solver`; `has_inertia` says whether its fluid
@@ -80,9 +80,9 @@ class HeldSolver : public FluidSolver {
   std::vector<double> velocities_without_springs(std::span<const double> forces);
 
   /// Adds forces in the rows that change the sum of each row without stiffness by `changes`, one
-  /// number for each row [L/T, 1/T], and, `with_springs`, the sum and compliance times force of
-  /// each spring, whose force is else kept. Returns the forces [M L/T^2, M L^2/T^2]. No question is
-  /// asked.
+  /// number for each row [L/T, 1/T]. `with_springs`, the sum plus compliance times force of each
+  /// spring changes by its number, too; otherwise springs keep their forces. Returns the forces [M
+  /// L/T^2, M L^2/T^2]. No question is asked.
   std::vector<double> change(std::span<double> velocities, std::span<const double> changes,
                              bool with_springs) const;
 
@@ -130,7 +130,7 @@ class HeldSolver : public FluidSolver {
   std::vector<std::vector<double>> responses_;  // S A^T of each row
   Eigen::MatrixXd matrix_;                      // A S A^T
   // The parts of the matrix in scaled rows: of the rows without stiffness (fixed), of springs for
-  // forces of the fixed rows, and what is left of that of the springs while the others hold.
+  // forces of the fixed rows, and of the springs if the fixed rows hold.
   std::vector<Eigen::Index> fixed_, springs_;
   Eigen::VectorXd scale_;
   Eigen::MatrixXd fixed_matrix_, coupling_, spring_responses_, spring_matrix_;

@@ -1,7 +1,8 @@
 // Discs of a rigid body that overlap, in a fluid in the plane: the body is their union. Each disc
 // is cut along the chords at which its circle meets those of the others, so that the cut discs
 // cover the union once. Lengths are in the unit of the case. Checks of a case, sizes and the mesh
-// use it. Nothing is checked or thrown. A change must keep the sum of what is left of the discs that of the union.
+// use it. Nothing is checked or thrown. A change must keep that the cut discs together have the
+// area of the union.
 #pragma once
 
 #include <array>

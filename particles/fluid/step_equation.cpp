@@ -16,8 +16,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// Mass or moment of inertia of each component. The members of a body share its mass, and what of
-/// its moment of inertia their masses at their places do not make up.
+/// Mass or moment of inertia of each component. The members of a body share its mass, and the part
+/// of its moment of inertia that does not come from their masses at their places.
 std::vector<double> masses_of(const Particles& p, const Fluid& fluid, const MotionLayout& layout) {
   std::vector<double> masses(p.count() * layout.components);
   for (std::size_t k = 0; k < p.count(); ++k) {
@@ -249,8 +249,8 @@ double StepEquation::theta_of_body(const RigidBody& body) const {
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
-/// Of a sphere; of a disc that turns; and of a disc that moves, which has no Stokes drag: the
-/// factor of its torque stands for it.
+/// Stokes' drag of a sphere, or that of a disc that turns. A disc that moves has no Stokes drag;
+/// the factor of the torque takes its place.
 double StepEquation::stokes_drag(std::size_t k, std::size_t component) const {
   const double r = state_.particles.radii[k], mu = setting_.fluid->viscosity;
   constexpr double kPi = std::numbers::pi;
@@ -405,7 +405,7 @@ std::array<double, 3> StepEquation::given_motion(const GivenMotion& motion, doub
 
 /// True if the given velocity of a driven particle differs from that in the step before.
 bool StepEquation::has_jump(std::int32_t driven) const {
-  // Before the first step, nothing jumps that theta = 1 does not damp.
+  // The first step has theta = 1, which damps all jumps.
   if (!(state_.earlier_step > 0)) return false;
   const double before = std::max(0.0, state_.time - state_.earlier_step);
   const auto earlier = given_motion(setting_.given_motions.at(driven), before, state_.time);

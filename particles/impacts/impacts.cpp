@@ -236,7 +236,8 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   auto at_start = approach;
   at_start.c = at_start.c + flight_or_none(of.second).late;
   if (of.first >= 0) at_start.c = at_start.c - flight_or_none(of.first).late;
-  // A bounce whose flight would be shorter than a part of the step has ended: the rest is load.
+  // A bounce that would last less than this part of the step has ended; what remains is a load for
+  // the projection.
   constexpr double kShortestFlight = 0.05;  // of the step
   const double pull = acceleration_of_gap(approach, time);
   const double ended =

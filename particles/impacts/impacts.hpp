@@ -51,8 +51,9 @@ struct ImpactStep {
 /// A pair is hit when its gap closes. A pair that touches and bore no load is hit if it approached
 /// before the step. A pair that bore a load is hit only if it approaches faster than five times the
 /// velocity that forces give its particles in the step. Blows of one time with a common body are
-/// decided together, others one after the other. A touching neighbour is hit by what a blow leaves,
-/// so that a row of equal spheres passes a blow on (Newton's cradle).
+/// decided together, others one after the other. A particle that leaves a blow towards a neighbour
+/// that it touches hits this neighbour next, so that a row of equal spheres passes a blow on
+/// (Newton's cradle).
 ///
 /// The projection takes over when a bounce would last less than a twentieth of the step, and after
 /// 1000 hits of a pair in a step (30 if it bore a load). Nothing is thrown: what is not solved is
@@ -108,7 +109,7 @@ class Impacts {
   struct Approach {
     Vector c{}, a{}, b{};
     double sum = 0;  // of the radii; of the second particle alone at an obstacle [L]
-    const Plane* obstacle = nullptr;  // if the first is one
+    const Plane* obstacle = nullptr;  // the first body, if it is an obstacle
     Vector before{};                  // relative velocity before the step [L/T]
     Vector at_rest{};  // `before` and the changes by the blows so far, without the load of the step
     Vector place(double t) const { return c + t * a + (t * t) * b; }

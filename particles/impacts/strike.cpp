@@ -25,9 +25,9 @@ Vector Impacts<D>::offset_at(std::int32_t k, double t) const {
   return offset + displacement_at({}, (t / step_.h) * free_bodies_[index_of(body)].turn, offset, D);
 }
 
-/// What the velocity of a member of a body at the time `t` of the step has beyond that of its
-/// flight on a parabola. An impulse must see the velocity of the point at which it acts, so that
-/// e_d = 1 keeps the energy.
+/// The velocity of a member of a body at the time `t` of the step, minus that of its flight on a
+/// parabola. With e_d = 1 a blow keeps the energy only if its impulse depends on the velocity of
+/// the point at which it acts.
 template <int D>
 Vector Impacts<D>::turning_velocity(std::int32_t k, double t) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
@@ -40,8 +40,8 @@ Vector Impacts<D>::turning_velocity(std::int32_t k, double t) const {
   return mean + turns - free_velocity(k) + (t - step_.h / 2) * (pull - acceleration(k));
 }
 
-/// The contacts of a blow as constraints on the changes of h times the velocities. `unit_of`
-/// becomes a particle of each unit.
+/// The contacts of a blow as constraints on the changes of h times the velocities. A unit is a
+/// rigid body, or a particle without a body; `unit_of` gets the number of a particle of each unit.
 template <int D>
 ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double time,
                                             std::vector<std::int32_t>& unit_of) {
@@ -58,7 +58,7 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       if (body < 0) {
         const std::array<double, 3> still{};
         // The moments on particles that do not turn are rounding errors. A mobility of the right
-        // dimension keeps the turns that follow from them small in every unit.
+        // dimension keeps the turns that follow from them small in every system of units.
         const double r = p.radii[index_of(k)], moves = step_.mobilities[index_of(k)];
         const double turns =
             step_.turns.empty() ? moves / (r * r) : step_.turn_mobilities[index_of(k)];
@@ -184,7 +184,8 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     converged_ = is_solved(ConstraintStart::kSweeps, 10000) && converged_;
   };
   solve(compression);
-  // The film takes what it can, the solids the rest.
+  // The film takes what it can, the solids the rest. All are impulses [M L/T]: what the film can
+  // take, p, s, gamma_c, and gamma_c + e_d s (restitution_law.hpp).
   struct Phases {
     double capacity, compressed, solid, gamma, lowest;
   };
@@ -274,7 +275,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
                            std::abs(after) <= kExact * fastest ? 0 : after});
     ++hits_of_[hits[c].pair];
   }
-  // The next blows of all pairs of the changed particles are expected anew.
+  // Finds the next blows of all pairs of the changed particles anew.
   std::vector<std::int32_t> changed;
   for (const auto k : unit_of) {
     const auto body = state_.particles.bodies.body_of(k);

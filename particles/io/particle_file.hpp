@@ -39,7 +39,8 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension,
                             bool in_fluid = false);
 
 /// Forces and torques of the fluid on particles and estimates of their errors, motion_components()
-/// numbers for each particle [M L/T^2, M L^2/T^2]. An empty list is not known.
+/// numbers for each particle [M L/T^2, M L^2/T^2]. An empty list means that the numbers are not
+/// known.
 struct FluidForces {
   std::span<const double> values;  ///< forces and torques
   std::span<const double> errors;  ///< estimates of their errors, >= 0

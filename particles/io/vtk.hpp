@@ -14,13 +14,14 @@
 namespace viscontact::particles {
 
 /// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; appended raw data).
-/// Each particle is a point with radius, velocity and id. Each contact of two particles is a line,
-/// and each contact with an obstacle a vertex at the particle; both have gap, gamma and the ids of
-/// both bodies (-1, -2, ... for obstacles), the normal force, and in a periodic domain the image of
-/// the second particle. In two dimensions z = 0. The spheres of dimension 1 are on the axis z.
-/// Particles that turn also have an angle or, in space, an orientation (w, x, y, z), and an angular
-/// velocity; if there are rigid bodies, each point has the number of its body or -1. With
-/// `has_friction` contacts have friction: 0 none, 1 sticks, 2 slides, and the tangential force.
+/// Each particle is a point with radius, velocity, id and, if a particle has one, mass. Each
+/// contact of two particles is a line, and each contact with an obstacle a vertex at the particle;
+/// both have gap, gamma and the ids of both bodies (-1, -2, ... for obstacles), the normal force,
+/// and in a periodic domain the image of the second particle. In two dimensions z = 0. The spheres
+/// of dimension 1 are on the axis z. Particles that turn also have an angle or, in space, an
+/// orientation (w, x, y, z), and an angular velocity; if there are rigid bodies, each point has the
+/// number of its body or -1. With `has_friction` contacts have friction: 0 none, 1 sticks, 2
+/// slides, and the tangential force.
 std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts,
                       bool has_friction = false);
 

@@ -67,8 +67,8 @@ void add_times(const PiecewiseLinearLength& length, double end, std::vector<doub
 }
 
 void add_times(const SinusoidalLength& length, double end, std::vector<double>& times) {
-  // Eighths of a period hold all extrema if they begin at one; between them the chord is off by at
-  // most 8 percent of the amplitude.
+  // Times an eighth of a period apart include all extrema if one of them is an extremum. Between
+  // two of them the length differs from its chord by at most 8 percent of the amplitude.
   const double frequency = std::abs(length.angular_frequency);
   if (!(frequency > 0)) return;
   const double step = std::numbers::pi / 4 / frequency;

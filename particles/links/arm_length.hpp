@@ -1,6 +1,6 @@
 // An arm is a link that holds the distance between the centres of two particles at a given length.
-// This is its length as a function of time. Lengths [L] and times [T] are in the units of the case.
-// particles/case checks the values, also that the length is > 0 at all times; links.hpp and
+// This file has its length as a function of time. Lengths [L] and times [T] are in the units of the
+// case. particles/case checks the values, also that the length is > 0 at all times; links.hpp and
 // link_rows.cpp use the functions, and a change must keep rate_at() the derivative of length_at().
 #pragma once
 

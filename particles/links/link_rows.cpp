@@ -16,7 +16,7 @@
 namespace viscontact::particles {
 namespace {
 
-// Newmark's beta. 1/4 is the least one that is stable for every stiffness.
+// Newmark's beta. The method is stable for every stiffness if beta is at least 1/4.
 constexpr double kBeta = 0.25;
 
 /// Centre of the unit of a particle [L].
@@ -232,7 +232,7 @@ LinkEquations turned_equations(const LinkEquations& equations, const Links& link
     for (std::size_t i = 0; i < row.parts.size(); ++i) {
       auto& part = row.parts[i];
       if (has_ends) part.direction = i == 0 ? -1 * direction : direction;
-      // Arms turn with their units.
+      // LinkPart::arm turns with the unit.
       if (!part.is_turn)
         part.arm = part.arm + displacement_at({}, motions[i].turn, part.arm, particles.dimension);
     }

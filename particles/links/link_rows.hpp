@@ -33,7 +33,7 @@ struct LinkPart {
 /// parts are motions of images: in a sheared cell, those of the particles and image_rate().
 struct LinkRow {
   std::vector<LinkPart> parts;  ///< of all units that the link holds; what is fixed has none
-  /// What is left of the equation at the places before the step, with the length that an arm has at
+  /// Left side of the equation at the places before the step, with the length that an arm has at
   /// the end of the step [L, rad].
   double value = 0;
   double compliance = 0;  ///< [T/M, T/(M L^2)]; 0: the equation holds whatever impulse it needs
@@ -42,8 +42,8 @@ struct LinkRow {
   double stiffness = 0;  ///< [M/T^2, M L^2/T^2]
 };
 
-/// The equations of one link, and what they are called. All have parts of the same units in one
-/// order.
+/// The equations of one link, with its kind and number. All rows have parts of the same units in
+/// the same order.
 struct LinkEquations {
   /// The kind of link; kTorsion is the torsion spring of a hinge, kStop one of its stops. The last
   /// four are those of a membrane: the distance of two neighbours, the bending spring and the turn
@@ -51,7 +51,7 @@ struct LinkEquations {
   enum class Kind { kHinge, kTorsion, kSpring, kArm, kStop, kDistance, kBend, kTurn, kArea };
   Kind kind = Kind::kArm;       ///< the kind of this link
   std::size_t number = 0;       ///< of the link in its list
-  std::int32_t bead = 0;        ///< of a membrane: place in Membrane::beads; not of the area
+  std::int32_t bead = 0;        ///< of a membrane, except for its area: place in Membrane::beads
   std::size_t first_force = 0;  ///< place of the force of the first row in State::link_forces
   /// The equations, at least one.
   std::vector<LinkRow> rows{};
@@ -65,7 +65,7 @@ struct LinkEquations {
   bool is_angle() const {
     return kind == Kind::kTorsion || kind == Kind::kTurn || kind == Kind::kStop;
   }
-  /// True if the link gives way: its rows have a compliance, and are linear in the motion.
+  /// True if the link is elastic: its rows have a compliance, and are linear in the motion.
   bool is_spring() const {
     return kind == Kind::kTorsion || kind == Kind::kSpring || kind == Kind::kBend;
   }
@@ -93,9 +93,9 @@ struct LinkTimes {
 std::vector<LinkEquations> link_equations(const Links& links, const Particles& particles,
                                           const LinkTimes& times);
 
-/// The stops of all hinges: each has one row, the angle that is left to the stop, which is not
-/// negative after a step. It has a moment of impulse >= 0, and only where it is 0. The places of
-/// their forces are those of the torsion springs.
+/// The stops of all hinges. Each has one row, the angle that is left to the stop, which must be >=
+/// 0 after a step. The stop exerts a moment of impulse >= 0, which is 0 where the angle is > 0. The
+/// places of their forces are those of the torsion springs.
 std::vector<LinkEquations> stop_equations(const Links& links, const Particles& particles);
 
 /// Numbers of periods from a particle to its image at the place in its body; 0 without a body.
@@ -117,7 +117,7 @@ struct UnitMotion {
 /// Value of a part for the motion of its unit, to first order in the turn [L, rad].
 double value_of(const LinkPart& part, const UnitMotion& motion);
 
-/// The equations with the directions of arms and springs, and the arms of parts, after these
+/// The equations with LinkPart::direction of arms and springs, and LinkPart::arm, after these
 /// motions; nothing else changes.
 LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
                                const Particles& particles, std::span<const UnitMotion> motions);
@@ -131,8 +131,9 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
 double extension_after(const LinkEquations& spring, const Links& links, const Particles& particles,
                        std::span<const UnitMotion> motions);
 
-/// Rate at which the length of an arm grows, to first order, in the direction of the beginning of a
-/// step [L/T]. `first` and `second` are velocities and angular velocities of the units of its ends.
+/// Rate at which the length of an arm grows, to first order, with the direction that the arm has at
+/// the beginning of a step [L/T]. `first` and `second` are velocities and angular velocities of the
+/// units of its ends.
 double rate_of_arm(const Arm& arm, const Particles& particles, const UnitMotion& first,
                    const UnitMotion& second);
 

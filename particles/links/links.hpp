@@ -30,8 +30,8 @@ struct Hinge {
   LinkedPoint point;     ///< the point that is held
   Vector at{};           ///< the place where it is held [L]
   double stiffness = 0;  ///< of the torsion spring [M L^2/T^2], >= 0
-  /// Angle at which the spring is relaxed [rad]. The angle of a body is 0 at the start, that of a
-  /// particle is its own.
+  /// Angle at which the spring is relaxed [rad]. The angle of a body is 0 at the start; that of a
+  /// particle without a body is Particles::angles.
   double rest_angle = 0;
   std::int32_t body = -1;  ///< number of the body for messages; -1: the hinge holds a particle
   // The stops between which the angle stays [rad].

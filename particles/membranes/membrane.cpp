@@ -1,4 +1,5 @@
-// What all membranes of a case have in common, in a fluid or without one (membrane.hpp).
+// Functions for membranes in a fluid and without one (membrane.hpp). Lengths are in the unit of the
+// case. Membranes that do not fit the case cause Error(kBadInput).
 #include "viscontact/particles/membranes/membrane.hpp"
 
 #include <fmt/format.h>
@@ -30,8 +31,8 @@ MembraneMeasures measure(const Membrane& membrane, const Particles& particles) {
 
 namespace {
 
-/// Whether the distances of neighbours are those of the membrane, within a share `kept` of the mean
-/// one. True in a fluid, where they are equal parts of the perimeter.
+/// True if the distances of neighbours differ from those of the membrane by at most `kept` times
+/// the mean distance. Always true in a fluid, where distances are equal parts of the perimeter.
 bool keeps_distances(const Membrane& membrane, const Particles& particles, double kept) {
   if (membrane.lengths.empty()) return true;
   const Eigen::VectorXd distances = distances_of(necklace_of(membrane, particles));

@@ -2,7 +2,8 @@
 // that bends and does not change its length, nor that of any of its parts, nor the area inside. In
 // a fluid it is the curve through the centres of the beads, without a fluid the polygon
 // (docs/physics.md, section 8). Lengths, masses and times are in the units of the case; in a fluid
-// masses and forces are per unit length of the third dimension.
+// masses and forces are per unit length of the third dimension. Cases, links/, fluid.hpp and the
+// files of a run use it. A change must keep the columns of membranes.csv.
 #pragma once
 
 #include <algorithm>
@@ -26,13 +27,13 @@ struct Membrane {
   /// kappa of (kappa/2) integral of curvature^2 ds [M L^3/T^2], where M is a mass per unit length
   /// in a fluid; > 0 in a fluid, >= 0 without one.
   double bending_rigidity = 1;
-  double perimeter = 0;  ///< kept; in a fluid with equal lengths between beads [L], > 0
-  double area = 0;       ///< inside at the start, kept if `keeps_area` [L^2], > 0
+  double perimeter = 0;  ///< is kept; in a fluid beads are equally spaced on it [L], > 0
+  double area = 0;       ///< area inside at the start, kept if `keeps_area` [L^2], > 0
   // In a fluid:
   /// Viscosity of the fluid inside over that of the fluid outside [1], > 0.
   double viscosity_ratio = 1;
   // Without a fluid:
-  /// Moment against the rate at which the curvature changes [M L^3/T], >= 0.
+  /// Moment per rate of change of the curvature, which opposes the change [M L^3/T], >= 0.
   double bending_viscosity = 0;
   bool keeps_area = true;  ///< false: only the lengths are kept; always true in a fluid
   /// The distances that neighbours keep [L], > 0: entry k is that of beads k and k + 1. Empty in a
@@ -41,7 +42,7 @@ struct Membrane {
 
   /// True if bending takes a force.
   bool resists_bending() const { return bending_rigidity > 0 || bending_viscosity > 0; }
-  /// Makes `count` particles from number `first` on its beads.
+  /// Sets its beads: the `count` particles from number `first` on.
   void set_beads(std::int32_t first, std::int32_t count) {
     beads.resize(static_cast<std::size_t>(count));
     std::iota(beads.begin(), beads.end(), first);
@@ -58,7 +59,8 @@ struct Membrane {
   }
 };
 
-/// With fewer beads the interpolation does not resolve an ellipse of reduced area 0.9.
+/// Least number of beads in a fluid. With fewer beads the interpolation does not resolve an ellipse
+/// of the reduced area 4 pi area/perimeter^2 = 0.9.
 inline constexpr std::int32_t kLeastBeads = 12;
 
 /// The membranes of a case, in a fluid or without one.

@@ -1,4 +1,5 @@
-// Checks of membranes when a case is read (membrane_checks.hpp).
+// Checks of membranes when a case is read (membrane_checks.hpp). Lengths are in the unit of the
+// case. Every fault is an Error(kBadInput) with the line of the case.
 #include "viscontact/particles/membranes/membrane_checks.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// Throws if a case without a fluid has what a membrane cannot stand beside.
+/// Throws if a case without a fluid has something that cannot be combined with a membrane.
 void check_case_without_fluid(const case_file::TomlSection& root, const ParticlesCase& c) {
   root.section("viscous_contact")
       .require(!c.setting.laws.restitution.is_on(), "restitution",
@@ -80,19 +81,19 @@ double rate_of_deformation(const ParticlesCase& c) {
 
 void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& c) {
   const auto& membrane = c.setting.fluid->membranes.back();
-  // Below, the solution is lost in rounding errors (1e-6 ends in errors of FreeFEM). Above, the
-  // elements resist the tank-treading that is left: in a vesicle of reduced area 0.9 that turns for
-  // half a time unit, the inclination changes by 0.002 between 1e2 and 1e3, and by 0.015 between
-  // 1e3 and 1e4, where it should hardly change.
+  // At smaller ratios the solution is lost in rounding errors (1e-6 ends in errors of FreeFEM). At
+  // larger ratios the elements resist the slow tank-treading that remains: the inclination of a
+  // vesicle of reduced area 0.9 that turns for half a time unit should hardly depend on the ratio,
+  // but differs by 0.002 between 1e2 and 1e3, and by 0.015 between 1e3 and 1e4.
   constexpr double kLeast = 1e-4, kMost = 1e3;
   section.require(membrane.viscosity_ratio >= kLeast && membrane.viscosity_ratio <= kMost,
                   "inner_viscosity",
                   "is {:.6g} times the viscosity of the fluid outside; it must be from 1e-4 to 1e3 "
                   "times as large",
                   membrane.viscosity_ratio);
-  // Tensions that keep lengths and bending that keeps the curve smooth leave a coarse curve too few
-  // ways to run around: with 12 beads and a rigidity of 1000 the inclination is 0.43 where 0.58 is
-  // right.
+  // Tensions keep the lengths, and stiff bending keeps the curve smooth; a curve of few beads can
+  // then hardly tank-tread. With 12 beads and a rigidity of 1000 the inclination is 0.43 rad, where
+  // 0.58 is right.
   constexpr double kStiff = 100;
   constexpr std::int32_t kBeadsOfStiff = 32;
   const double scale = c.setting.fluid->viscosity * rate_of_deformation(c) *
@@ -123,7 +124,7 @@ void check_given_beads(const case_file::TomlSection& section, const ParticlesCas
                        const Membrane& membrane) {
   const bool in_fluid = c.setting.fluid.has_value();
   const auto& p = c.particles;
-  // With three beads their distances determine the area.
+  // With three beads the distances determine the area, and nothing could move.
   constexpr std::int32_t kLeastWithoutFluid = 4;
   const auto least = in_fluid ? kLeastBeads : kLeastWithoutFluid;
   section.require(membrane.count() >= least, "particles",
@@ -167,7 +168,7 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
     for (std::size_t j = i + 2; j < count; ++j) {
       const auto a = index_of(membrane.beads[i]), b = index_of(membrane.beads[j]);
       const double distance = std::hypot(own[2 * i] - own[2 * j], own[2 * i + 1] - own[2 * j + 1]);
-      // Distances that were computed from rounded places.
+      // Allows for the rounding errors of distances that are computed from rounded places.
       constexpr double kRounding = 1 + 1e-9;
       section.require((i == 0 && j + 1 == count) || distance * kRounding >= p.radii[a] + p.radii[b],
                       shape,
@@ -175,13 +176,15 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
                       "larger, or its beads smaller",
                       p.id(a), p.id(b));
     }
-  // What a membrane that is made may have, but for rounding.
+  // The range of `reduced_area` of a membrane that is made (membrane_keys.cpp), with room for
+  // rounding.
   section.require(!c.setting.fluid || (reduced_area > 0.2999 && reduced_area < 0.99901), shape,
                   "makes a membrane of the reduced area {:.6g}; in a fluid it must be from 0.3 to "
                   "0.999",
                   reduced_area);
-  // The largest area leaves no motion but rigid ones: there the gradient of the area is a sum of
-  // those of the distances. A membrane of 0.993 of it was hit by a disc, and kept both.
+  // A membrane with the largest area that its distances allow can only move rigidly, because the
+  // gradient of the area is then a sum of the gradients of the distances. A membrane with 0.993 of
+  // the largest area kept area and distances when a disc hit it.
   constexpr double kOfLargestArea = 0.993;
   if (!c.setting.fluid && membrane.keeps_area) {
     const double largest = largest_area(membrane.lengths);

@@ -1,5 +1,5 @@
-// What of [[membrane]] is refused, each with its line. For membrane_keys.cpp only. Lengths are in
-// the unit of the case.
+// Checks of the sections [[membrane]] of a case. All functions throw Error(kBadInput) with the line
+// of the case. For membrane_keys.cpp only. Lengths are in the unit of the case.
 #pragma once
 
 #include "viscontact/particles/case/particles_sections.hpp"
@@ -11,14 +11,14 @@ namespace viscontact::particles {
 void check_case_of_membranes(const case_file::TomlSection& root,
                              const case_file::TomlSection& first, const ParticlesCase& c);
 
-/// Throws for given beads of a new membrane that are too few, named twice or beads of another
-/// membrane, or that have a mass or a given motion in a fluid.
+/// Throws if the given beads of a new membrane are too few, if one is named twice or belongs to
+/// another membrane, or if one has a given motion or, in a fluid, a mass.
 void check_given_beads(const case_file::TomlSection& section, const ParticlesCase& c,
                        const Membrane& membrane);
 
 /// Throws if the last membrane crosses itself, if beads of it that are no neighbours overlap, or if
-/// it crosses another membrane or an image of it in the next period. In a fluid it must not contain
-/// one either.
+/// it crosses another membrane or an image of it in the next period. In a fluid it also throws if
+/// one of two membranes contains the other.
 void check_place(const case_file::TomlSection& section, const ParticlesCase& c);
 
 /// Throws if the fluid inside the last membrane is much less or much more viscous than outside, or

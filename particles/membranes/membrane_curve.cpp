@@ -1,4 +1,5 @@
-// Trigonometric interpolation, and the discrete energy of a membrane (membrane_curve.hpp).
+// Trigonometric interpolation, and the discrete energy of a membrane (membrane_curve.hpp), in the
+// units of that header. Nothing is checked or thrown.
 #include "viscontact/particles/membranes/membrane_curve.hpp"
 
 #include <Eigen/Cholesky>
@@ -10,7 +11,8 @@ namespace viscontact::particles {
 namespace {
 
 /// Derivatives of the energy density e = c^2 q^(-5/2) at one bead, where c = x' y'' - y' x'' and
-/// q = x'^2 + y'^2, with respect to z = (x', y', x'', y'').
+/// q = x'^2 + y'^2, with respect to z = (x', y', x'', y''). Primes are derivatives by the parameter
+/// of the curve.
 struct Density {
   double value = 0;
   Eigen::Vector4d gradient;
@@ -80,7 +82,7 @@ Eigen::MatrixXd MembraneCurve::speeds_hessian(const Eigen::VectorXd& positions,
                                               const Eigen::VectorXd& factors) const {
   const Eigen::ArrayXd dx = first_halfway_ * positions.head(n_),
                        dy = first_halfway_ * positions.tail(n_);
-  // Of |d|: (1 - d d^T/|d|^2)/|d|.
+  // The second derivatives of |d|, d = (dx, dy), are (1 - d d^T/|d|^2)/|d|.
   const Eigen::ArrayXd scaled = factors.array() * (dx.square() + dy.square()).pow(-1.5);
   const auto block = [&](const Eigen::ArrayXd& values) -> Eigen::MatrixXd {
     return first_halfway_.transpose() * ((scaled * values).matrix().asDiagonal() * first_halfway_);
@@ -172,7 +174,7 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
   constexpr int kMostRounds = 50;
   constexpr double kExact = 1e-13;
   for (int round = 0; round < kMostRounds; ++round) {
-    // Residuals and rows in units of the size, so that all are near 1.
+    // Residuals and rows are divided by the size of the membrane, so that all rows are near 1.
     Eigen::VectorXd missing(n + 1);
     missing.head(n) = Eigen::VectorXd::Constant(n, 1) - curve.speeds(positions) / speed;
     missing(n) = (area - curve.area(positions)) / (speed * speed);
@@ -185,7 +187,7 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
         rows.transpose() * (rows * rows.transpose()).ldlt().solve(missing);
     if (!change.allFinite()) return false;
     positions += speed * change;
-    // Rounding errors of the residuals end the iteration.
+    // The next residual of Newton's method would be rounding errors.
     if (missing.lpNorm<Eigen::Infinity>() < 1e3 * kExact) return true;
   }
   return false;
@@ -196,7 +198,8 @@ namespace {
 AreaMoments moments_of(const MembraneCurve& curve, const Eigen::VectorXd& positions) {
   const int n = curve.beads();
   const Eigen::MatrixXd tangents = curve.tangents(positions);
-  // Integrals along the curve (Green), about the mean of the beads.
+  // Integrals over the area as integrals along the curve (Green's theorem), about the mean of the
+  // beads.
   const double mean_x = positions.head(n).mean(), mean_y = positions.tail(n).mean();
   double mx = 0, my = 0;
   AreaMoments moments;

@@ -1,6 +1,8 @@
 // The closed curve through the beads of a membrane, docs/physics.md (8.2) and (8.3): its lengths,
-// its area, and its bending energy with the first and second derivatives. For sources of this
-// folder and tests: it needs Eigen. Lengths are in the unit of the case.
+// its area, and its bending energy with the first and second derivatives. Lengths are in the unit
+// of the case. Nothing is checked or thrown. Only sources include this header, because users of the
+// library need no Eigen. A change must keep that derivatives are exact: Newton's method in this
+// folder uses them.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,12 +30,14 @@ class MembraneCurve {
   int beads() const { return n_; }  ///< N
 
   /// The speeds |dx/ds| at the parameters halfway between beads, N numbers [L]. A curve of
-  /// perimeter P that keeps them at P/(2 pi) does not stretch. Halfway, because the derivative of
-  /// the wave that changes its sign from bead to bead is 0 at the beads.
+  /// perimeter P that keeps them at P/(2 pi) does not stretch. They are not taken at the beads,
+  /// because the wave that changes its sign from bead to bead has the derivative 0 there and would
+  /// not be seen.
   Eigen::VectorXd speeds(const Eigen::VectorXd& positions) const;
-  /// Derivatives of the speeds: N rows, 2 N columns.
+  /// Derivatives of the speeds with respect to the positions [1]: N rows, 2 N columns.
   Eigen::MatrixXd speed_rows(const Eigen::VectorXd& positions) const;
-  /// Second derivatives of the sum of `factors` (N numbers) times the speeds, a symmetric matrix.
+  /// Second derivatives of the sum of `factors` (N numbers) times the speeds, a symmetric matrix
+  /// with 2 N rows [1/L, times the unit of `factors`].
   Eigen::MatrixXd speeds_hessian(const Eigen::VectorXd& positions,
                                  const Eigen::VectorXd& factors) const;
   /// Perimeter [L].
@@ -44,17 +48,17 @@ class MembraneCurve {
   /// Derivatives of the area, 2 N numbers [L].
   Eigen::VectorXd area_row(const Eigen::VectorXd& positions) const;
 
-  /// Its second derivatives, a symmetric matrix that does not depend on the positions.
+  /// Second derivatives of the area [1], a symmetric matrix that does not depend on the positions.
   Eigen::MatrixXd area_hessian() const;
 
-  /// Integral of (curvature^2)/2 along the curve [1/L], by the values at the beads.
+  /// Integral of (curvature^2)/2 along the curve [1/L], as the sum of the values at the beads.
   double bending_energy(const Eigen::VectorXd& positions) const;
-  /// Its derivatives, 2 N numbers [1/L^2].
+  /// Derivatives of bending_energy(), 2 N numbers [1/L^2].
   Eigen::VectorXd bending_gradient(const Eigen::VectorXd& positions) const;
-  /// Its second derivatives, a symmetric matrix [1/L^3].
+  /// Second derivatives of bending_energy(), a symmetric matrix [1/L^3].
   Eigen::MatrixXd bending_hessian(const Eigen::VectorXd& positions) const;
 
-  /// First derivatives of x and of y with respect to s at the beads [L].
+  /// First derivatives of x and y with respect to s at the beads [L]: N rows, 2 columns.
   Eigen::MatrixXd tangents(const Eigen::VectorXd& positions) const;
 
  private:
@@ -64,8 +68,8 @@ class MembraneCurve {
   Eigen::MatrixXd first_, second_, first_halfway_;
 };
 
-/// Moves the positions as little as possible until all speeds are perimeter/(2 pi) and the area is
-/// `area`. Returns false if Newton's method finds no such positions.
+/// Moves the positions as little as possible until all speeds are `perimeter`/(2 pi) [L] and the
+/// area is `area` [L^2]. Returns false if Newton's method finds no such positions.
 bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, double area,
                               Eigen::VectorXd& positions);
 
@@ -80,21 +84,22 @@ struct AreaMoments {
   double inclination() const;
 };
 
-/// What is measured of a closed line through beads, and how: MembraneCurve or the polygon of
+/// A closed line through beads, as measure() needs it: a MembraneCurve or the polygon of
 /// necklace.hpp.
 struct MeasuredLine {
   double area = 0;       ///< inside [L^2]
   double perimeter = 0;  ///< [L]
-  /// The moments at other positions of the beads.
+  /// The moments of the area if the beads are at the given positions.
   std::function<AreaMoments(const Eigen::VectorXd&)> moments;
-  /// The integral of a velocity of the beads along the line [L^2/T].
+  /// The integral along the line of the tangential component of the given velocities of the beads
+  /// [L^2/T].
   std::function<double(const Eigen::VectorXd&)> circulation;
 };
 
-/// Measures a membrane by its line. `velocities` may be empty.
+/// Measures a membrane by its line. Without `velocities` [L/T] (empty), its rates are 0.
 MembraneMeasures measure(const MeasuredLine& line, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities);
-/// Measures a membrane in a fluid. `velocities` may be empty.
+/// The same for the curve of a membrane in a fluid.
 MembraneMeasures measure(const MembraneCurve& curve, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities);
 

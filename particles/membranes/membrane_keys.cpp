@@ -1,5 +1,6 @@
 // Reads [[membrane]] of a case (particles/case/particles_sections.hpp), and makes the beads.
-// Lengths and masses are in the units of the case.
+// Lengths and masses are in the units of the case. A wrong value is an Error(kBadInput) with its
+// line. A change must keep the keys and their defaults, because users have written cases with them.
 #include <algorithm>
 #include <numbers>
 #include <utility>
@@ -13,8 +14,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// A vesicle of a reduced area above 0.999 is a circle that hardly anything deforms, and below 0.3
-/// its two sides touch.
+/// A vesicle of a reduced area above 0.999 is nearly a circle, which hardly anything deforms; below
+/// 0.3 its two sides touch.
 constexpr Allowed kReducedArea = {[](double v) { return v >= 0.3 && v <= 0.999; },
                                   "from 0.3 to 0.999"};
 
@@ -27,7 +28,7 @@ struct MembraneTable {
   double bead_radius = 0;  // 0: the default
 };
 
-/// The keys of a membrane that is made, which one of given particles does not have.
+/// The keys of a membrane that is made; a membrane of given particles has none of them.
 void shape_keys(case_file::Keys& keys, MembraneTable& table, bool in_fluid) {
   auto& membrane = table.membrane;
   const bool is_made = !keys.has("particles");
@@ -106,7 +107,7 @@ void membrane_keys(case_file::Keys& keys, MembraneTable& table, const ParticlesC
   membrane.viscosity_ratio = table.inner_viscosity / outside;
 }
 
-/// Takes over the shape of a membrane of given particles.
+/// Sets the perimeter, area and distances of a membrane from its given particles.
 void take_shape(const case_file::TomlSection& section, ParticlesCase& c, Membrane& membrane) {
   c.particles.cell = cell_of(c.setting.domain);
   check_given_beads(section, c, membrane);
@@ -114,7 +115,8 @@ void take_shape(const case_file::TomlSection& section, ParticlesCase& c, Membran
     shape_polygon(membrane, c.particles);
     return;
   }
-  // Rounded numbers are moved to equal distances.
+  // Given places may be rounded: beads may move by this part of their distance to become
+  // equidistant.
   constexpr double kRounded = 0.02;
   const double moved = shape_curve(membrane, c.particles);
   const double allowed = kRounded * membrane.perimeter / membrane.count();
@@ -141,7 +143,8 @@ void make_beads(const case_file::TomlSection& section, ParticlesCase& c, Membran
                   table.reduced_area, table.beads, table.reduced_area > 0.9 ? "smaller" : "larger");
   require_ids(section, "beads", p, static_cast<std::size_t>(table.beads));
   p.positions.insert(p.positions.end(), places->begin(), places->end());
-  // Tables [[particle]] come first, and discs of an [arrangement] have no lines.
+  // `in_case` has entries for the particles of [[particle]]. Discs of an [arrangement], which have
+  // no line, come before the beads and get empty entries.
   lines.in_case.resize(p.count() - lines.in_file.size());
   for (std::int32_t k = 0; k < table.beads; ++k) {
     p.velocities.insert(p.velocities.end(), {table.velocity[0], table.velocity[1]});

@@ -1,4 +1,5 @@
-// Newton's method for a step of membranes (membrane_motion.hpp).
+// Newton's method for a step of membranes (membrane_motion.hpp), in the units of the case. A step
+// that it cannot solve is an Error(kNotConverged).
 #include "viscontact/particles/membranes/membrane_motion.hpp"
 
 #include <Eigen/LU>
@@ -87,8 +88,8 @@ Eigen::VectorXd Membranes::bending_forces(const Eigen::VectorXd& positions) cons
   return forces;
 }
 
-/// Second derivatives of the bending energy, of the tensions times the speeds, and of the pressures
-/// times the areas.
+/// Second derivatives of the sum of the bending energy, the tensions times the speeds, and the
+/// pressures times the areas, with respect to the positions.
 Eigen::MatrixXd Membranes::stiffness(const Eigen::VectorXd& positions,
                                      const MembraneMotion& motion) const {
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(2 * beads(), 2 * beads());
@@ -113,8 +114,8 @@ MembraneMotion Membranes::motion_at(const Eigen::VectorXd& positions,
   motion.forces = bending_forces(positions);
   const Eigen::VectorXd free = answer.flow + answer.mobility * motion.forces;
   const Eigen::MatrixXd answers = answer.mobility * rows.transpose();
-  // The tension of a circle is not unique, because it acts like a pressure inside: the
-  // decomposition then chooses the smallest one.
+  // The tension of a circle is not unique, because a constant tension acts like a pressure inside.
+  // The decomposition then chooses the smallest tension.
   const Eigen::VectorXd tension =
       (rows * answers).completeOrthogonalDecomposition().solve(rows * free);
   motion.forces -= rows.transpose() * tension;
@@ -122,7 +123,7 @@ MembraneMotion Membranes::motion_at(const Eigen::VectorXd& positions,
   return motion;
 }
 
-/// Derivatives of the area of each membrane, a column for each.
+/// Derivatives of the areas with respect to all positions: a column for each membrane [L].
 Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const {
   const auto count = static_cast<Eigen::Index>(curves_.size());
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(2 * beads(), count);
@@ -134,8 +135,8 @@ Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const 
   return columns;
 }
 
-/// The matrix of Newton's method for step(). The unknowns are positions, tensions in units of
-/// `unit`, and pressures in units of `unit` over the length of the column of the area.
+/// The matrix of Newton's method for step(). The unknowns are positions, tensions divided by
+/// `unit`, and pressures divided by `unit` over the norm of their column in area_columns().
 Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
                                        const Eigen::VectorXd& positions,
                                        const MembraneMotion& motion, double unit) const {
@@ -150,7 +151,7 @@ Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
   matrix.block(0, 2 * n, 2 * n, n) = unit * moves * rows.transpose();
   matrix.topRightCorner(2 * n, count) = unit * moves * scaled_areas;
   matrix.block(2 * n, 0, n, 2 * n) = rows;
-  // The forces of each membrane do not act on its area.
+  // The condition a.P f = 0: the forces of a membrane do no work when its area changes.
   matrix.bottomLeftCorner(count, 2 * n) = scaled_areas.transpose() * of_forces / unit;
   for (std::size_t m = 0; m < curves_.size(); ++m) {
     const auto row = static_cast<Eigen::Index>(m);
@@ -168,7 +169,8 @@ Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
 bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                            Eigen::VectorXd& positions, MembraneMotion& motion) const {
   const auto n = beads(), count = static_cast<Eigen::Index>(curves_.size());
-  // In the matrix, tensions are in units in which a tension moves a bead by about its own number.
+  // Unit of tensions in the matrix (a force): one unit moves a bead by about the length 1 in the
+  // step.
   const double unit = static_cast<double>(2 * n) / (time * answer.mobility.trace());
   Eigen::VectorXd wanted(n);
   double size = 0;
@@ -222,7 +224,8 @@ MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const F
   begin();
   bool is_solved = solve_step(from, time, loaded, positions, motion);
   if (!is_solved) {
-    // A stiff membrane that is far from its equilibrium: solutions of shorter times lead to it.
+    // A stiff membrane may be too far from its equilibrium. Solutions of shorter steps then lead to
+    // it.
     begin();
     is_solved = true;
     for (int halvings = 12; halvings >= 0 && is_solved; --halvings)

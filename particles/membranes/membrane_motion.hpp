@@ -1,7 +1,8 @@
 // The motion of membranes in a Stokes flow whose answer to forces on the beads is known,
-// docs/physics.md (8.4) to (8.6). For sources of this folder and tests: it needs Eigen. Units are
-// those of the case. An array of all beads has x of the beads of the first membrane, those of the
-// second one and so on, and then all y.
+// docs/physics.md (8.4) to (8.6). Only sources of this folder and tests include it, because users
+// of the library need no Eigen. Lengths, masses and times are in the units of the case. An array of
+// all beads has x of the beads of the first membrane, of the second one and so on, and then all y
+// in the same order. membrane_simulation.cpp uses it.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,20 +21,20 @@ struct FluidAnswer {
   Eigen::MatrixXd mobility;  ///< [T/M], symmetric
 };
 
-/// Forces of the membranes on the fluid at the beads, and the velocities of the beads under them.
+/// Forces of the membranes on the fluid at the beads, and the velocities that they give the beads.
 struct MembraneMotion {
-  Eigen::VectorXd forces;      ///< bending, tension and loads [M L/T^2]
+  Eigen::VectorXd forces;      ///< sum of bending, tension and loads [M L/T^2]
   Eigen::VectorXd velocities;  ///< [L/T]
-  Eigen::VectorXd tension;     ///< of each length, as it enters the forces [M L/T^2]
+  Eigen::VectorXd tension;     ///< T of step(), one number for each length [M L/T^2]
   // Of step():
-  Eigen::VectorXd pressure;     ///< that the forces of each membrane hold [M/(L T^2)], times L
-  Eigen::VectorXd flow_forces;  ///< the forces without this pressure, which makes no flow
+  Eigen::VectorXd pressure;     ///< q of step(), one number for each membrane [M/T^2]
+  Eigen::VectorXd flow_forces;  ///< P f and the loads: `forces` without the pressure [M L/T^2]
 };
 
 /// The changes of a step under loads, a column for each load.
 struct LoadResponse {
-  Eigen::MatrixXd positions;  ///< of z [L]
-  Eigen::MatrixXd forces;     ///< of P f, without the loads themselves [M L/T^2]
+  Eigen::MatrixXd positions;  ///< changes of z [L]
+  Eigen::MatrixXd forces;     ///< changes of P f, without the loads [M L/T^2]
 };
 
 /// All membranes of a case.
@@ -42,7 +43,7 @@ class Membranes {
   /// The membranes must outlive this object.
   explicit Membranes(std::span<const Membrane> membranes);
 
-  Eigen::Index beads() const { return first_.back(); }  ///< of all membranes
+  Eigen::Index beads() const { return first_.back(); }  ///< number of beads of all membranes
 
   /// Positions of all beads, from those of all particles, two numbers for each. In a periodic
   /// domain beads may be in different periods; each one is taken at the image nearest to the bead
@@ -51,9 +52,9 @@ class Membranes {
   Eigen::VectorXd places(std::span<const double> positions, const PeriodicCell& cell,
                          const Eigen::VectorXd* near = nullptr) const;
 
-  /// The first two of the `components` numbers of each bead, from those of all particles.
+  /// The first two numbers of each bead. `numbers` has `components` >= 2 numbers for each particle.
   Eigen::VectorXd from_particles(std::span<const double> numbers, std::size_t components) const;
-  /// Puts the numbers of all beads into those of all particles.
+  /// Writes `all`, two numbers for each bead, into `numbers`, the inverse of from_particles().
   void to_particles(const Eigen::VectorXd& all, std::size_t components,
                     std::vector<double>& numbers) const;
 
@@ -72,15 +73,16 @@ class Membranes {
   ///     (z - from)/time = flow + mobility (loads + P f),
   ///     f = -grad E(z) - G(z)^T T,   lengths(z) kept,
   ///
-  /// where P f = f - q a is without the pressure q that f holds inside: a is the derivative of the
-  /// area, and a.P f = 0 for each membrane. It then moves z as little as makes lengths and areas
-  /// exact. `positions` is a first guess, and z afterwards. Throws Error(kNotConverged) if Newton's
-  /// method fails.
+  /// where E is the bending energy, G the derivative of the lengths and T the tensions. P f = f - q
+  /// a is f without the pressure q inside that f balances: a is the derivative of the area, and a.P
+  /// f = 0 for each membrane. The function then moves z as little as makes lengths and areas exact.
+  /// `positions` is a first guess, and z afterwards. Throws Error(kNotConverged) if Newton's method
+  /// fails.
   MembraneMotion step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                       const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const;
 
-  /// How such a step changes if loads move the beads by `moves` [L], a column for each load, with
-  /// forces f and tensions held. `motion` is what step() returned with these positions.
+  /// How such a step changes if loads move the beads by `moves` [L] while forces f and tensions are
+  /// held: a column for each load. `motion` is what step() returned with these positions.
   LoadResponse response(double time, const FluidAnswer& answer, const MembraneMotion& motion,
                         const Eigen::VectorXd& positions, const Eigen::MatrixXd& moves) const;
 

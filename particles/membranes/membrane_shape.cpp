@@ -1,4 +1,5 @@
-// Ellipses of a given perimeter and area (membrane_shape.hpp).
+// Ellipses of a given perimeter and area, and geometry of polygons (membrane_shape.hpp). Lengths
+// are in the unit of the case. Nothing is thrown.
 #include "viscontact/particles/membranes/membrane_shape.hpp"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace {
 /// an ellipse of axes 1:20 this number leaves errors near rounding.
 constexpr int kPoints = 4096;
 
-/// Lengths of an ellipse of semi-axes a and b from parameter 0 to 2 pi i/kPoints.
+/// Entry i is the length of an ellipse of semi-axes a and b from the parameter 0 to 2 pi i/kPoints
+/// [L].
 std::vector<double> lengths_along(double a, double b) {
   std::vector<double> lengths = {0};
   for (int i = 0; i < kPoints; ++i) {
@@ -52,9 +54,9 @@ bool sides_cross(std::span<const double> first, std::size_t i, std::span<const d
 
 std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Vector& centre,
                                               double angle) {
-  // a b = area/pi, and the perimeter grows with a/b.
+  // The semi-axes a, b have a b = area/pi. Bisects a/`mean`, with which the perimeter grows.
   const double mean = std::sqrt(membrane.area / std::numbers::pi);
-  double low = 1, high = 1e3;  // of a over `mean`
+  double low = 1, high = 1e3;  // bounds of a/`mean`
   for (int i = 0; i < 100; ++i) {
     const double middle = std::sqrt(low * high);
     (lengths_along(mean * middle, mean / middle).back() < membrane.perimeter ? low : high) = middle;
@@ -90,7 +92,7 @@ std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Ve
 
 namespace {
 
-/// The beads of a membrane, which it gets in the order counter-clockwise.
+/// Positions of the beads of a membrane, whose order is made counter-clockwise.
 Eigen::VectorXd ordered_necklace(Membrane& membrane, const Particles& particles) {
   const auto necklace = necklace_of(membrane, particles);
   if (area_of(necklace) >= 0) return necklace;
@@ -126,8 +128,9 @@ double shape_curve(Membrane& membrane, Particles& particles) {
 }
 
 double largest_area(std::span<const double> lengths) {
-  // The angles under which the centre of the circle sees the sides add up to a full turn, where the
-  // longest side counts negative if the centre lies beyond it. Bisection of the curvature 1/radius.
+  // Seen from the centre of the circle through the corners, the angles of the sides add up to a
+  // full turn, where that of the longest side is negative if the centre lies beyond this side. The
+  // curvature 1/radius is found by bisection.
   const auto longest = std::ranges::max_element(lengths);
   double others = 0;
   for (auto side = lengths.begin(); side != lengths.end(); ++side)
@@ -141,7 +144,8 @@ double largest_area(std::span<const double> lengths) {
     for (auto side = lengths.begin(); side != lengths.end(); ++side)
       sum += (side == longest && !is_inside ? -1 : 1) *
              std::asin(std::min(1.0, *side * curvature / 2));
-    // Beyond the longest side the sum also vanishes for a curvature of 0, and is > 0 between.
+    // If the centre lies beyond the longest side, the sum is 0 at the solution and at the curvature
+    // 0, and > 0 between them.
     const bool is_below = is_inside ? sum < std::numbers::pi : sum > 0;
     (is_below ? low : high) = curvature;
   }

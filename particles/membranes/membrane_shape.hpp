@@ -1,4 +1,6 @@
-// Shapes in which membranes begin. Lengths are in the unit of the case.
+// Shapes in which membranes begin, and geometry of polygons for checks. Lengths are in the unit of
+// the case. Used by membrane_keys.cpp and membrane_checks.cpp. A change must keep the places of the
+// beads, on which the results of a case depend.
 #pragma once
 
 #include <array>
@@ -14,9 +16,9 @@ namespace viscontact::particles {
 
 /// Centres of the beads of an ellipse about `centre` [L] with the beads, perimeter and area of the
 /// membrane, two numbers for each; its long axis has the direction `angle` [rad]. The beads are at
-/// equal distances along the ellipse, and are moved a little so that lengths and area are exact:
-/// those of the curve, or those of the polygon if the membrane has `lengths`. Nothing if so few
-/// beads cannot have this shape. area <= perimeter^2/(4 pi).
+/// equal distances along the ellipse, and are then moved slightly so that lengths and area are
+/// exact: those of the curve, or those of the polygon if the membrane has `lengths`. Returns
+/// nothing if so few beads cannot have this shape. Needs area <= perimeter^2/(4 pi).
 std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Vector& centre,
                                               double angle);
 
@@ -29,15 +31,15 @@ void shape_polygon(Membrane& membrane, const Particles& particles);
 /// largest component of a displacement [L], or infinity if there are no such places.
 double shape_curve(Membrane& membrane, Particles& particles);
 
-/// The largest area of a polygon with these distances of neighbours [L^2], that of the one whose
-/// corners are on a circle. Of distances > 0 [L], each less than the sum of the others.
+/// The largest area of a polygon whose sides have these lengths [L^2]: that of the polygon whose
+/// corners are on a circle. Each length [L] must be > 0 and less than the sum of the others.
 double largest_area(std::span<const double> lengths);
 
-/// The corners of the polygon through the beads: those images of which each is the nearest to the
-/// one before it.
+/// The corners of the polygon through the beads, two numbers for each [L]. In a periodic domain
+/// each corner is the image of its bead that is nearest to the corner before it.
 std::vector<double> corners_of(const Membrane& membrane, const Particles& particles);
 
-// Closed polygons are two numbers for each corner.
+// In the following, a closed polygon is given by two numbers for each corner [L].
 
 /// True if a point is inside a polygon.
 bool is_inside(const std::array<double, 2>& x, std::span<const double> polygon);

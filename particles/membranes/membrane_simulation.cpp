@@ -1,5 +1,6 @@
-// Time stepping of membranes (membrane_simulation.hpp). Restarts must give the same bits, so a step
-// may depend on nothing but the setting and the state.
+// Time stepping of membranes (membrane_simulation.hpp). Lengths, masses and times are in the units
+// of the case. Errors are those of that header. A run that is restarted must give the same bits, so
+// that a step may depend on nothing but the setting and the state.
 #include "viscontact/particles/membranes/membrane_simulation.hpp"
 
 #include <Eigen/Core>
@@ -23,7 +24,7 @@ constexpr std::size_t kComponents = 3;  // of the motion of a particle in the pl
 
 }  // namespace
 
-/// Keeps Eigen out of the header.
+/// The simulation itself. It is declared here so that the header needs no Eigen.
 class MembraneSimulation::Implementation {
  public:
   Implementation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
@@ -107,7 +108,8 @@ MembraneSimulation::Implementation::Implementation(Setting setting, State state,
   to_particles(forces, state_.earlier_forces);
 }
 
-/// Places of all, from the positions of all particles; near those in `near`, if it is given.
+/// Places of all beads and discs, as arrays of this class, from the positions of all particles. In
+/// a periodic domain the images nearest to the places in `near` are taken, if it is given.
 Eigen::VectorXd MembraneSimulation::Implementation::places(std::span<const double> positions,
                                                            const Eigen::VectorXd* near) const {
   const auto& p = state_.particles;
@@ -129,7 +131,7 @@ Eigen::VectorXd MembraneSimulation::Implementation::places(std::span<const doubl
   return places;
 }
 
-/// From kComponents numbers of each particle.
+/// An array of this class from kComponents numbers for each particle.
 Eigen::VectorXd MembraneSimulation::Implementation::from_particles(
     std::span<const double> numbers) const {
   const auto beads = bead_components();
@@ -173,7 +175,8 @@ void MembraneSimulation::Implementation::set_velocities(const Eigen::VectorXd& v
   }
 }
 
-/// The mean forces of the case between two times, or those at one time.
+/// The mean forces of the case on all beads and discs between two times, or, if both are equal,
+/// those at this time [M L/T^2].
 Eigen::VectorXd MembraneSimulation::Implementation::applied_forces(double from, double to) const {
   std::vector<double> forces(kComponents * state_.particles.count());
   for (const auto& [particle, force] : setting_.forces) {
@@ -183,7 +186,8 @@ Eigen::VectorXd MembraneSimulation::Implementation::applied_forces(double from, 
   return from_particles(forces);
 }
 
-/// Places all in the fluid, with driven discs as they move on the mean between two times.
+/// Gives the fluid solver the places of all beads and discs, and the mean motions of driven discs
+/// between two times.
 void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, double from,
                                                double to) {
   auto placed = state_.particles;
@@ -199,7 +203,7 @@ void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, do
   solver_->place(bodies);
 }
 
-/// The answer of the fluid with all at these places.
+/// The answer of the fluid for all beads and discs at these places.
 FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& places, double from,
                                                     double to) {
   place(places, from, to);
@@ -208,7 +212,7 @@ FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& place
   FluidAnswer answer;
   answer.flow = from_particles(solver_->velocities(std::vector<double>(size), true));
   const auto rows = solver_->mobility(size);
-  // The numbers of the rows of all, in the order of arrays of this class.
+  // The numbers of rows of beads and discs in the solver, in the order of the arrays of this class.
   std::vector<double> numbers(size);
   for (std::size_t i = 0; i < size; ++i) numbers[i] = static_cast<double>(i);
   const auto order = from_particles(numbers);
@@ -216,7 +220,7 @@ FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& place
   for (Eigen::Index i = 0; i < n; ++i)
     as_solved.col(i) =
         from_particles({rows.data() + static_cast<std::size_t>(order(i)) * size, size});
-  // Rounding errors of the solutions are not symmetric.
+  // The mobility is symmetric; rounding errors of the solutions are not.
   answer.mobility = (as_solved + as_solved.transpose()) / 2;
   return answer;
 }
@@ -252,12 +256,12 @@ Eigen::MatrixXd MembraneSimulation::Implementation::response(
   response.topRows(b) = changes.positions;
   response.bottomRows(n - b) =
       moves.bottomRows(n - b) + moves.bottomLeftCorner(n - b, b) * changes.forces;
-  // Rounding errors are not symmetric.
+  // The response is symmetric; its rounding errors are not.
   return (response + response.transpose()) / 2;
 }
 
-/// Places of the discs at the end of a step: those of the backward difference, of driven ones the
-/// integral of their velocity, and angles by the trapezoidal rule.
+/// Places of the discs at the end of a step: by the backward difference or, for driven discs, by
+/// the integral of their velocity. Angles follow by the trapezoidal rule.
 Eigen::VectorXd MembraneSimulation::Implementation::moved_discs(const Eigen::VectorXd& now,
                                                                 const Eigen::VectorXd& from,
                                                                 double time,
@@ -276,9 +280,9 @@ Eigen::VectorXd MembraneSimulation::Implementation::moved_discs(const Eigen::Vec
   return moved;
 }
 
-/// Solves the contacts of all but beads of one membrane with each other, in a step of length h that
-/// ends at `next`, in which all have the velocities `free` without contact. `response()` gives how
-/// displacements change per load.
+/// Solves the contacts of a step of length h that ends at `next`, except those between beads of one
+/// membrane. `free` are the velocities without contacts, and `response()` is the change of
+/// displacements per load.
 StepContacts MembraneSimulation::Implementation::solve_contacts_of(
     const Eigen::VectorXd& free, double h, double next,
     const std::function<Eigen::MatrixXd()>& response, StepReport& report) {
@@ -317,7 +321,7 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
   return contacts;
 }
 
-/// Takes the impulses of contacts over into the memory of the pairs.
+/// Stores the impulses of the contacts in the pairs, and updates what is remembered of them.
 void MembraneSimulation::Implementation::remember(StepContacts contacts, double h,
                                                   StepReport& report) {
   state_.pairs = std::move(contacts.pairs);
@@ -384,7 +388,7 @@ StepReport MembraneSimulation::Implementation::step(double end) {
   const auto quantities = solver_->quantities();
   report.fluid.dissipation = quantities.dissipation;
   report.fluid.apparent_viscosity = quantities.apparent_viscosity;
-  // What holds a driven disc balances the fluid.
+  // The force that drives a disc balances the force of the fluid on it.
   for (const auto& [particle, motion_of_disc] : setting_.given_motions)
     for (std::size_t d = 0; d < kComponents && !quantities.fluid_forces.empty(); ++d) {
       const auto i = kComponents * index_of(particle) + d;

@@ -1,5 +1,6 @@
 // Simulates membranes and rigid discs in a Stokes flow, docs/physics.md (8.1) to (8.8). Lengths,
-// masses and times are in the units of the case.
+// masses and times are in the units of the case. particle_simulation.hpp uses it. A change must
+// keep that a continued run gives the same bits as an uninterrupted one.
 #pragma once
 
 #include <memory>
@@ -17,19 +18,20 @@ namespace viscontact::particles {
 ///     (z - from)/time = S(at) P f(z),   f(z) = -grad E(z) - G(z)^T tension,   lengths(z) kept,
 ///
 /// where S(at) f are the velocities of the beads that the fluid gives with membranes at `at` under
-/// the forces f, E is the bending energy and G the derivative of the lengths. P takes out the
-/// pressure that f holds inside, which makes no flow (Membranes::step). With the positions
-/// x^n and x^{n-1} and the step k before, r = h/k, at = (1 + r) x^n - r x^{n-1}, and `from` and
-/// `time` are those of the backward difference of second order; the first step is of first order
-/// (docs/physics.md (8.6)). Discs move in the same steps, with the forces of the case, or as they
-/// are driven. Beads of different membranes, discs and walls make viscous contact as particles do:
-/// the impulses are loads beside P f, and the displacements without contact are the free motion.
+/// the forces f, E is the bending energy and G the derivative of the lengths. P subtracts the
+/// forces that the pressure inside balances, because they make no flow (Membranes::step). With the
+/// positions x^n and x^{n-1} and the step k before, r = h/k, at = (1 + r) x^n - r x^{n-1}, and
+/// `from` and `time` are those of the backward difference of second order; the first step is of
+/// first order (docs/physics.md (8.6)). Discs move in the same steps, with the forces of the case,
+/// or as they are driven. Beads of different membranes, discs and walls make viscous contact as
+/// particles do: the impulses are loads beside P f, and the displacements without contact are the
+/// free motion.
 class MembraneSimulation {
  public:
   /// `setting.fluid` has membranes; the particles of `state` that are no beads are discs without
-  /// mass, with forces or a given motion; `state` is what
-  /// read_restart returned, or a state of which only the particles are set. Before the first step
-  /// the fluid is asked for the motion at the start, and its errors are thrown.
+  /// mass, with forces or a given motion; `state` is what read_restart returned, or a state of
+  /// which only the particles are set. For such a state the fluid solver computes the motion at the
+  /// start, and its errors are thrown.
   MembraneSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
   ~MembraneSimulation();
 
@@ -47,7 +49,7 @@ class MembraneSimulation {
   /// Forces and torques of the fluid on the beads in the last step, motion_components() each.
   std::vector<double> fluid_forces() const;
 
-  std::size_t unknowns() const;  ///< of the last mesh
+  std::size_t unknowns() const;  ///< number of unknowns on the last mesh
   /// The largest resident memory of the solver so far [MiB].
   double solver_peak_memory_mebibytes() const;
 

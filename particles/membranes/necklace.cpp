@@ -1,4 +1,5 @@
-// Geometry of the polygon through the beads of a membrane (necklace.hpp).
+// Geometry of the polygon through the beads of a membrane (necklace.hpp). Lengths are in the unit
+// of the case. Nothing is checked or thrown.
 #include "viscontact/particles/membranes/necklace.hpp"
 
 #include <Eigen/Cholesky>
@@ -25,7 +26,7 @@ AreaMoments moments_of_polygon(const Eigen::VectorXd& necklace) {
   const Eigen::Vector2d mean(necklace.head(n).mean(), necklace.tail(n).mean());
   double area = 0, mx = 0, my = 0;
   AreaMoments moments;
-  // Sums over the triangles of the mean of the beads and two neighbours.
+  // Sums over the triangles that the mean of the beads makes with each pair of neighbours.
   for (Eigen::Index k = 0; k < n; ++k) {
     const Eigen::Vector2d a = bead(necklace, k) - mean, b = bead(necklace, k + 1) - mean;
     const double twice = cross(a, b);
@@ -69,7 +70,8 @@ Eigen::VectorXd distances_of(const Eigen::VectorXd& necklace) {
 }
 
 double area_of(const Eigen::VectorXd& necklace) {
-  // About a bead, so that rounding errors do not grow with the distance from the origin.
+  // Places are taken relative to a bead, so that rounding errors do not grow with the distance from
+  // the origin.
   const Eigen::Vector2d first = bead(necklace, 0);
   double twice = 0;
   for (Eigen::Index k = 1; k + 1 < necklace.size() / 2; ++k)
@@ -111,8 +113,8 @@ bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::Vector
   const auto n = lengths.size();
   const double size = lengths.mean();
   constexpr int kMostRounds = 50;
-  // Rounding errors of areas and distances in units of the mean distance; changes that are smaller
-  // end the iteration.
+  // Rounding errors of areas and distances, divided by (powers of) the mean distance; smaller
+  // changes end the iteration.
   constexpr double kExact = 1e-13, kNearlyExact = 1e-10;
   for (int round = 0; round < kMostRounds; ++round) {
     Eigen::VectorXd missing(n + 1);

@@ -1,6 +1,7 @@
 // The polygon of a membrane without a fluid, docs/physics.md (8.9) to (8.12): distances between
-// beads, area, and bending. For sources of this folder and tests: it needs Eigen. Lengths are in
-// the unit of the case. An array of positions has x of all beads of one membrane and then y of all.
+// beads, area, and bending. Only sources of this folder and tests include it, because users of the
+// library need no Eigen. Lengths are in the unit of the case. An array of positions has x of all
+// beads of one membrane and then y of all. Nothing is checked or thrown.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +12,8 @@
 
 namespace viscontact::particles {
 
-/// Positions of the beads of a membrane: in a periodic domain those images of the particles of
-/// which each is the nearest to the one before it.
+/// Positions of the beads of a membrane. In a periodic domain each bead is taken at its image that
+/// is nearest to the bead before it.
 Eigen::VectorXd necklace_of(const Membrane& membrane, const Particles& particles);
 
 /// The distances of neighbours, entry k that of beads k and k + 1 [L].
@@ -26,12 +27,12 @@ Eigen::VectorXd area_gradient(const Eigen::VectorXd& necklace);
 /// The angles by which the polygon turns at the beads, each in (-pi, pi] [rad].
 Eigen::VectorXd turns_of(const Eigen::VectorXd& necklace);
 
-/// The bending energy over kappa, the sum over beads of turn^2/(2 length), where the length of a
-/// bead is the mean of its two distances in `lengths` [1/L].
+/// The bending energy divided by the rigidity kappa: the sum over beads of turn^2/(2 length), where
+/// the length of a bead is the mean of its two distances in `lengths` [1/L].
 double bending_energy(const Eigen::VectorXd& necklace, const Eigen::VectorXd& lengths);
 
-/// Moves the beads as little as possible until the distances are `lengths` and the area is `area`.
-/// Returns false if Newton's method finds no such positions.
+/// Moves the beads as little as possible until the distances are `lengths` [L] and the area is
+/// `area` [L^2]. Returns false if Newton's method finds no such positions.
 bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::VectorXd& necklace);
 
 /// Measures a membrane without a fluid in the state of these particles.

@@ -1,5 +1,6 @@
-// Makes the equations of a membrane without a fluid (necklace_rows.hpp). A change must keep that
-// rows and membrane_value_after() agree to first order in the motion.
+// Makes the equations of a membrane without a fluid (necklace_rows.hpp). Lengths, masses and times
+// are in the units of the case. Nothing is checked or thrown. A change must keep that rows and
+// membrane_value_after() agree to first order in the motion.
 #include "viscontact/particles/membranes/necklace_rows.hpp"
 
 #include <cmath>
@@ -43,7 +44,7 @@ LinkEquations equations(Kind kind, std::int32_t bead, LinkRow row) {
   return one;
 }
 
-/// By how much the distance of beads k and k + 1 is too large.
+/// The row of a distance: by how much the distance of beads k and k + 1 is too large [L].
 LinkRow distance_row(const Membrane& membrane, const Particles& p, std::int32_t k) {
   const Vector d = apart(membrane, p, k, k + 1);
   const Vector along = (1 / norm(d)) * d;
@@ -53,9 +54,9 @@ LinkRow distance_row(const Membrane& membrane, const Particles& p, std::int32_t 
   return row;
 }
 
-/// The bending spring at bead k, (8.12), whose extension is the angle of the turn times the length
-/// l of the bead, so that its stiffness is kappa/l^3. Newmark's method as for springs; the bending
-/// viscosity acts on the change of the extension in the step.
+/// The bending spring at bead k, (8.12). Its extension [L] is the angle of the turn times the
+/// length l of the bead, so that its stiffness is kappa/l^3. It is integrated by Newmark's method
+/// as other springs are; the bending viscosity acts on the change of the extension in the step.
 LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
                  const LinkTimes& times) {
   constexpr double kBeta = 0.25;
@@ -81,7 +82,8 @@ LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
   return row;
 }
 
-/// By how much bead k turns more than the line between its neighbours.
+/// The row of a turn: by how much bead k has turned more than the line between its neighbours
+/// [rad].
 LinkRow turn_row(const Membrane& membrane, const Particles& p, std::int32_t k) {
   const Vector chord = across(membrane, p, k);
   const Vector of_ends = (1 / dot(chord, chord)) * left_of(chord);
@@ -92,7 +94,8 @@ LinkRow turn_row(const Membrane& membrane, const Particles& p, std::int32_t k) {
   return row;
 }
 
-/// By how much the area is too large, over the mean distance of neighbours.
+/// The row of the area: by how much it is too large, divided by the mean distance of neighbours
+/// [L].
 LinkRow area_row(const Membrane& membrane, const Particles& p) {
   const double length = membrane.perimeter / membrane.count();
   const auto necklace = necklace_of(membrane, p);

@@ -48,8 +48,9 @@ class Grid {
         low = std::min(low, positions[k * D + d]);
         high = std::max(high, positions[k * D + d]);
       }
-      // Particles further than half a million cells from the middle share the cells at the border.
-      // Cells that are next to each other remain neighbours, so that no pair is missed.
+      // Particles further than half a million cells from the middle share the cells at the border
+      // (kMostCells). Cells that are next to each other remain neighbours, so that no pair is
+      // missed.
       middle_[d] = middle(positions, d);
       half_[d] = std::min(std::ceil(std::max(high - middle_[d], middle_[d] - low) * per_cell_) + 1,
                           kMostCells / 2);
@@ -73,8 +74,8 @@ class Grid {
     return cell;
   }
 
-  /// Calls see(first cell, number of the run) for each run of three cells along the first axis;
-  /// together these runs are the cells around `cell`.
+  /// Calls see(first cell, number of the run, from 0) for each run of three cells along the first
+  /// axis. Together these runs are `cell` and the cells around it.
   template <class See>
   void for_rows_around(std::uint64_t cell, const See& see) const {
     constexpr std::uint64_t kLayers = D == 2 ? 1 : 3;
@@ -185,7 +186,8 @@ class Search {
         });
   }
 
-  /// The pairs in order: by counting for `first`, then by sorting the few with the same `first`.
+  /// The pairs in order: sorted by `first` with a counting sort, then the few with the same
+  /// `first`.
   std::vector<ClosePair> sorted() const {
     std::vector<std::size_t> begin(extents_.size() + 1, 0);
     for (const auto& pair : found_.values) ++begin[static_cast<std::size_t>(pair.first) + 1];
@@ -206,8 +208,8 @@ class Search {
   ConcatenatedBlocks<ClosePair> found_;
 };
 
-/// Visits the particles in order of position, and compares each with those before it whose
-/// intervals may still reach it.
+/// Close pairs in one dimension. Visits the particles in order of position, and compares each with
+/// those before it whose intervals may still reach it.
 std::vector<ClosePair> close_pairs_on_line(std::span<const double> positions,
                                            std::span<const double> extents) {
   std::vector<std::int32_t> order(extents.size());

@@ -1,6 +1,7 @@
 // Finds all pairs of close particles by cell lists, for any ratio of radii. Memory grows with the
 // number of particles and pairs, and time also with the number of grids. All lengths are in one
-// unit. A change must keep the order of the pairs, on which the results of a simulation depend.
+// unit. Nothing is thrown. A change must keep the order of the pairs, on which the results of a
+// simulation depend.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace viscontact::particles {
 struct ClosePair {
   std::int32_t first,      ///< number of a particle, < second
       second;              ///< number of a particle
-  std::int32_t image = 0;  ///< of second (periods.hpp)
+  std::int32_t image = 0;  ///< which image of `second` (periods.hpp)
   /// True if the particles and the image are the same.
   bool operator==(const ClosePair&) const = default;
 };
@@ -33,7 +34,8 @@ std::vector<ClosePair> close_pairs(int dimension, std::span<const double> positi
 
 /// All pairs with |x_j + shift - x_i| < e_i + e_j, i < j, where the shifts are those of the images
 /// -13 to 13 of particle j, in order of first, second, image. `positions` has 2 or 3 numbers for
-/// each extent; other arguments are those of close_pairs(). Positions may lie outside the cell by less than a period.
+/// each extent; other arguments are those of close_pairs(). Positions may lie outside the cell by
+/// less than a period.
 ///
 /// Needs e_i + e_j < each period for all pairs: otherwise further images might be close. A particle
 /// makes no pair with its own images. Particles near the sides are copied to the opposite sides,

@@ -48,7 +48,7 @@ Copies copies_near_sides(std::size_t dimension, const PeriodicCell& cell,
     all.into_cell.push_back(beyond);
     add(k, inside[k], {});
   }
-  std::vector<std::array<int, 3>> shifts;  // those of the images, along axes with a period
+  std::vector<std::array<int, 3>> shifts;  // shifts of all images along periodic axes
   for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image)
     if (image != 0 && has_image(cell, image)) shifts.push_back(periods_of_image(image));
   for (std::size_t k = 0; k < extents.size(); ++k)

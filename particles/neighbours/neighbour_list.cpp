@@ -20,7 +20,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// Place in the order of the list.
+/// The numbers by which the list is ordered.
 template <class AnyPair>
 auto place_of(const AnyPair& pair) {
   return std::tuple(pair.first, pair.second, pair.image);
@@ -59,7 +59,7 @@ double half_shortest_period(const PeriodicCell& cell) {
 /// image. Throws Error(kNotConverged) if the particle moves further than this skin.
 double skin_within_period(const Particles& p, std::size_t k, double half_period, double skin,
                           double moved) {
-  // A little less, because the rounding errors of positions add to the sum.
+  // The skin is a little smaller, because rounding errors of positions add to the sum.
   constexpr double kLess = 1 - 1e-9;
   const double longest = kLess * (half_period - p.radii[k]) / 2;
   if (!(moved <= longest))
@@ -113,8 +113,8 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
           skin_within_period(p, k, half_period, state.skins[k], norm(displacement(k) - common));
     extents[k] = p.radii[k] + state.skins[k];
   }
-  // Most pairs have nothing to keep. Only the others are copied, so that the memory of the old list
-  // is free while the search needs its own.
+  // Most pairs have no memory that must be kept. Only the others are copied, so that the memory of
+  // the old list is free while the search needs its own.
   std::vector<Pair> before;
   std::ranges::copy_if(state.pairs, std::back_inserter(before), [](const Pair& pair) {
     return pair.gamma < 0 || pair.impulse != 0 || pair.memory != PairMemories::kNone;

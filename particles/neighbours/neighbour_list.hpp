@@ -24,9 +24,9 @@ bool neighbour_list_is_valid(const State& state, std::span<const double> displac
 
 /// Makes state.pairs again for the present positions. The skin of each particle (state.skins)
 /// becomes at least three times its displacement, so that the list is valid for about three steps,
-/// and at least a quarter of its radius; it never becomes smaller. Pairs
-/// keep their memory, and glued pairs stay in the list wherever their particles are. Particles of
-/// one rigid body are no pair.
+/// and at least a quarter of its radius; it never becomes smaller. Pairs keep their memory, and
+/// glued pairs stay in the list wherever their particles are. Particles of one rigid body are no
+/// pair.
 ///
 /// In a periodic domain a skin is at most (period/2 - radius)/2. Throws Error(kNotConverged) if a
 /// displacement, without the mean displacement, exceeds this length.

@@ -1,5 +1,6 @@
 // A web page that plays a motion of particles by the scripts in particles/picture/page.
-// run/particles_pages.cpp calls it. A change of the data's layout must be made there, too.
+// run/particles_pages.cpp calls it. A change of the data's layout must be made in these scripts,
+// too.
 #pragma once
 
 #include <string>

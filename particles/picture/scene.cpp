@@ -331,7 +331,8 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
     scene.mean_radius =
         std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
   if (forces.empty()) return scene;
-  // A few contacts that take a blow have much larger forces than all others.
+  // A few contacts that take a blow have much larger forces than all others: one in this many is
+  // left out of the scale.
   constexpr std::size_t kOneIn = 50;
   const auto top = forces.end() - 1 - static_cast<std::ptrdiff_t>(forces.size() / kOneIn);
   std::ranges::nth_element(forces, top);

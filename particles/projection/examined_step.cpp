@@ -10,7 +10,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// Takes in a residual of a gap or link. Returns true if it is larger than allowed.
+/// Adds a residual of a gap or link [L] to `result`. Returns true if it is larger than allowed.
 bool take(double residual, const ResidualScale& scale, const SolverSettings& settings,
           double mean_radius, ProjectionResult& result) {
   if (residual > scale.rounding) result.residuals.take_impulse(residual / scale.w, scale.impulse);
@@ -20,7 +20,7 @@ bool take(double residual, const ResidualScale& scale, const SolverSettings& set
 
 }  // namespace
 
-/// A link is measured like a contact of its particles.
+/// The scale of a link, by which its residual is measured like that of a contact of its particles.
 template <int D>
 ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
                                                ResidualScales<D>& scales) const {
@@ -30,7 +30,7 @@ ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
     particles.push_back(part.particle);
     w += mobilities_[index_of(part.particle)];
     length += norm(state_.particles.position(index_of(part.particle)));
-    // An angle is known to the rounding errors of a radian.
+    // The rounding errors of an angle are those of numbers near 1 radian.
     if (link.is_angle())
       length +=
           state_.particles.radii[index_of(part.particle)] * (1 + std::abs(link.rows.front().value));
@@ -54,10 +54,10 @@ void StepProjection<D>::examine_links(const SolverSettings& settings, double mea
   if (!beyond.empty()) name_contradictions(beyond, mean_radius, result);
 }
 
-/// Names the hinges and arms that are violated in the motion that violates all constraints least;
-/// others have no part in the contradiction. Where the equations contradict each other only for
-/// finite turns, this motion satisfies the linear ones, and the links that hold the same particles
-/// as those `beyond` their tolerances are named.
+/// Names the hinges and arms that contradict each other: those that are violated in the motion that
+/// violates all constraints least. If this motion satisfies all linear equations, the contradiction
+/// comes from finite turns; then all links are named that hold a particle of one of the links
+/// `beyond`, which exceed their tolerances.
 template <int D>
 void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyond,
                                             double mean_radius, ProjectionResult& result) {
@@ -67,7 +67,8 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
   const auto violations = constraints_->least_violations();
   const double largest = *std::ranges::max_element(violations);
   if (largest > kBroken * mean_radius) {
-    // The least squares end within rounding and the weight of the masses, about 1e-6.
+    // Violations below this part of the largest one are errors of the least squares, which are
+    // about 1e-6 of it.
     constexpr double kPart = 1e-3;
     const std::size_t contacts = chosen_.size();
     for (std::size_t b = 0; b < contacts; ++b)

@@ -8,8 +8,9 @@
 
 namespace viscontact::particles {
 
-/// The impulse at work on a body is the largest of its own (of_particle), the impulses of its
-/// contacts, and the impulses that would stop contacts that still close.
+/// The impulse at work on a body is the largest of three: that of its own motion (of_particle), the
+/// impulses of its contacts, and the impulses that would stop those of its contacts that still
+/// close.
 template <int D>
 ResidualScales<D>::ResidualScales(const State& state, double h,
                                   std::span<const double> displacements,
@@ -76,7 +77,7 @@ ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, dou
   }
   scale.rounding += std::sqrt(scale.w) * around;
   // Solvers take squares of displacements, and products of these. Below this length they underflow.
-  // In any unit that a case may have, a particle that moves by less is at rest.
+  // In any unit of length that a case may have, a particle that moves by less is at rest.
   constexpr double kAtRest = 1e-100;
   scale.rounding = std::max(kRounding * scale.rounding, kAtRest);
   return scale;

@@ -39,13 +39,13 @@ class ResidualScales {
                  std::span<const double> mobilities, ContactSystem<D>& system);
 
   /// Scales of a contact or link between `particles`, of which negative numbers are obstacles, and
-  /// which need not take part. `w` is the change of its gap per impulse [T/M], `length` the size of
-  /// the numbers that the gap is the difference of [L]. Of the impulses at work on the particles
-  /// the smallest counts, because an impulse that is small for a heavy particle may be all that
-  /// moves a light one. The rounding errors are those of the gap, of the displacements of its
-  /// particles, and of a solution for all impulses of its island.
+  /// which need not take part. `w` is the change of its gap per impulse [T/M]. `length` [L] is the
+  /// size of the coordinates from which the gap is computed as a difference. Of the impulses at
+  /// work on the particles the smallest counts, because an impulse that is small for a heavy
+  /// particle may be all that moves a light one. The rounding errors are those of the gap, of the
+  /// displacements of its particles, and of a solution for all impulses of its island.
   ResidualScale of(std::span<const std::int32_t> particles, double w, double length);
-  /// Those of a contact.
+  /// Scales of a contact.
   ResidualScale of(const Contact<D>& contact) {
     return of(std::array{contact.first, contact.second}, contact.w, std::abs(contact.gap));
   }
@@ -54,7 +54,7 @@ class ResidualScales {
   /// Contribution of a particle to the scales of its contacts.
   struct ParticleScale {
     double impulse = 0;  ///< impulse at work on the particle [M L/T]
-    /// Sum over the components d of h |u_d|, u the velocity before the step [L].
+    /// Sum of h |u_d| over the components d of the velocity u before the step [L].
     double moved = 0;
   };
   ParticleScale of_particle(std::int32_t particle, const double* moves) const;

@@ -78,8 +78,8 @@ Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
     end[d] += relative[d];
     square += end[d] * end[d];
   }
-  // Particles that pass each other in the step have no common direction; for them the one at its
-  // beginning counts, as in a step without blows.
+  // If particles pass each other in the step, their normals at its beginning and end have no common
+  // direction. The normal at the beginning is then used, as in a step without blows.
   constexpr double kLeastCosine = 0.5;
   double cosine = 0;
   for (std::size_t d = 0; d < D; ++d) cosine += contact.normal[d] * end[d];
@@ -121,8 +121,8 @@ bool StepProjection<D>::has_film(std::size_t k) {
                                   radii_of(pair(k), state_.particles, step_->obstacles)) < 0;
 }
 
-/// The pairs that a solution may have closed, whose gaps the displacements make smaller than
-/// margin_; all of them, or those with a film.
+/// Numbers of the pairs that are not chosen and whose gaps the displacements make smaller than
+/// margin_: all such pairs, or only those with a film.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::nearly_closed(bool are_films_only) {
   std::vector<std::size_t> pairs;
@@ -200,12 +200,13 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   ProjectionResult result;
   // Tolerate half of the allowed overlap. The other half is for the overlap that this step may add.
   tolerated_ = settings.tolerance * mean_radius / 2;
-  // With friction a solution costs more than contacts that stay open. Therefore pairs whose gaps are
-  // nearly closed are chosen early: with Coulomb's law together with the first ones that a solution
-  // has closed, but not before, because a tower that stands by itself would lean on neighbours that
-  // it only touches, and because redundant contacts cost more iterations than rounds. The convex
-  // relaxation holds dry particles that slide apart, (5.9), also where they would not meet. With it
-  // only pairs with a film are chosen early, and at once.
+  // With friction another solution costs more than contacts that stay open. Therefore pairs whose
+  // gaps are nearly closed are chosen early. With Coulomb's law they are chosen together with the
+  // first pairs that a solution has closed. They are not chosen earlier, because a tower that
+  // stands by itself would then lean on neighbours that it only touches, and because redundant
+  // contacts cost more iterations than they save rounds. With the convex relaxation, (5.9), only
+  // pairs with a film are chosen early, and at once, because it pushes dry particles that slide
+  // apart, also those that would not meet.
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
@@ -235,7 +236,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
     if (result.residuals.converged) break;
     if (constraints_ && constraints_->has_given_up()) {
-      // Loads are given, and only pairs that closed since then are left to be added.
+      // Coulomb's law was not solved, and loads are given instead (ConstraintSystem). Only pairs
+      // that have closed since then are still added, in at most this number of rounds.
       constexpr int kMostRounds = 20;
       if (more.empty() || ++rounds_with_given_loads > kMostRounds) break;
       choose(more);

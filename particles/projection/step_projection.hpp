@@ -24,14 +24,15 @@
 
 namespace viscontact::particles {
 
-/// A link that is off by more than this part of the mean radius after all iterations is taken to
-/// contradict others. Smaller residuals may be slow convergence; they are reported.
+/// If the residual of a link after all iterations is more than this part of the mean radius, the
+/// link counts as contradicting others. Smaller residuals may be slow convergence; they are
+/// reported.
 inline constexpr double kBroken = 1e-3;
 
 /// Result of the projection of a step.
 struct ProjectionResult {
   int iterations = 0;       ///< number of iterations of all solutions, >= 0
-  StepResiduals residuals;  ///< those of the last solution; impulse_errors as `pairs`
+  StepResiduals residuals;  ///< of the last solution; impulse_errors are in the order of `pairs`
   /// Number of contacts that exert an impulse or are glued, and turn by more than kLargestTurn.
   std::size_t unresolved = 0;
   double link_residual = 0;  ///< largest residual of a link [L]
@@ -39,9 +40,9 @@ struct ProjectionResult {
   /// contradict each other; empty if the residuals of all links are allowed.
   std::vector<std::string> unsolved_links;
   bool contact_contradicts = false;  ///< whether a contact has a part in that
-  std::vector<Pair*> pairs;          ///< pairs in the projection, which solve() leaves as they are
+  std::vector<Pair*> pairs;          ///< pairs in the projection; solve() does not change them
   std::vector<double> impulses;      ///< of `pairs` [M L/T]
-  std::vector<PairMemory> memories;  ///< of `pairs`, with the friction; empty without constraints
+  std::vector<PairMemory> memories;  ///< of `pairs`, with friction; empty without constraints
   std::vector<std::int32_t> bodies;  ///< particles whose displacements the projection changed
 };
 
@@ -70,8 +71,7 @@ class StepProjection {
   /// would stop particles that only pass each other. `impacts` must outlive this object.
   void follow(const Impacts<D>& impacts) { impacts_ = &impacts; }
   /// Solves the projection and sets the displacements h v, but changes neither pairs nor memories.
-  /// `mean_radius` [L], > 0, is the length
-  /// that the tolerances of `settings` refer to.
+  /// `mean_radius` [L], > 0, is the length that the tolerances of `settings` refer to.
   ProjectionResult solve(const SolverSettings& settings, double mean_radius);
 
  private:
@@ -80,7 +80,7 @@ class StepProjection {
     return k < state_.pairs.size() ? state_.pairs[k] : state_.walls[k - state_.pairs.size()];
   }
   std::size_t pair_count() const { return state_.pairs.size() + state_.walls.size(); }
-  // Contact of pair k, which meets a curved obstacle at its tangent.
+  // Contact of pair k. A curved obstacle is replaced by its tangent.
   Contact<D> contact_at_start(std::size_t k) {
     const auto& p = state_.particles;
     if (!tangents_.empty() && pair(k).first < 0)

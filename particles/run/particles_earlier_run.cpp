@@ -44,8 +44,8 @@ std::string difference(const results::Provenance& before, const results::Provena
   return "";
 }
 
-/// Says how a source of the case differs from that of the earlier run; empty if the particles that it
-/// pours in, and their times, are the same.
+/// Says how a source of the case differs from that of the earlier run; empty if the particles that
+/// it pours in, and their times, are the same.
 std::string difference(const SourceProgress& before, const Source& now) {
   if (before.begin_of_case != now.begin)
     return fmt::format("begins at {}, not {}", before.begin_of_case, now.begin);
@@ -57,8 +57,8 @@ std::string difference(const SourceProgress& before, const Source& now) {
   return "";
 }
 
-/// Throws Error(kBadInput) that names `restart` if the state has other particles or sources than the
-/// case, or contacts with planes that the case does not have.
+/// Throws Error(kBadInput) that names `restart` if the state has other particles or sources than
+/// the case, or contacts with planes that the case does not have.
 void check_same_particles(const State& state, const ParticlesCase& c, const fs::path& restart) {
   const auto& p = state.particles;
   const auto differs = [&](const std::string& what) {
@@ -162,7 +162,7 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
   take_over_ids(state, c);
   take_over_bodies(state, c, restart);
   if (c.particles.turn() && !state.particles.turn()) {
-    // The earlier run had nothing that turned its particles.
+    // In the earlier run particles did not turn, so that its restart file has no angles.
     state.particles.angles = c.particles.angles;
     state.particles.orientations = c.particles.orientations;
     state.particles.angular_velocities = c.particles.angular_velocities;

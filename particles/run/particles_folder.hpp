@@ -12,8 +12,9 @@
 
 namespace viscontact::particles {
 
-/// The names of all files that a run may have, except those of its frames. restart.bin is the first
-/// to be removed, because the others are of no use to a run without it.
+/// The names of all files that a run may have, except those of its frames, in the order in which
+/// they are removed. restart.bin is the first, because a run cannot continue from the others
+/// without it.
 inline constexpr auto kParticleResults = std::to_array<const char*>(
     {"restart.bin", "particles.pvd", "particles.html",      "particles.svg",
      "run.json",    "steps.csv",     "final_particles.csv", "final_contacts.csv",
@@ -22,7 +23,8 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
      "arms.csv",    "membranes.csv", "links.pvd",           "rebounds.csv",
      "probes.csv",  "particles.h5"});
 
-/// What the name of a file of a frame has before and after the number of the frame.
+/// A kind of file with one file for each frame: what stands in its names before and after the
+/// number.
 struct FrameKind {
   const char* begin;  ///< also the name of the list of these files, without ".pvd"
   const char* end;    ///< with the dot

@@ -69,8 +69,8 @@ Frame read_frame(double time, const fs::path& path, const ParticlesCase& c) {
   return frame;
 }
 
-/// Reads the frames of a run. If they take too much memory, every second one is left out, as often
-/// as need be; the last one is always there.
+/// Reads the frames of a run. If they would take more than kMostBytes, every second one is left
+/// out, repeatedly if necessary; the last one is always kept.
 Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
   auto playback = without_frames(c);
   auto& frames = playback.frames;

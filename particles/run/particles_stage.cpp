@@ -41,7 +41,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// Times of a run that differ by less [T] differ by rounding only.
+/// Two times of a run that differ by less than this [T] differ by rounding errors only.
 double tiny_time(const ParticlesCase& c) { return 1e-6 * c.setting.time_step; }
 
 /// A run with its state and its files, which can be saved after any step.
@@ -200,7 +200,7 @@ class Run {
 };
 
 /// Says how the run ended, after its files are written. Throws Error(kInterrupted) if the run was
-/// interrupted, Error(kNotConverged) if a step did not converge.
+/// interrupted, Error(kNotConverged) if a step missed the tolerances by more than kStillAResult.
 void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State& state,
                   const fs::path& folder, const StopToken& stop) {
   terminal::say(fmt::format(
@@ -278,7 +278,7 @@ void run_particles(const ParticlesRequest& request) {
       return;
     }
     log.resume(earlier->record);
-    remove_file(folder / "particles.h5");  // its frames are not all
+    remove_file(folder / "particles.h5");  // it would lack the frames of this run
     terminal::say(fmt::format("particles: the run in {} continues from t = {:.6g}, after step {}",
                               folder.string(), earlier->state.time, earlier->state.steps));
     state = earlier->state;

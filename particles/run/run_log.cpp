@@ -82,7 +82,7 @@ void RunLog::resume(const RunRecord& record) {
 
 void RunLog::add_step(const StepReport& report, const State& state,
                       std::span<const Rebound> rebounds) {
-  // A million rows are 50 MB.
+  // A million rows of steps.csv are 50 MB.
   constexpr std::int64_t kMostRows = 1000000, kThen = 1000;
   constexpr std::uint64_t kMostRebounds = 1000000;
   record_.totals.add(report, case_.average_from);

@@ -1,6 +1,7 @@
 // What a run of many particles writes while it computes: frames, the lists of their files, and
 // tables. Nothing of it stays in memory. Lengths, masses and times are in the units of the case.
-// particles_stage.cpp writes by it. A change must keep that a record continues its files exactly.
+// Used by particles_stage.cpp and particles_earlier_run.cpp. A change must keep that an interrupted
+// run, when it is continued from its record, gives the same files as an uninterrupted one.
 #pragma once
 
 #include <cstdint>
@@ -22,28 +23,30 @@
 
 namespace viscontact::particles {
 
-/// Writes the files of a run, and knows what has been written (record()). All functions that write
-/// throw Error(kBadInput), which names the file, if it cannot be written.
+/// Writes the files of a run. Its record says what has been written (RunRecord). All functions that
+/// write throw Error(kBadInput), which names the file, if it cannot be written.
 class RunLog {
  public:
   /// A run from the start into `folder`. The case and `provenance` must outlive this object.
   RunLog(const ParticlesCase& c, std::filesystem::path folder,
          const results::Provenance& provenance);
 
-  /// Throws Error(kBadInput), which names the file, if a file that an earlier run had written when
-  /// it had this record is missing or has been changed.
+  /// Throws Error(kBadInput), which names the file, if a file that an earlier run had written up to
+  /// this record is missing or has been changed since.
   void check(const RunRecord& record) const;
 
-  /// Continues the run that had this record: removes what it wrote later. Errors as check().
+  /// Continues the run that had this record: removes what was written after the record. Throws the
+  /// errors of check().
   void resume(const RunRecord& record);
 
-  /// Adds the last step, which ended in this state and had these blows, to the sums, to steps.csv
-  /// and to rebounds.csv. After a million steps, steps.csv lists only every thousandth step and
-  /// those that did not converge; rebounds.csv has at most a million rows, which are 80 MB.
+  /// Adds a step to the sums of the record and to steps.csv, and its blows (rebound.hpp) to
+  /// rebounds.csv. `state` is that at the end of the step. After a million steps, steps.csv lists
+  /// only every thousandth step and those that did not converge; rebounds.csv has at most a million
+  /// rows, which are 80 MB.
   void add_step(const StepReport& report, const State& state, std::span<const Rebound> rebounds);
 
-  /// Writes a frame of the state and its rows in the tables. `link_force_errors` are those of
-  /// State::link_forces, empty if they are not known.
+  /// Writes a frame of the state and its rows in the tables. `link_force_errors` are estimates of
+  /// the errors of State::link_forces, as many and in the same units; empty: not known.
   void add_frame(const State& state, std::span<const double> link_force_errors);
 
   /// True if the flow of the last frame has not been written. The flow around the particles of a
@@ -55,9 +58,10 @@ class RunLog {
   /// Returns when everything is on disk that has been added.
   void sync();
 
-  /// What has been added. The caller counts costs in the sums.
+  /// What has been written so far, with the ends of the files.
   RunRecord record() const;
-  StepTotals& totals() { return record_.totals; }  ///< the sums of record()
+  /// The sums of record(). The caller adds computing times and memory.
+  StepTotals& totals() { return record_.totals; }
 
  private:
   void add_file(const std::string& name, TextKind kind, const std::string& head,
@@ -69,9 +73,9 @@ class RunLog {
   std::filesystem::path folder_;
   const results::Provenance& provenance_;
   std::map<std::string, GrowingFile> files_;      // by name
-  std::vector<TimeTable> tables_;                 // those with rows of each frame
-  std::vector<std::filesystem::path> unflushed_;  // files of frames that may not be on disk
-  RunRecord record_;                              // without ends of files
+  std::vector<TimeTable> tables_;                 // tables that get rows with each frame
+  std::vector<std::filesystem::path> unflushed_;  // files of frames, not yet on disk
+  RunRecord record_;                              // RunRecord::files is empty here
 };
 
 }  // namespace viscontact::particles

@@ -24,7 +24,7 @@ struct FluidStepReport {
   double apparent_viscosity = 0;
   // In a fluid with inertia:
   double kinetic_energy = 0;   ///< of the fluid [M L^2/T^2], in two dimensions per unit length
-  double reynolds_number = 0;  ///< largest rho_f |V| 2 r/mu of a particle
+  double reynolds_number = 0;  ///< largest rho_f |V| 2 r/mu of a particle of velocity V, radius r
   double courant_number = 0;   ///< FlowQuantities::courant_number
   /// Sum of the forces of the fluid on the particles whose motion is given [M L/T^2]; on an axis
   /// the first is that along z.
@@ -40,7 +40,8 @@ struct FluidStepReport {
 };
 
 /// What is recorded of one step. Here D + h G v is the linearised gap of a contact after the step
-/// [L], p its impulse, gamma that before the step, and w the change of the gap per impulse [T/M].
+/// [L], p its impulse [M L/T], gamma the Pair::gamma before the step [M L/T], and w the change of
+/// the gap per impulse [T/M].
 struct StepReport {
   double time = 0;           ///< at the end of the step [T]
   std::size_t contacts = 0;  ///< number of contacts in the projection

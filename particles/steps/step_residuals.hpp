@@ -1,8 +1,9 @@
 // How far the solution of a step misses its conditions, and whether the step is accepted: the same
-// for particles with masses (projection/) and in a fluid (fluid/). A residual is how far a gap or a
-// length is from what its condition asks, [L]; docs/particles.md, "The projection", says what is
-// allowed. Lengths, masses and times are in the units of the case. A change of a limit changes
-// which steps are accepted. Used by fluid/, projection/ and simulation.cpp.
+// for particles with masses (projection/) and in a fluid (fluid/). A residual [L] is the distance
+// of a gap or a length from the value that its condition demands; docs/particles.md, "The
+// projection", says what is allowed. Lengths, masses and times are in the units of the case. A
+// change of a limit changes which steps are accepted. Used by fluid/, projection/ and
+// simulation.cpp.
 #pragma once
 
 #include <functional>
@@ -27,12 +28,12 @@ struct StepResiduals {
   /// Of each contact [M L/T], >= 0: its residual divided by its mobility Contact::w.
   std::vector<double> impulse_errors;
 
-  /// Takes in a residual >= 0 for which `allowed` > 0 is allowed [L]. Returns true if it is larger
-  /// than allowed, or not a number; then `converged` becomes false.
+  /// Adds a residual >= 0 of which `allowed` > 0 is allowed [L]. Returns true if it is larger than
+  /// allowed, or not a number; then `converged` becomes false.
   bool take(double residual, double allowed);
-  /// Takes in the residual of an impulse [M L/T]; `at_work` >= 0 are the impulses at work [M L/T].
+  /// Adds the residual of an impulse [M L/T]; `at_work` >= 0 are the impulses at work [M L/T].
   void take_impulse(double residual, double at_work);
-  /// Takes in the gap of a pair after the step [L]. A gap that is not a number stays the smallest.
+  /// Adds the gap of a pair after the step [L]. A gap that is not a number stays the smallest.
   void take_gap(double gap, const Pair& pair);
 };
 

@@ -13,20 +13,21 @@
 
 namespace viscontact::particles {
 
-/// Times > 0 that the steps of a case take care of [T], increasing, each once. With the leapfrog
-/// scheme they are those at which a force or torque jumps. Otherwise, if solids rebound, they are
-/// those at which the velocity of a plane jumps, because a plane moves evenly in a step; else there
-/// are none.
+/// Times > 0 at which steps of a case must end or be centred [T], increasing, each once. With the
+/// leapfrog scheme they are those at which a force or torque jumps. Otherwise, if solids rebound,
+/// they are those at which the velocity of a plane jumps, because a plane moves evenly in a step;
+/// else there are none.
 std::vector<double> jump_times(const Setting& setting);
 
 /// The end of the step from `time` with Scheme::kLeapfrog, which without jumps is `grid_end`, one
 /// time step `h` later at most.
 ///
 /// Velocities stand in the middles of steps, so that the impulse of a step is that of the forces
-/// from the middle of the step before to its own. If a force jumped in between, pull and push would
-/// cancel before a film books them, although its gamma has bounds. Steps near a jump are therefore
-/// shortened to between h/4 and 3 h/4 such that the jump is in the middle of one. Of jumps that
-/// follow each other within h/2 only the first is resolved.
+/// from the middle of the step before to its own. If a force jumped from pull to push in between,
+/// both would cancel in this impulse, although the film, whose gamma has bounds, would have
+/// absorbed them one after the other. Steps near a jump are therefore shortened to between h/4 and
+/// 3 h/4 such that the jump is in the middle of one. Of jumps that follow each other within h/2
+/// only the first is resolved.
 double leapfrog_step_end(double time, double grid_end, double h, std::span<const double> jumps);
 
 /// The next step of a simulation.

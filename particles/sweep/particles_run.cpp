@@ -29,7 +29,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Values = std::map<std::string, double>;
 
-/// A number; or the largest of several, as of the errors at the first and the last step.
+/// The number in `json`, or the largest number if it has several (errors at the first and last
+/// step).
 std::optional<double> number_of(const Json& json) {
   if (json.is_number() && std::isfinite(json.get<double>())) return json.get<double>();
   std::optional<double> largest;
@@ -76,7 +77,7 @@ Values values_of(const ParticlesCase& c, const std::vector<std::string>& columns
   return values;
 }
 
-/// The text without each `part`, so that the rows do not depend on where they are written.
+/// The text without any `part`, such as the path of a folder, so that rows do not depend on it.
 std::string without(std::string text, const std::string& part) {
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at))
     text.erase(at, part.size());

@@ -52,7 +52,7 @@ results::Inputs inputs_of(const ParticlesSweep& sweep) {
   return inputs;
 }
 
-/// Writes the table of means, unless it is there.
+/// Writes the table of means, unless it exists with this content.
 void write_means(const ParticlesSweep& sweep, const std::string& output) {
   if (sweep.points().draws == 0) return;
   const auto path = path_of_means(output);
@@ -96,7 +96,7 @@ std::vector<std::uint64_t> missing_rows(const ParticlesSweep& sweep, const Parti
   return missing;
 }
 
-/// Sets the time of a row from the first steps of the first one.
+/// Estimates the computing time of a row from the first steps of the first row.
 void measure_first_steps(const ParticlesSweep& sweep, const StartFluidSolver& start_solver,
                          const StopToken& stop, pipeline::DryRun& run) {
   using Clock = std::chrono::steady_clock;

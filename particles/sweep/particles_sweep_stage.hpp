@@ -1,7 +1,7 @@
-// The stages of sweeps of particles. Their rows are runs with folders of their own, which this
-// process computes, or each task of a job on a cluster computes a share of them; then gather_sweep
-// puts the tables together. `sweep` calls it. Numbers are in the units of the case. A change must
-// keep finished runs.
+// The stages of sweeps of particles. Each row is a run with a folder of its own. Either this
+// process computes all rows, or each task of a job on a cluster computes some of them and
+// gather_sweep writes the tables. `sweep` calls it. Numbers are in the units of the case. A change
+// must keep finished runs.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace viscontact::particles {
 
-/// What is asked of a sweep of particles, besides its rows.
+/// The options of a sweep of particles.
 struct ParticlesSweepRequest {
   std::string output;             ///< file of the rows
   int jobs = 1;                   ///< number of rows at once

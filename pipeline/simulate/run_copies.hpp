@@ -7,7 +7,7 @@
 
 namespace viscontact::pipeline {
 
-/// True if Viscontact has simulated into this folder before. The sign of it is a sub-folder
+/// True if Viscontact has simulated into this folder before. It is recognised by a sub-folder
 /// trajectories/ that contains a file that Viscontact wrote, or that is empty because the run was
 /// interrupted.
 bool holds_a_run(const results::RunFolder& run);

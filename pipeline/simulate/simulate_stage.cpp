@@ -1,6 +1,7 @@
 // Chooses the fit, runs the models of a case and writes their results. Numbers are in the units of
 // the case; errors are those of simulate_stage.hpp. A change must keep the order of writing
-// (write_simulated), because `run` takes a trajectory as the sign that all is written.
+// (write_simulated), because `run` takes a trajectory as the sign that copies and uncertainty are
+// written.
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
 
 #include <fmt/format.h>

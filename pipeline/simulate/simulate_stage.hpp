@@ -1,7 +1,8 @@
 // The stage simulate: runs the models of motion on a case with a fit, and writes trajectories and
 // the record of failed models into a run's folder. Lengths, masses and times are in the units of
 // the case. The main job and the commands `simulate` and `sweep` call it. A change must keep that
-// trajectories are written last, because `run` takes them as the sign that all is written.
+// trajectories are written after the copies and uncertainty.json, because `run` takes a trajectory
+// as the sign that those are written.
 #pragma once
 
 #include <filesystem>
@@ -45,9 +46,9 @@ struct Simulated {
 
 /// Runs the models and writes no file. A model that fails, because it leaves the fit's interval or
 /// does not converge, does not stop the others. Throws Error(kBadInput), which names the case or
-/// the fit, if the fit has another viscosity or radius than the case, or if a parameter of a model
-/// is wrong. Throws the error of the first model if all models fail, and Error(kInterrupted) if
-/// `stop` requests a stop.
+/// the fit, if the fit cannot be scaled to the case (case_file::fit_for), or if a parameter of a
+/// model is wrong. Throws the error of the first model if all models fail, and Error(kInterrupted)
+/// if `stop` requests a stop.
 Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
                         const std::vector<std::string>& models,
                         const lubrication::OutsideInterval& outside, const StopToken& stop);

@@ -32,7 +32,7 @@ struct ArrayRequest {
 /// What an array job computes.
 struct ArrayJob {
   std::string command;     ///< of Viscontact: "tabulate" or "sweep"
-  std::string is_running;  ///< for a message, such as "is being tabulated", said of the output
+  std::string is_running;  ///< what happens to the output, for a message: "is being tabulated"
   std::string results;     ///< what the output is in messages, such as "the tables"
   std::vector<std::string> cases;  ///< paths of the case files
   /// Names and contents of the copies of the cases, which the tasks run, so that later edits of the

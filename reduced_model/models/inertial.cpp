@@ -107,7 +107,7 @@ class InertialRun {
     const double restitution = motion_.restitution();
     double after = -restitution * before;
     const double pull = motion_.external_force.value(now_);
-    constexpr double kShortestFlight = 1e-6;
+    constexpr double kShortestFlight = 1e-6;  // of end_time; a shorter flight counts as rest
     rests_ =
         !(after > 0) || (pull < 0 && 2 * m * after < -pull * kShortestFlight * motion_.end_time);
     if (rests_) after = 0;

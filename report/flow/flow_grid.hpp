@@ -11,7 +11,7 @@
 
 namespace viscontact::report {
 
-/// A rectangle of a plane [L].
+/// A rectangle of a plane, by the coordinates of its sides [L].
 struct Window {
   double left = 0, right = 0, bottom = 0, top = 0;
   double width() const { return right - left; }
@@ -62,8 +62,8 @@ FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPerio
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
                                   const Grid& grid);
 
-/// Replaces each NaN by the mean of those of its up to eight neighbours on the grid that are no
-/// NaN. The points are row by row, with `columns` in a row.
+/// Replaces each NaN by the mean of its neighbours on the grid (up to eight) that are no NaN; a NaN
+/// without such a neighbour stays. The points are row by row, with `columns` in a row.
 void fill_next_to_known(std::vector<double>& values, std::size_t columns);
 
 }  // namespace viscontact::report

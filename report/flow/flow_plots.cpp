@@ -104,8 +104,8 @@ PlotView surroundings(const QuadraticMesh& mesh, double radius, double gap) {
 }
 
 /// Half the width of the view of a gap, in units of sqrt(2 gap radius). At one such unit from the
-/// axis, the film over a plane is twice as thick as on the axis; at this end it is about 7 times as
-/// thick.
+/// axis, the film over a plane is twice as thick as on the axis; at kGapReach units it is about 7
+/// times as thick.
 constexpr double kGapReach = 2.5;
 
 PlotView gap_view(const QuadraticMesh& mesh, double radius, double gap, double reach = kGapReach) {
@@ -189,7 +189,7 @@ std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotVi
   return curves;
 }
 
-// Margins of the drawing [pixels].
+// Margins of the drawing around the plot [pixels].
 constexpr double kLeft = 110, kAbove = 66, kBelow = 106;
 constexpr double kColourBar = 165;  // at the right, with its numbers
 constexpr double kNoColourBar = 30;
@@ -222,7 +222,7 @@ std::vector<std::string> layout(const PlotView& view, double right, double below
            "fillstyle solid noborder")};
 }
 
-/// The part of a title that names the motion, and after which the number of its velocity follows.
+/// The words of a title for the motion; the title continues with the value of its velocity.
 std::string motion_in_words(lubrication::MotionKind motion) {
   using lubrication::MotionKind;
   if (motion == MotionKind::kApproach) return " at velocity";
@@ -262,8 +262,8 @@ std::string draw(Panel panel, const PlotView& view, double right, const StopToke
                   static_cast<int>(std::lround(height)), stop);
 }
 
-/// The flow in a view on a grid of the half-plane, whose points are the centres of cells that are
-/// so small that they are hardly seen.
+/// The flow in a view, on a grid of the half-plane. Each grid point is the centre of a cell of one
+/// colour, and the cells are so small that they are hardly seen.
 struct ViewedFlow {
   PlotView view;
   Grid grid;
@@ -318,7 +318,7 @@ std::pair<double, double> extremes(const QuadraticMesh& mesh, const std::vector<
 }
 
 Curve streamlines(const ViewedFlow& viewed, double radius, double gap) {
-  constexpr int kLines = 14;  // on each side of the axis, about
+  constexpr int kLines = 14;  // approximate number of lines on each side of the axis
   const auto& grid = viewed.grid;
   std::vector<char> is_sphere(grid.size());
   for (std::size_t i = 0; i < is_sphere.size(); ++i)
@@ -376,7 +376,8 @@ Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
                                                 static_cast<double>(u_field.columns));
     const double u = u_field.values.at(pixel), w = w_field.values.at(pixel);
     if (!std::isfinite(u)) continue;
-    // Lengths in cells; the root makes slow flow visible.
+    // Lengths of arrows in cells are proportional to the root of the speed, so that slow flow is
+    // visible.
     const double speed = std::hypot(u, w);
     const double length = 0.9 * std::sqrt(speed / fastest);
     const double dx = length * u / speed, dy = length * (x < 0 ? -w : w) / speed;

@@ -211,7 +211,7 @@ struct StreamLines::Equations {
   /// Factorises the matrix for the points in the fluid, unless it was factorised for nearly the
   /// same points; then the matrix stays that for the earlier points.
   void prepare(const Grid& grid, std::vector<char> points) {
-    constexpr double kNearly = 0.005;  // share of points that may differ
+    constexpr double kNearly = 0.005;  // largest share of points that may differ
     if (is_fluid.size() == points.size()) {
       std::size_t different = 0;
       for (std::size_t i = 0; i < points.size(); ++i) different += points[i] != is_fluid[i] ? 1 : 0;
@@ -256,7 +256,8 @@ std::vector<double> StreamLines::stream_function(const FlowOnGrid& flow) {
   std::vector<char> points(u.size());
   for (std::size_t i = 0; i < u.size(); ++i) points[i] = std::isnan(u[i]) ? 0 : 1;
   equations_->prepare(grid_, std::move(points));
-  // A point that left the fluid since the matrix was factorised is at its boundary.
+  // Points that have left the fluid since the matrix was factorised are next to it and get the mean
+  // of their neighbours.
   fill_next_to_known(u, grid_.columns);
   fill_next_to_known(v, grid_.columns);
   const auto& is_fluid = equations_->is_fluid;

@@ -51,10 +51,10 @@ class StreamLines {
   ~StreamLines();
   StreamLines(StreamLines&&) noexcept;
 
-  /// About `count` lines, at equal steps of psi: between any two neighbours flows the same amount.
-  /// There are no lines if nothing moves. `is_body` says for each point of the grid whether it is
-  /// in a particle, which hides it. Frames should be given in their order, because the factor of
-  /// the matrix is used again as long as the fluid covers about the same points.
+  /// About `count` lines, at equal steps of psi: the same amount flows between any two neighbouring
+  /// lines. There are no lines if nothing moves. `is_body` says for each point of the grid whether
+  /// it is in a particle, which hides it. Frames should be given in their order, because the factor
+  /// of the matrix is used again as long as the fluid covers about the same points.
   StreamLineSet of(const FlowOnGrid& flow, const std::vector<char>& is_body, int count);
 
  private:

@@ -1,9 +1,9 @@
 // The axes of the plots: ranges, ticks and numbers. uPlot refuses ranges below 1e-16, and its
-// logarithmic axes have whole decades only. Therefore it gets the logarithm of a value, or the
-// value in a unit of the axis' size, and this file places and labels the ticks.
-// The curves follow: their values, their points and their samples in the legend. report/page.cpp
-// writes axes and curves. This file and those that report/CMakeLists.txt lists after it are one
-// script, so each may use the names of all.
+// logarithmic axes have whole decades only. Therefore uPlot gets the logarithm of a value, or the
+// value divided by the size of the axis, and this file places and labels the ticks. The second part
+// of the file has the curves: their values, their points and their samples in the legend.
+// report/page.cpp writes axes and curves. This file and those that report/CMakeLists.txt lists
+// after it are one script, so each may use the names of all.
 
 const kBlank = '\u2013';  // is shown in place of a missing number
 

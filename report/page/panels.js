@@ -19,7 +19,7 @@ function addTouch(u, reset) {
       u.setCursor({left: x, top: y});
     } else if (event.touches.length === 2) {
       const spots = [spot(event.touches[0]), spot(event.touches[1])];
-      // The point under each finger stays under it.
+      // The point of the plot under each finger stays under this finger.
       const x = spots.map(s => u.posToVal(s.x, 'x')), y = spots.map(s => u.posToVal(s.y, 'y'));
       pinch = {spots, x, y};
       event.preventDefault();

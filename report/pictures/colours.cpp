@@ -1,6 +1,6 @@
 // Interpolates colours between the nodes of a scale, and chooses the ends, numbers and words of
 // scales (colours.hpp). Nothing is thrown. gnuplot gets PressureColours::at(pressure) and not the
-// pressure, so a change must keep settings() and at() in step.
+// pressure, so that a change of settings() or at() must be made in both.
 #include "viscontact/report/pictures/colours.hpp"
 
 #include <fmt/format.h>
@@ -92,7 +92,7 @@ std::vector<double> sorted_finite(const std::vector<double>& values) {
   return sorted;
 }
 
-/// The colours, with the ends of the bar made different, because gnuplot needs low < high.
+/// The colours with low < high, as gnuplot needs it: equal ends are moved apart.
 PressureColours widened(PressureColours colours) {
   if (colours.high > colours.low) return colours;
   const double half = colours.high == 0 ? 1 : std::abs(colours.high);
@@ -160,7 +160,7 @@ std::vector<std::pair<double, std::string>> PressureColours::ticks() const {
       ticks.emplace_back(n * step, short_number(n == 0 ? 0 : n * step));
     return ticks;
   }
-  constexpr int kMost = 4;  // numbers of each sign at the bar, about
+  constexpr int kMost = 4;  // approximate number of numbers of each sign at the bar
   const int decades = static_cast<int>(
       std::floor(std::log10(std::max(std::abs(low), std::abs(high)) / linear_below)));
   const int every = decades / (kMost + 1) + 1;
@@ -214,7 +214,7 @@ std::vector<std::string> PressureColours::settings() const {
     ticks = "set cbtics (" + places + ")";
     words += fmt::format("\\nlogarithmic beyond {}", short_number(linear_below));
   }
-  // Pressures beyond 1.2 times the end of the bar are mentioned in words.
+  // If a pressure is beyond 1.2 times the end of the bar, the words of the bar say so.
   constexpr double kWorthAWord = 1.2;
   if (largest > kWorthAWord * high && largest > 0)
     words += fmt::format("{} above {} one colour (largest {})", linear_below > 0 ? ";" : "\\n",

@@ -85,7 +85,7 @@ struct PressureColours {
   std::vector<std::pair<double, std::string>> ticks() const;
 
   /// The scale from `low` to `high` with `colours` colours, without numbers that would touch
-  /// another one, for a pressure less its mean; its words have `unit` in brackets.
+  /// another one, for a pressure minus its mean; its words have `unit` in brackets.
   ColourScale scale(int colours, const std::string& unit = "viscosity/time") const;
 
   /// The place of a pressure on that scale, from 0 to 1.

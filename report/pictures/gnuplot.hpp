@@ -55,12 +55,11 @@ inline constexpr const char* kLegendBelow =
 /// nothing in it as a command.
 std::string quoted_for_gnuplot(const std::string& text);
 
-/// Draws the panels one below the other, as an SVG (one element, which may stand in an HTML page), a
-/// PDF, a PNG, or as gnuplot's script with the data, which gnuplot turns into an SVG. `width` and
+/// Draws the panels one below the other, as an SVG (one element, which may stand in an HTML page),
+/// a PDF, a PNG, or as gnuplot's script with the data, which gnuplot turns into an SVG. `width` and
 /// `height` are those of the picture by itself, in the unit of PictureFormat::width. Throws
-/// GnuplotMissing(kExternalProgram) if gnuplot
-/// cannot be run, Error(kExternalProgram) if gnuplot fails or has not ended after ten minutes,
-/// and Error(kInterrupted) if `stop` requests a stop.
+/// GnuplotMissing(kExternalProgram) if gnuplot cannot be run, Error(kExternalProgram) if gnuplot
+/// fails or has not ended after ten minutes, and Error(kInterrupted) if `stop` requests a stop.
 std::string draw_picture(const results::PictureFormat& format, const std::vector<Panel>& panels,
                          int width, int height, const StopToken& stop = {});
 

@@ -46,7 +46,8 @@ class SweepRows {
     std::size_t column;
     std::optional<std::size_t> divisor;
   };
-  /// Those of "COLUMN" or "COLUMN/KEY", where the file calls the column COLUMN and `ending`.
+  /// The indices of "COLUMN" or "COLUMN/KEY", where the name of the column in the file is COLUMN
+  /// followed by `ending`.
   Place find(const std::string& name, const std::string& ending = "") const {
     const auto slash = name.find('/');
     if (slash == std::string::npos) return {index_of(name + ending), {}};
@@ -152,7 +153,7 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
   for (auto& curve : panel.curves)
     std::ranges::sort(curve.points, {}, &std::pair<double, double>::first);
   panel.curves.insert(panel.curves.end(), bars.begin(), bars.end());
-  // Room beside the ends of the bars.
+  // The range of x leaves room beside the ends of the bars.
   if (!bars.empty())
     panel.settings.emplace_back("set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06");
   panel.x_log = is_logarithmic(xs);

@@ -17,8 +17,8 @@ struct SweepPlot {
   std::string x;                     ///< key of the horizontal axis
   std::string y;                     ///< key for a map of columns[0]; empty: lines over x
   std::vector<std::string> columns;  ///< at least one
-  /// Whether the file has the columns COLUMN.mean and COLUMN.standard_error in place of COLUMN. Lines
-  /// then have bars of one standard error on both sides.
+  /// Whether the file has the columns COLUMN.mean and COLUMN.standard_error in place of COLUMN.
+  /// Lines then have bars of one standard error on both sides.
   bool is_of_means = false;
 };
 

@@ -23,7 +23,7 @@ struct WeightKeys {
   double weight = 0, incline = 0;
 };
 
-/// `mass` [M] is that of the sphere less that of the fluid which it displaces.
+/// `mass` [M] is that of the sphere minus that of the fluid which it displaces.
 void weight_keys(case_file::Keys& keys, WeightKeys& given, double mass) {
   constexpr Allowed kAngle = {[](double v) { return std::abs(v) <= 1.6; },
                               "of radians from -1.6 to 1.6"};

@@ -20,7 +20,8 @@ constexpr std::array kRollingColumns = {"gap",   "smallest_gap", "position",
                                         "angle", "velocity",     "angular_velocity",
                                         "slip",  "contact",      "contact_time"};
 
-/// Throws Error(kWrongUsage) if the fit depends on the key, or if the key changes no row.
+/// Throws Error(kWrongUsage) unless the key is one of [rolling] or of those on which the motion
+/// with a given fit depends.
 void check_rolling_key(const std::string& key) {
   constexpr std::array kOther = {"fluid.viscosity", "fluid.density",  "sphere.radius",
                                  "sphere.mass",     "sphere.density", "sphere.moment_of_inertia"};

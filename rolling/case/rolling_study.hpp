@@ -17,7 +17,7 @@ namespace viscontact::rolling {
 /// What is computed at each point.
 struct RollingPlan {
   std::filesystem::path case_path;  ///< the case whose keys are varied
-  std::filesystem::path fit_path;   ///< fit of a pair, used with the viscosity of the point
+  std::filesystem::path fit_path;   ///< fit of a pair, scaled to each point
   sweep::Points points;             ///< at least one variation, no draws
   std::vector<std::string> models;  ///< names of rolling_models(); empty: those of the case
 };

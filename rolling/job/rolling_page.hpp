@@ -19,7 +19,7 @@ namespace viscontact::rolling {
 /// What a run has computed.
 struct RollingResults {
   RollingCase c;         ///< the case
-  motions::PairFit fit;  ///< the fit for its viscosity
+  motions::PairFit fit;  ///< the fit, scaled to its radius and viscosity
   /// Name of the model, and its trajectory.
   std::vector<std::pair<std::string, RollingTrajectory>> trajectories;
   std::vector<results::FailedModel> failed;  ///< models without a trajectory

@@ -66,7 +66,7 @@ void make_fit(const RollingCase& c, const RollingFolder& folder, const RollingRe
   });
 }
 
-/// The fit that the case names, or that of its tables, for the viscosity of the case.
+/// The fit that the case names, or that of its tables, scaled to the case.
 motions::PairFit fit_of(const RollingCase& c, const RollingFolder& folder) {
   const auto file = c.fit.value_or(folder.fit());
   return fit_for(c, motions::read_pair_fit(file), file);

@@ -19,7 +19,7 @@ namespace viscontact::swimmer {
 /// The matrix at one set of gaps: F_i = sum_j R_ij U_j, with F_i the force of sphere i on the fluid
 /// [M L/T^2] and U_j the velocity of sphere j [L/T], both along the line.
 struct ResistanceRow {
-  static constexpr bool kIsOfLine = true;  ///< table_codec.hpp
+  static constexpr bool kIsOfLine = true;  ///< the head of the table has several radii
   std::vector<double> gaps;  ///< gaps[i] [L], > 0: between the surfaces of spheres i and i + 1
   /// The entries R_ij [M/T] with i <= j: R11, R12, ..., R1N, R22, ..., RNN. R is symmetric and
   /// positive definite.
@@ -31,7 +31,7 @@ struct ResistanceRow {
   double seconds = 0;             ///< wall time of the row [s]
   /// Observed order of convergence [1] of the entry with the largest estimate, as in MotionRow.
   double observed_order = 0;
-  double relative_error_estimate = 0;  ///< the largest of them; it follows from the others
+  double relative_error_estimate = 0;  ///< largest of relative_error_estimates
 };
 
 using lubrication::kFewestSpheres;
@@ -52,13 +52,14 @@ Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres);
 /// how the row was computed. Two numbers of spheres are separated by "_" if one of them is 10.
 std::vector<lubrication::Column> columns_of(const lubrication::TableHead& head, ResistanceRow& row);
 
-/// Gives the vectors the sizes for the radii of the head.
+/// Gives the vectors of a row the sizes that belong to the number of radii in the head.
 void prepare(const lubrication::TableHead& head, ResistanceRow& row);
 
-/// Computes the largest estimate.
+/// Sets `relative_error_estimate`, which follows from the other numbers.
 void complete(const lubrication::TableHead& head, ResistanceRow& row);
 
-/// Throws Error(kBadInput) if the matrix is not positive definite.
+/// Throws Error(kBadInput), which names file and line of `here`, if the matrix is not positive
+/// definite.
 void check(const lubrication::TableHead& head, const ResistanceRow& row, const FilePosition& here);
 
 /// The largest of the error estimates of the entries [1], 0 if there are none.

@@ -54,7 +54,7 @@ CaseStudy study_of_rolling_sphere(const SweepOptions& o);
 
 /// The rows of a sweep of a case of many particles. Throws the errors of study_of_sphere().
 particles::ParticlesSweep sweep_of_particles(const SweepOptions& o);
-/// What a picture of these rows needs; it cannot compute them.
+/// The study of these rows for a picture only: it cannot compute rows.
 CaseStudy study_of_particles(const particles::ParticlesSweep& sweep);
 /// Computes the rows here, submits them to a cluster, or collects those that the cluster has
 /// finished.

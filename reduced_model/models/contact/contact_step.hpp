@@ -14,7 +14,7 @@ namespace viscontact::reduced_model {
 struct ContactState {
   double gap = 0;       ///< D [L]; 0 in contact
   double velocity = 0;  ///< u [L/T]
-  double gamma = 0;     ///< adhesion potential [M L/T], gamma_min <= gamma <= 0; D gamma = 0
+  double gamma = 0;     ///< of the film [M L/T], gamma_min <= gamma <= 0; D gamma = 0
 };
 
 /// The constants of all steps of one length.
