@@ -114,15 +114,30 @@ auto view_of(Member particles::Particles::*member, bool is_flat = false) {
   };
 }
 
+/// A part of a step that is too short to be a step [T].
+double tiny_time(const PythonParticles& self) { return 1e-6 * self.case_file().setting.time_step; }
+
+/// `until`, or `otherwise`. Throws Error(kWrongUsage) if it is before the present time.
+double end_of_steps(const PythonParticles& self, const std::optional<double>& until,
+                    double otherwise) {
+  if (!until) return otherwise;
+  const double now = self.state().time;
+  if (!(*until >= now - tiny_time(self)))
+    throw Error(
+        ErrorKind::kWrongUsage,
+        fmt::format("until is {}; it must be at least {}, which is the present time", *until, now));
+  return *until;
+}
+
 particles::StepReport step(PythonParticles& self, const std::optional<double>& until) {
-  const double end = until.value_or(std::numeric_limits<double>::infinity());
+  const double end = end_of_steps(self, until, std::numeric_limits<double>::infinity());
   return self.compute_step([&] { return self.simulation().step(end); });
 }
 
 /// Steps until a time, by default that of the case. Returns their number.
 std::int64_t run(PythonParticles& self, const std::optional<double>& until) {
-  const double end = until.value_or(self.case_file().end_time);
-  const double tiny = 1e-6 * self.case_file().setting.time_step;
+  const double end = end_of_steps(self, until, self.case_file().end_time);
+  const double tiny = tiny_time(self);
   return self.compute([&](const StopToken& stop) {
     const auto before = self.state().steps;
     while (self.state().time < end - tiny) {

@@ -63,7 +63,17 @@ def _sections_of(case):
 
 def _csv(columns):
     """The columns as CSV. repr() of a number is read back as the same number."""
-    arrays = {str(name): numpy.asarray(columns[name]) for name in columns}
+    names = getattr(getattr(columns, "dtype", None), "names", None)  # of a structured array
+    if names is None:
+        if isinstance(columns, (str, bytes, numpy.ndarray)) or not hasattr(columns, "keys"):
+            raise InputError(f"particles are of the type {type(columns).__name__}; they must be a "
+                             "dictionary of arrays, a structured array, or a DataFrame of pandas")
+        names = list(columns.keys())
+    for name in names:
+        if numpy.ma.is_masked(columns[name]):
+            raise InputError(f"the column {name} of particles has masked values; a particle needs "
+                             "a number there")
+    arrays = {str(name): numpy.asarray(columns[name]) for name in names}
     shapes = {name: array.shape for name, array in arrays.items()}
     if not arrays or any(len(shape) != 1 for shape in shapes.values()) or len(
             set(shapes.values())) != 1:

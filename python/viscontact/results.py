@@ -36,6 +36,8 @@ def read(path):
     path = pathlib.Path(path)
     if path.is_dir():
         return Folder(path)
+    if not path.exists():
+        raise InputError(f"{path}: there is no such file or folder")
     reader = _READERS.get(path.suffix)
     if reader is None:
         raise InputError(f"{path}: files with this ending cannot be read; there are "

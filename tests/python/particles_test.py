@@ -100,6 +100,9 @@ class ParticlesTest(unittest.TestCase):
                                                                "gamma_min": -1}}
         good = {"x": [0.0, 3.0], "y": [0.0, 0.0], "radius": [1.0, 1.0], "mass": [1.0, 1.0]}
         viscontact.Particles(case, good)
+        rows = np.array([(0.0, 0.0, 1.0, 1.0), (3.0, 0.0, 1.0, 1.0)],
+                        dtype=[(name, float) for name in good])
+        self.assertEqual(len(viscontact.Particles(case, rows)), 2)
         for wrong, words in [({"mass": [1.0]}, r"mass \(1,\)"),
                              ({"mass": [1.0, -1.0]}, "mass is -1"), ({"u": [0, 0]}, "'u'"),
                              ({"mass": 1.0}, r"mass \(\)"), ({"x": [0.0, 1.0]}, "overlap")]:
@@ -109,6 +112,11 @@ class ParticlesTest(unittest.TestCase):
             viscontact.Particles(case, {**good, "mass": [1.0, -1.0]})
         with self.assertRaisesRegex(viscontact.InputError, "the shapes none"):
             viscontact.Particles(case, {})
+        masked = np.ma.array([1.0, 1.0], mask=[False, True])
+        with self.assertRaisesRegex(viscontact.InputError, "the column mass .* has masked values"):
+            viscontact.Particles(case, {**good, "mass": masked})
+        with self.assertRaisesRegex(viscontact.InputError, "of the type ndarray"):
+            viscontact.Particles(case, np.zeros((2, 4)))
         with self.assertRaisesRegex(viscontact.InputError, "leave one of both out"):
             viscontact.Particles({**case, "particles": {"file": "x.csv"}}, good)
         with self.assertRaisesRegex(viscontact.InputError, "is not possible in a case"):
@@ -223,6 +231,10 @@ mass = 2.0
         p.run()
         self.assertTrue(p.finished)
         self.assertEqual(p.run(), 0)
+        for call in p.run, p.step:
+            for time in 0.5 * p.time, float("nan"):
+                with self.assertRaisesRegex(viscontact.Error, "until is .* the present time"):
+                    call(time)
 
     def test_errors_leave_the_state(self):
         p = self.open(falling())

@@ -75,8 +75,10 @@ class ReadTest(unittest.TestCase):
         self.assertEqual(len(table), 40)
 
     def test_refusals(self):
-        with self.assertRaisesRegex(viscontact.InputError, "no_such_file.csv: cannot be read"):
+        with self.assertRaisesRegex(viscontact.InputError, "no_such_file.csv: there is no"):
             viscontact.read("no_such_file.csv")
+        with self.assertRaisesRegex(viscontact.InputError, "no_such_folder: there is no such file"):
+            viscontact.read("no_such_folder")
         with self.assertRaisesRegex(viscontact.InputError, "files with this ending"):
             viscontact.read(DATA / "cases/lecture.toml")
         bad = self.folder / "bad.csv"
