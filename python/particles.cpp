@@ -215,8 +215,8 @@ Particles(case, particles=None, threads=1, restart=None)
 
 case       case file of many particles (TOML), or a dictionary with its sections, which names files
            relative to the working folder and needs no title
-particles  arrays in place of the section [particles] of the case, as a dictionary or a
-           pandas.DataFrame: "x", "y", "z" [L], "radius" [L], "mass" [M], and if they are given "vx",
+particles  arrays in place of the section [particles] of the case, as a dictionary, a structured
+           array or a pandas.DataFrame: "x", "y", "z" [L], "radius" [L], "mass" [M], and if they are given "vx",
            "vy", "vz" [L/T] and "id" (N,), which are the columns of a file of particles; row k is
            in line k + 2 of messages. With a file as case this needs Python 3.11
 threads    number of threads; the results do not depend on it
