@@ -86,15 +86,13 @@ void read_given_motion(const case_file::TomlSection& section, std::string_view k
 /// Reads the mass, or the density in its place.
 void read_mass(case_file::Keys& keys, ParticleTable& p, int dimension, bool in_fluid) {
   double density = 0;
-  const bool has_density =
-      keys.optional("density", case_file::number(density, kModeratelyPositiveOr0),
-                    {"in place of `mass`, in a fluid: mass of the disc over its area, or of the "
-                     "sphere over its volume",
-                     "from `mass`"});
-  keys.require(
-      !has_density || in_fluid, "density",
-      "belongs to a particle in a fluid; the case has no section [fluid], and the particle "
-      "must have a mass");
+  const bool has_density = keys.optional(
+      "density", case_file::number(density, kModeratelyPositiveOr0),
+      {"in place of `mass`: mass of the disc over its area, or of the sphere over its "
+       "volume",
+       "from `mass`"});
+  keys.require(!has_density || density > 0 || in_fluid, "density",
+               "is 0; a particle without a fluid must have a mass");
   keys.require(!has_density || !keys.has("mass"), "mass",
                "must be left out, because density gives the mass of this particle");
   if (has_density) p.mass = density * p.size(dimension);

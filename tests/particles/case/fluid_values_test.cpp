@@ -106,6 +106,13 @@ velocity = { left = { parabolic = 1.5, period = 2.0, amplitude = 0.5 }, right = 
   EXPECT_THAT(c.particles.masses, ElementsAre(4 * area, 2 * area));
 }
 
+TEST(ParticlesCase, DensityGivesTheMassOfADiscWithoutAFluid) {
+  const auto c =
+      read_particles_text(changed(std::string(kDryDiscs), "mass = 1.0", "density = 3.0"));
+  EXPECT_DOUBLE_EQ(c.particles.masses[0], 3.0 * std::numbers::pi * 0.25 * 0.25);
+  EXPECT_EQ(c.particles.masses[1], 1.0);
+}
+
 TEST(FluidCase, ReadsAGradientThatPulsates) {
   const auto c = read_particles_text(
       changed(changed(kDiscsInBox, "viscosity = 2.0",
