@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <variant>
 
 #include "tests/common/temporary_folder.hpp"
