@@ -126,7 +126,7 @@ struct Fluid {
   /// Which particles are plates with round ends, one number for each: 1 or 0. Empty: none is.
   std::vector<char> plates{};
   /// Area of each disc beyond the chords at which discs of its body that overlap it cut it [L^2]
-  /// (chords_of(), overlapping_members.hpp), >= 0. Empty: no members of bodies overlap.
+  /// (chords_of(), outline.hpp), >= 0. Empty: no members of bodies overlap.
   std::vector<double> cut_areas{};
 
   /// Membranes in the fluid, in the order of their beads, which are all particles of the case.

@@ -9,7 +9,6 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/fluid/overlapping_members.hpp"
 #include "viscontact/particles/outline.hpp"
 
 namespace viscontact::particles {

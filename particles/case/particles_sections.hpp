@@ -1,10 +1,12 @@
 // The parts of the reader of a case of many particles (particles_case.hpp), for its sources only.
 // Each function reads sections of docs/case-file.md, "Many particles", and throws Error(kBadInput)
 // with file, line, key and what is allowed. Lengths, masses and times are in the units of the case.
-// particles_case.cpp calls the functions in the order of their needs, which their comments say.
+// particles_case.cpp calls the functions in the order of their needs, which their comments say. A
+// change must keep accepting users' cases.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -13,10 +15,46 @@
 #include <unordered_map>
 #include <vector>
 
+#include "viscontact/case_file/keys.hpp"
 #include "viscontact/particles/case/particles_case.hpp"
-#include "viscontact/particles/case/vector_values.hpp"
+#include "viscontact/particles/piecewise_constant.hpp"
+#include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
+
+/// Bound of the magnitude of all numbers. Squares and cubes of numbers within it, and of their
+/// inverses, are finite and not 0 in double precision (largest 1.8e308).
+inline constexpr double kLargestNumber = 1e100;
+/// A number whose magnitude is within the bound.
+inline constexpr Allowed kModerate = {[](double v) { return std::abs(v) <= kLargestNumber; },
+                                      "at most 1e100 in magnitude"};
+/// A number > 0 for which the number and its inverse are within the bound.
+inline constexpr Allowed kModeratelyPositive = {
+    [](double v) { return v >= 1 / kLargestNumber && v <= kLargestNumber; },
+    "from 1e-100 to 1e100"};
+/// 0, or a number that kModeratelyPositive allows.
+inline constexpr Allowed kModeratelyPositiveOr0 = {
+    [](double v) { return v == 0 || (v >= 1 / kLargestNumber && v <= kLargestNumber); },
+    "0, or from 1e-100 to 1e100"};
+
+/// Reads an array with one number for each dimension of space. In a case with dimension 1 a number
+/// without brackets is read, too.
+void read_vector(const case_file::TomlSection& section, std::string_view key, Vector& place,
+                 int dimension);
+
+// Values of keys (keys.hpp). They refer to their arguments.
+
+/// A vector, read by read_vector().
+case_file::KeyValue vector(Vector& place, const int& dimension);
+/// A constant vector, or pieces { until, value } that must last until `end_time` [T].
+case_file::KeyValue pieces(PiecewiseConstant& place, const int& dimension, const double& end_time);
+/// A torque or an angular velocity: for discs a number, which becomes component 2, for spheres a
+/// vector.
+case_file::KeyValue turn(Vector& place, const int& dimension);
+/// A constant torque or angular velocity, or pieces { until, value } that must last until
+/// `end_time` [T].
+case_file::KeyValue pieces_of_turn(PiecewiseConstant& place, const int& dimension,
+                                   const double& end_time);
 
 /// Names of the axes, for messages.
 inline constexpr std::array kAxes = {"x", "y", "z"};
@@ -99,6 +137,31 @@ std::vector<case_file::KeyTable> source_tables();
 /// case has what cannot stand beside membranes, or a fluid that cannot have them; if so few beads
 /// cannot have the reduced area; and for membranes that cross.
 void read_membranes(const case_file::TomlSection& root, ParticlesCase& c, ParticleLines& lines);
+// What of [[membrane]] is refused, each with its line, for read_membranes().
+
+/// Throws if the case has what cannot be computed together with membranes. `first` is the section
+/// of the first membrane.
+void check_case_of_membranes(const case_file::TomlSection& root,
+                             const case_file::TomlSection& first, const ParticlesCase& c);
+
+/// Throws for given beads of a new membrane that are too few, named twice or beads of another
+/// membrane, or that have a mass or a given motion in a fluid.
+void check_given_beads(const case_file::TomlSection& section, const ParticlesCase& c,
+                       const Membrane& membrane);
+
+/// Throws if the last membrane crosses itself, if beads of it that are no neighbours overlap, or if
+/// it crosses another membrane or an image of it in the next period. In a fluid it must not contain
+/// one either.
+void check_place(const case_file::TomlSection& section, const ParticlesCase& c);
+
+/// Throws if the fluid inside the last membrane is much less or much more viscous than outside, or
+/// if the membrane is too stiff for its number of beads. The case has a fluid.
+void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& c);
+
+/// Throws if a case with a fluid has, beside the beads of its membranes, particles with a mass or a
+/// torque, ellipses, or particles that cross a membrane.
+void check_others(const case_file::TomlSection& first, const ParticlesCase& c);
+
 /// Describes this section.
 std::vector<case_file::KeyTable> membrane_tables();
 

@@ -1,11 +1,11 @@
 // Solves the two phases of a blow in a fluid. Numbers are in the units of the case. Errors are
 // those of the mobility. The work of a blow must not be positive.
-#include "viscontact/particles/fluid/fluid_blow.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
+
+#include "viscontact/particles/fluid/fluid_motion.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -13,7 +13,6 @@
 #include <tuple>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/fluid/fluid_friction.hpp"
 #include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 #include "viscontact/particles/outline.hpp"

@@ -16,7 +16,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid/flow_estimate.hpp"
-#include "viscontact/particles/fluid/fluid_friction.hpp"
+#include "viscontact/particles/fluid/fluid_contacts.hpp"
 #include "viscontact/particles/fluid/fluid_motion.hpp"
 #include "viscontact/particles/fluid/held_rows.hpp"
 #include "viscontact/particles/fluid/held_solver.hpp"

@@ -1,6 +1,4 @@
-// Checks of membranes when a case is read (membrane_checks.hpp).
-#include "viscontact/particles/membranes/membrane_checks.hpp"
-
+// Checks of membranes when a case is read (particles_sections.hpp).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +8,8 @@
 #include <vector>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/membranes/membrane_shape.hpp"
+#include "viscontact/particles/case/particles_sections.hpp"
+#include "viscontact/particles/membranes/membrane.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -1,8 +1,6 @@
 // Writes the page that plays a motion: words, controls, scales, and the numbers of page_data.hpp.
 // Numbers are in the units of the case; a flow that cannot be read is an Error(kBadInput). The keys of
 // the JSON and the ids of elements must agree with the scripts in particles/picture/page.
-#include "viscontact/particles/picture/particles_page.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 
 #include "viscontact/particles/picture/frame_picture.hpp"
 #include "viscontact/particles/picture/page_data.hpp"
+#include "viscontact/particles/picture/particles_picture.hpp"
 #include "viscontact/particles/picture/scene.hpp"
 #include "viscontact/report/page.hpp"
 

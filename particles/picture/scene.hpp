@@ -57,7 +57,7 @@ struct FlowFrames {
 
 /// The largest size of the flow in a page, before it is written in base64 [bytes]: two bytes for
 /// each point of all flows, one for the speed and one for the pressure. The streamlines add about a
-/// tenth. In base64 this is half of the 24 MB that a page may have (particles_page.hpp).
+/// tenth. In base64 this is half of the 24 MB that a page may have (page_data.hpp).
 inline constexpr std::size_t kFlowBytesOfPage = 9'000'000;
 
 /// The frames whose flow the page shows: all that have one, or evenly chosen ones if there are

@@ -1,7 +1,5 @@
 // Bodies of discs that overlap, in the fluid of FreeFEM: the fluid sees their union. Viscosity 1.
 // Docs: fluid.md.
-#include "viscontact/particles/fluid/overlapping_members.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "tests/freefem_flow/placed_flow.hpp"
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
+#include "viscontact/particles/outline.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

@@ -11,9 +11,8 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/particles/membranes/membrane.hpp"
 #include "viscontact/particles/membranes/membrane_motion.hpp"
-#include "viscontact/particles/membranes/membrane_shape.hpp"
-#include "viscontact/particles/membranes/necklace_rows.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -1,6 +1,4 @@
 // The page that plays a motion of particles, in a browser (chromium) and as text.
-#include "viscontact/particles/picture/particles_page.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "tests/report/flow/flows.hpp"
 #include "viscontact/common/vtk/flow_vtk.hpp"
-#include "viscontact/particles/picture/particles_page.hpp"
+#include "viscontact/particles/picture/particles_picture.hpp"
 
 namespace viscontact::particles {
 

@@ -1,6 +1,4 @@
 // Where discs of a body that overlap are cut, against closed forms.
-#include "viscontact/particles/fluid/overlapping_members.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
+#include "viscontact/particles/outline.hpp"
 
 namespace viscontact::particles {
 namespace {
