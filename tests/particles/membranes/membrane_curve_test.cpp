@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "viscontact/particles/membranes/membrane_shape.hpp"
+#include "viscontact/particles/membranes/membrane.hpp"
 
 namespace viscontact::particles {
 namespace {
