@@ -8,6 +8,7 @@
 #include <random>
 
 #include "viscontact/particles/membranes/membrane.hpp"
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 namespace {
