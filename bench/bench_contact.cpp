@@ -9,7 +9,7 @@
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/models/contact/contact_step.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
-#include "viscontact/reduced_model/models/reference_exact.hpp"
+#include "viscontact/reduced_model/models/reference.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 
 namespace viscontact {

@@ -23,7 +23,6 @@
 #include "viscontact/fitting/robust_least_squares.hpp"
 #include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
-#include "viscontact/lubrication/spread_gaps.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact::fitting {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "viscontact/common/allowed.hpp"
-#include "viscontact/lubrication/motion_kind.hpp"
+#include "viscontact/lubrication/table.hpp"
 
 namespace viscontact::freefem_axi {
 

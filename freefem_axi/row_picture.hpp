@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/common/vtk/flow_field.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact::freefem_axi {

@@ -10,8 +10,8 @@
 
 #include "viscontact/freefem_axi/geometry.hpp"
 #include "viscontact/freefem_axi/journal/freefem.hpp"
-#include "viscontact/lubrication/motion_kind.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
+#include "viscontact/lubrication/table.hpp"
 
 namespace viscontact::freefem_axi {
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <tuple>
 
 #include "viscontact/common/error.hpp"
@@ -214,5 +215,17 @@ Fit parse_fit(const std::string& text, const std::string& file) {
 }
 
 std::string write_fit(const Fit& fit) { return JsonFields::text_of(fit); }
+
+std::vector<double> spread_gaps(const std::array<double, 2>& interval, int count) {
+  const double low = std::log(interval[0]);
+  const double high = std::log(interval[1]);
+  std::vector<double> gaps;
+  for (int i = 0; i < count; ++i)
+    gaps.push_back(std::clamp(std::exp(std::lerp(low, high, static_cast<double>(i) / (count - 1))),
+                              interval[0], interval[1]));
+  gaps.front() = interval[0];
+  gaps.back() = interval[1];
+  return gaps;
+}
 
 }  // namespace viscontact::lubrication

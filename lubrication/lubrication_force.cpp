@@ -14,8 +14,8 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/root_finding.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/plane_drag.hpp"
-#include "viscontact/lubrication/spread_gaps.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 
 namespace viscontact::lubrication {

@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-#include "viscontact/lubrication/motion_kind.hpp"
+#include "viscontact/lubrication/table.hpp"
 
 namespace viscontact::lubrication {
 

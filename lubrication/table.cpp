@@ -1,6 +1,7 @@
-// The head of a table, and the checks of its numbers (table.hpp, docs/file-formats.md). Numbers are
-// in the units of the table. A fault of a file is an Error(kBadInput) with file and key or line. A
-// change must keep the keys.
+// The names of the motions, the head of a table, and the checks of its numbers (table.hpp,
+// docs/file-formats.md). Numbers are in the units of the table. An unknown name is an
+// Error(kBadInput), and a fault of a file one with file and key or line. A change must keep names
+// and keys.
 #include "viscontact/lubrication/table.hpp"
 
 #include <fmt/format.h>
@@ -9,9 +10,43 @@
 #include <limits>
 #include <sstream>
 
+#include "viscontact/common/named.hpp"
 #include "viscontact/lubrication/table_codec.hpp"
 
 namespace viscontact::lubrication {
+namespace {
+
+constexpr std::array kMotions = {
+    NamedMotion{"approach", MotionKind::kApproach}, NamedMotion{"slide", MotionKind::kSlide},
+    NamedMotion{"roll", MotionKind::kRoll}, NamedMotion{"spin", MotionKind::kSpin}};
+
+}  // namespace
+
+std::span<const NamedMotion> all_motions() { return kMotions; }
+
+std::string_view to_string(MotionKind motion) {
+  return kMotions.at(static_cast<std::size_t>(motion)).name;
+}
+
+MotionKind parse_motion(std::string_view name) {
+  return require_named(kMotions, name, "motion").kind;
+}
+
+std::string motions_in_words(const std::vector<MotionKind>& motions) {
+  std::string words;
+  for (const auto motion : motions)
+    words += (words.empty() ? "" : ", ") + std::string(to_string(motion));
+  return words;
+}
+
+std::vector<MotionKind> parse_motions_in_words(const std::string& words) {
+  std::vector<MotionKind> motions;
+  std::istringstream stream(words);
+  for (std::string word; std::getline(stream >> std::ws, word, ',');)
+    motions.push_back(parse_motion(word));
+  return motions;
+}
+
 namespace {
 
 constexpr std::string_view kVersionOf = "version of ", kFailedRow = "failed row, ";

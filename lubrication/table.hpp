@@ -1,6 +1,7 @@
 // The common part of all tables that FreeFEM computes and fits read: a head, and rows with named
-// columns of values and error estimates. Lengths, masses and times are in any consistent units. A
-// change must keep the keys of the head, which published tables have.
+// columns of values and error estimates; and the motions of a sphere beside its neighbour whose
+// resistances are tabulated. Lengths, masses and times are in any consistent units. A change must
+// keep the keys of the head and the names of the motions, which published tables have.
 //
 // A kind of table is a struct Row and four functions beside it: columns_of(), prepare(), complete()
 // and check() (table_codec.hpp). A new column is a member of the row and a line of columns_of();
@@ -11,13 +12,39 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "viscontact/common/allowed.hpp"
-#include "viscontact/lubrication/motion_kind.hpp"
 
 namespace viscontact::lubrication {
+
+/// The z axis goes from the neighbour through the centre of the sphere. A sphere approaches or
+/// leaves along z, slides along x, rolls (turns about y), or spins (turns about z).
+enum class MotionKind { kApproach, kSlide, kRoll, kSpin };
+
+/// A motion and its name.
+struct NamedMotion {
+  std::string_view name;  ///< word in case files and tables, and name of the table's file
+  MotionKind kind;        ///< the motion
+};
+
+/// All motions, in the order of MotionKind.
+std::span<const NamedMotion> all_motions();
+
+/// The name of a motion.
+std::string_view to_string(MotionKind motion);
+
+/// The motion with this name. Throws Error(kBadInput), which lists the names, if there is none.
+MotionKind parse_motion(std::string_view name);
+
+/// The names, separated by commas, as the head of a table lists the motions of its tabulation:
+/// "approach, slide". Empty without motions.
+std::string motions_in_words(const std::vector<MotionKind>& motions);
+/// The motions of a text that motions_in_words() made. Throws the errors of parse_motion().
+std::vector<MotionKind> parse_motions_in_words(const std::string& words);
 
 /// The fewest and the most spheres on a line. Ten spheres take 44 s and 3.6 GB a row
 /// (bench/README.md).

@@ -126,8 +126,8 @@ struct Fluid {
   /// Which particles are plates with round ends, one number for each: 1 or 0. Empty: none is.
   std::vector<char> plates{};
   /// Where discs of one body overlap, each is cut at the chord through the points where their
-  /// circles meet (overlapping_members.hpp). This is the area of each disc beyond its chords [L^2],
-  /// >= 0. Empty: no members of bodies overlap.
+  /// circles meet (chords_of(), outline.hpp). This is the area of each disc beyond its chords
+  /// [L^2], >= 0. Empty: no members of bodies overlap.
   std::vector<double> cut_areas{};
 
   /// Membranes in the fluid, in the order of their beads, which are all particles of the case.

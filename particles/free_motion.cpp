@@ -2,7 +2,7 @@
 // docs/physics.md (5.3) and (5.10), and the velocities at the present time. Numbers are in the
 // units of the case. Nothing is thrown. simulation.cpp calls these functions at the beginning of
 // each step; a change must set displacements and turns of all members.
-#include "viscontact/particles/rotation.hpp"
+#include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::particles {

@@ -1,7 +1,8 @@
-// The particles of a simulation: rigid discs or spheres. Lengths, masses and times are in any
-// consistent units. The restart file stores these arrays as they are (io/restart.cpp), so that a
-// change of their layout needs a new version of that file. All of particles/ uses them; nothing is
-// checked here.
+// The particles of a simulation: rigid discs or spheres, and how they turn. Lengths, masses and
+// times are in any consistent units; turns and angles are in radians. The restart file stores these
+// arrays as they are (io/restart.cpp), so that a change of their layout needs a new version of that
+// file, and quaternions must keep the length 1. All of particles/ uses them; nothing is checked
+// here.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
@@ -140,5 +142,24 @@ inline double mean_radius(const Particles& particles) {
   for (const double radius : particles.radii) sum += radius;
   return sum / static_cast<double>(particles.count());
 }
+
+// Rotations in space, as unit quaternions.
+
+/// The components w, x, y, z of a quaternion. A rotation has w^2 + x^2 + y^2 + z^2 = 1.
+using Quaternion = std::array<double, 4>;
+
+/// The orientation that `from` has after a rotation by |turn| [rad] about the vector `turn`, which
+/// is given in the fixed frame. The result has length 1.
+Quaternion turned(const Quaternion& from, const Vector& turn);
+
+/// The vector `a` in the orientation `q`, whose length is 1.
+Vector rotated(const Quaternion& q, const Vector& a);
+
+/// Number of components of a rotation: 1 for discs, 3 for spheres.
+constexpr std::size_t turn_components(int dimension) { return dimension == 3 ? 3 : 1; }
+
+/// Turns all particles by `turns` [rad], turn_components() numbers for each particle, in a step of
+/// length h [T], and sets their angular velocities.
+void turn_particles(Particles& particles, std::span<const double> turns, double h);
 
 }  // namespace viscontact::particles

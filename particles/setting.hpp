@@ -1,9 +1,13 @@
-// What moves the particles of a simulation, and how their motion is computed: the content of a case
-// file. Nothing is checked here. Both simulations (simulation.hpp, fluid/fluid_simulation.hpp) and
-// the output of their states read it. Lengths, masses and times are in any consistent units.
+// What moves the particles of a simulation, how their motion is computed, and when the projection
+// of a step has converged: the content of a case file. Nothing is checked here; particles/case
+// checks the values. Both simulations (simulation.hpp, fluid/fluid_simulation.hpp) and the output
+// of their states read it. Lengths, masses and times are in any consistent units. A change of a
+// default of SolverSettings changes the results of every case that does not set it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -13,14 +17,32 @@
 #include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/domain/periods.hpp"
-#include "viscontact/particles/domain/plane.hpp"
 #include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/links/links.hpp"
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
-#include "viscontact/particles/solver_settings.hpp"
 
 namespace viscontact::particles {
+
+/// Tolerances have no dimension; docs/particles.md, "The projection", says how each is measured.
+struct SolverSettings {
+  /// Tolerance of the gaps, divided by the mean radius; > 0.
+  double tolerance = 1e-6;
+  /// Tolerance of each contact's impulse, divided by the impulses at work on its particles; > 0.
+  double impulse_tolerance = 1e-10;
+  /// Largest number of iterations in a step, >= 1. An iteration is a product with the matrix W of
+  /// the dual problem, docs/physics.md (5.4), a sweep over the contacts, or a factorisation.
+  int max_iterations = 10000;
+};
+
+/// Largest distance from the origin, and largest displacement in a step, that a particle may have
+/// [L]. Beyond this distance the rounding errors of positions exceed `tolerance` (SolverSettings)
+/// times `mean_radius` [L].
+inline double largest_resolved_distance(double tolerance, double mean_radius) {
+  // Squares of distances must be finite: 1e120 is far below 1e154, the root of the largest double.
+  constexpr double kFinite = 1e120;
+  return std::min(kFinite, tolerance * mean_radius / std::numeric_limits<double>::epsilon());
+}
 
 /// Velocities of a driven particle, which no force changes. Both are 0 after their last piece.
 struct GivenMotion {

@@ -12,13 +12,13 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/impacts/impacts.hpp"
 #include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
+#include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
-#include "viscontact/particles/rotation.hpp"
-#include "viscontact/particles/steps/step_residuals.hpp"
+#include "viscontact/particles/steps/step_report.hpp"
 #include "viscontact/particles/steps/step_times.hpp"
 
 namespace viscontact::particles {

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/arrangement/pouring.hpp"
-#include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/arrangement/source.hpp"
+#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/impacts/rebound.hpp"
 #include "viscontact/particles/setting.hpp"
 #include "viscontact/particles/state.hpp"

@@ -13,7 +13,7 @@
 #include "viscontact/pipeline/compare_stage.hpp"
 #include "viscontact/pipeline/fit_stages.hpp"
 #include "viscontact/pipeline/simulate/run_checks.hpp"
-#include "viscontact/pipeline/simulate/run_copies.hpp"
+#include "viscontact/pipeline/simulate/run_inputs.hpp"
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 #include "viscontact/reduced_model/comparison.hpp"

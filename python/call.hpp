@@ -1,6 +1,7 @@
-// What all files of the Python module use: calls that take long, and arrays of NumPy. While a long
-// call runs, other Python threads run, too, and Ctrl-C (SIGINT) stops it. A change must keep that
-// no object of Python is used while the interpreter is released.
+// What all files of the Python module use: calls that take long, arrays of NumPy, and a fit with
+// its force. Numbers are in the units of the fit. While a long call runs, other Python threads run,
+// too, and Ctrl-C (SIGINT) stops it. A change must keep that no object of Python is used while the
+// interpreter is released, and that the values are bit for bit those of the libraries.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -8,10 +9,13 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/stop_token.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
 
 namespace viscontact::python {
 
@@ -89,5 +93,22 @@ inline py::object as_columns(const py::dict& columns, const py::dict& about = py
 void add_fits(py::module_& module);       ///< Fit, PairFit, tabulate, fit, fit_pair
 void add_particles(py::module_& module);  ///< Particles
 void add_spheres(py::module_& module);    ///< simulate, rolling, swimmer
+
+/// The class Fit of Python.
+class PythonFit {
+ public:
+  /// Throws the errors of LubricationForce with `place` before their message.
+  PythonFit(lubrication::Fit fit, const std::string& place,
+            const lubrication::OutsideInterval& outside)
+      : fit_(std::move(fit)),
+        force_(with_place(place, [&] { return lubrication::LubricationForce(fit_, outside); })) {}
+
+  const lubrication::Fit& fit() const { return fit_; }                   ///< the coefficients
+  const lubrication::LubricationForce& force() const { return force_; }  ///< the force of the fit
+
+ private:
+  lubrication::Fit fit_;
+  lubrication::LubricationForce force_;
+};
 
 }  // namespace viscontact::python

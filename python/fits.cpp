@@ -18,7 +18,6 @@
 #include "viscontact/motions/job/pair_fit_stage.hpp"
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 #include "viscontact/python/call.hpp"
-#include "viscontact/python/python_fit.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/rolling/case/rolling_case.hpp"

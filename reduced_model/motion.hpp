@@ -33,7 +33,7 @@ struct Motion {
   /// Values of the models' parameters by ModelParameter::key; parameter() reads them.
   std::map<std::string_view, double> parameters{};
 
-  /// Approximate number of rows of a trajectory file (fewer_rows.hpp), >= 2; 0 writes all rows.
+  /// Approximate number of rows of a trajectory file (fewer_rows()), >= 2; 0 writes all rows.
   int output_rows = 0;
   /// report_progress() calls it with the time [T] that a model has reached; may be empty.
   std::function<void(double time)> progress{};

@@ -1,6 +1,8 @@
-// A trajectory, which every model of motion returns, its budget of momentum and energy, and its
-// file. Lengths, masses and times are in the units of the case. A change must keep the names of the
-// columns, which published files have, and both balances of the budget.
+// A trajectory, which every model of motion returns, its budget of momentum and energy, its file,
+// and the reduction of its rows for that file (key `rows` of [motion]). Lengths, masses and times
+// are in the units of the case. A change must keep the names of the columns, which published files
+// have, both balances of the budget, and all rows that compare_trajectories() looks for, such as
+// the one with the smallest gap.
 #pragma once
 
 #include <array>
@@ -152,5 +154,12 @@ Trajectory read_trajectory(const std::filesystem::path& path);
 
 /// The text of the trajectory file (CSV).
 std::string write_trajectory(const Trajectory& trajectory);
+
+/// About `count` >= 2 of the rows, in their order. They are the first rows at or after each of
+/// `count` equidistant times, and the rows that a comparison needs: the first, the last, the first
+/// with the smallest gap, with the largest gap and with the lowest gamma, and the two rows around
+/// each instant at which contact or solid contact begins or ends. If there are more than `count`
+/// such instants, only the first and the last of them count. At most `count` rows are all returned.
+std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, int count);
 
 }  // namespace viscontact::reduced_model

@@ -6,7 +6,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "viscontact/swimmer/gauss_rule.hpp"
+#include "viscontact/swimmer/stroke.hpp"
 
 namespace viscontact::swimmer {
 namespace {

@@ -17,7 +17,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "viscontact/swimmer/resistance/fitted_resistance.hpp"
+#include "viscontact/swimmer/resistance/resistance_fit.hpp"
 
 namespace viscontact::swimmer {
 

@@ -1,10 +1,12 @@
-// Makes strokes from corners, samples and ellipses (stroke.hpp), in the units of the case. Samples
-// that do not close the loop are an Error(kBadInput). A change must keep where legs meet, because
-// forces jump there.
+// Makes strokes from corners, samples and ellipses, and the points of a quadrature by the
+// eigenvalues of the Jacobi matrix (stroke.hpp; Golub & Welsch 1969, Math. Comp. 23, 221), in the
+// units of the case. Samples that do not close the loop are an Error(kBadInput). A change must keep
+// where legs meet, because forces jump there.
 #include "viscontact/swimmer/stroke.hpp"
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -72,6 +74,18 @@ Stroke elliptic_stroke(const Eigen::VectorXd& centre, const Eigen::VectorXd& sem
       start = end;
     }
   return stroke;
+}
+
+GaussRule gauss_rule(int count) {
+  Eigen::VectorXd off_diagonal(count - 1);
+  for (Eigen::Index k = 1; k < count; ++k) {
+    const auto number = static_cast<double>(k);
+    off_diagonal[k - 1] = number / std::sqrt(4 * number * number - 1);
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
+  eigen.computeFromTridiagonal(Eigen::VectorXd::Zero(count), off_diagonal);
+  return {(eigen.eigenvalues().array() + 1) / 2,
+          eigen.eigenvectors().row(0).transpose().array().square()};
 }
 
 }  // namespace viscontact::swimmer

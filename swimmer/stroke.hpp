@@ -1,6 +1,8 @@
-// Strokes: closed paths of a swimmer's arms, with their time law. An arm is the distance between
-// the centres of neighbouring spheres. Lengths and times are in the units of the case. Cases make
-// strokes, and swim.hpp integrates them. Legs must follow each other without a gap.
+// Strokes: closed paths of a swimmer's arms, with their time law, and the quadrature for integrals
+// along them. An arm is the distance between the centres of neighbouring spheres. Lengths and times
+// are in the units of the case. Cases make strokes, and swim.hpp and polynomial_loop.hpp integrate
+// them. Legs must follow each other without a gap, and sums depend on the points of the quadrature
+// to the last digit.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,5 +45,14 @@ Stroke sampled_stroke(const std::vector<double>& times,
 /// Phases are in radians.
 Stroke elliptic_stroke(const Eigen::VectorXd& centre, const Eigen::VectorXd& semi_axes,
                        const Eigen::VectorXd& phases, double period);
+
+/// Points and weights of a Gauss-Legendre quadrature on [0, 1], without dimension.
+struct GaussRule {
+  Eigen::VectorXd points,  ///< in (0, 1)
+      weights;             ///< > 0, with the sum 1
+};
+
+/// The rule with `count` > 0 points, exact for polynomials of degree 2 count - 1.
+GaussRule gauss_rule(int count);
 
 }  // namespace viscontact::swimmer

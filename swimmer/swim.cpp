@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/swimmer/gauss_rule.hpp"
+#include "viscontact/swimmer/stroke.hpp"
 
 namespace viscontact::swimmer {
 namespace {

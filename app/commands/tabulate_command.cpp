@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "viscontact/app/arguments/command_options.hpp"
-#include "viscontact/app/commands/array_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/case_file/case_file.hpp"

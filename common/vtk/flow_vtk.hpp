@@ -1,15 +1,34 @@
-// Flows as VTK files for ParaView. Lengths, masses and times are in the units of the case. `report`
-// reads the files again to draw the flow; a change must keep their arrays and names.
+// The flow of a fluid on a mesh of quadratic triangles in a plane, and its VTK file for ParaView.
+// freefem_axi/ and freefem_flow/ make it, and report/flow/ reads the file again to draw it.
+// Lengths, masses and times are in the units of the case. A change must keep the order of nodes,
+// which is that of VTK, and the arrays and names of the file.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "viscontact/common/vtk/flow_field.hpp"
-
 namespace viscontact {
+
+/// Triangles in a plane whose sides are parabolas. Of a flow that is symmetric about an axis, the
+/// plane is a half-plane: x >= 0 is the distance from the axis, and y the place along it.
+struct QuadraticMesh {
+  std::vector<double> x;  ///< of each node [L]
+  std::vector<double> y;  ///< of each node [L]
+  /// The nodes of each triangle: three corners counter-clockwise, then the middles of the sides
+  /// between corners 0 and 1, 1 and 2, 2 and 0, as VTK numbers them.
+  std::vector<std::array<std::int32_t, 6>> triangles;
+};
+
+/// Velocity and pressure at the nodes of a mesh.
+struct FlowField : QuadraticMesh {
+  std::vector<double> velocity_x;  ///< along x, of each node [L/T]
+  std::vector<double> velocity_y;  ///< along y, of each node [L/T]
+  std::vector<double> pressure;    ///< of each node [M/(L T^2)]
+};
 
 /// Content of a VTK XML UnstructuredGrid file (VTK's file formats, "XML file formats"; appended raw
 /// data): quadratic triangles (VTK's cell type 22) with velocity [L/T], pressure [M/(L T^2)] and

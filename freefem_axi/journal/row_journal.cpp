@@ -1,5 +1,8 @@
-// Opens, locks and appends to a journal. A journal that cannot be written is an Error(kBadInput). A
-// change must keep lines in one piece, and on disk when append() returns.
+// Opens, locks and appends to a journal, and writes and reads its lines (row_journal.hpp). A line
+// is "HASH row POINT NUMBERS VERSION CHECKSUM" or "HASH failed POINT REASON CHECKSUM". A damaged
+// line is no error; it is read as nothing, and its row is computed again. A journal that cannot be
+// written is an Error(kBadInput). A change must keep lines in one piece, and on disk when append()
+// returns, and old journals readable.
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 #include <fcntl.h>
@@ -12,12 +15,99 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <sstream>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locks.hpp"
+#include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/common/text/on_one_line.hpp"
 
 namespace viscontact::freefem_axi {
+namespace {
+
+constexpr std::string_view kFinished = "row";
+constexpr std::string_view kFailed = "failed";
+
+std::string checksum(std::string_view text) {
+  // 64 bits of SHA-256 are enough to detect damage.
+  constexpr std::size_t kDigits = 16;
+  return sha256(text).substr(0, kDigits);
+}
+
+/// Reads `count` numbers. Returns nothing if a word is missing or is not a number.
+std::optional<std::vector<double>> read_numbers(std::istream& words, std::size_t count) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::string word;
+    words >> word;
+    const auto number = parse_number(word);
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+std::string text_of(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double number : numbers) text += format_number(number) + " ";
+  return text;
+}
+
+std::string rest_of(std::istream& words) {
+  std::string rest;
+  std::getline(words >> std::ws, rest);
+  return rest;
+}
+
+std::string text_of(const FinishedRow& finished) {
+  return fmt::format("{} {}{}{}", kFinished, text_of(finished.point), text_of(finished.numbers),
+                     on_one_line(finished.freefem_version));
+}
+
+std::string text_of(const FailedRow& failed) {
+  return fmt::format("{} {}{}", kFailed, text_of(failed.point), on_one_line(failed.reason));
+}
+
+/// The line without its checksum, or nothing if the checksum is wrong.
+std::optional<std::string> checked_text(std::string_view line) {
+  const auto end = line.rfind(' ');
+  if (end == std::string_view::npos || checksum(line.substr(0, end)) != line.substr(end + 1))
+    return {};
+  return std::string(line.substr(0, end));
+}
+
+}  // namespace
+
+std::string write_journal_line(const std::string& hash, const JournalEntry& entry) {
+  const std::string text =
+      hash + " " + std::visit([](const auto& row) { return text_of(row); }, entry);
+  return fmt::format("{} {}\n", text, checksum(text));
+}
+
+std::optional<std::string> hash_of_journal_line(std::string_view line) {
+  const auto text = checked_text(line);
+  if (!text) return {};
+  return text->substr(0, text->find(' '));
+}
+
+std::optional<JournalEntry> read_journal_line(std::string_view line, const RowShape& shape) {
+  const auto text = checked_text(line);
+  if (!text) return {};
+  std::istringstream words(*text);
+  std::string hash;
+  std::string kind;
+  words >> hash >> kind;
+  if (kind != kFinished && kind != kFailed) return {};
+  const auto point = read_numbers(words, shape.point);
+  if (!point) return {};
+  if (kind == kFailed) return FailedRow{*point, rest_of(words)};
+  const auto numbers = read_numbers(words, shape.numbers);
+  if (!numbers) return {};
+  return FinishedRow{*point, *numbers, rest_of(words)};
+}
+
 namespace {
 
 bool ends_with_line_end(int file) {

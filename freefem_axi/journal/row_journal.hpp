@@ -3,16 +3,38 @@
 // a TABLE.csv.rows.WRITER for each process of a cluster. Each file has one writer, because some
 // file systems do not support locks. tabulate.hpp writes journals, and row_record.hpp reads all of
 // them together. A change must only append to a journal, so that rows are safe.
+//
+// A line is a finished or a failed row, with numbers in the units of the table's plan. Journals of
+// interrupted tabulations must stay readable.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 
 #include "viscontact/common/files/descriptor.hpp"
-#include "viscontact/freefem_axi/journal/journal_line.hpp"
+#include "viscontact/freefem_axi/journal/table_plan.hpp"
 
 namespace viscontact::freefem_axi {
+
+/// What a line of the journal records: a row of the table, or the failure to compute it.
+using JournalEntry = std::variant<FinishedRow, FailedRow>;
+
+/// The text of the line with its line end. `hash` is that of the row's TablePlan. The line contains
+/// a checksum, so that the remains of a line after a crash, a full disk or two simultaneous writers
+/// are not read as a row.
+std::string write_journal_line(const std::string& hash, const JournalEntry& entry);
+
+/// The hash of the table that a line (without its line end) belongs to. Nothing if the line is
+/// incomplete or damaged.
+std::optional<std::string> hash_of_journal_line(std::string_view line);
+
+/// Reads a line, without its line end, of a table whose rows have this shape. Nothing if the line
+/// is incomplete or damaged.
+std::optional<JournalEntry> read_journal_line(std::string_view line, const RowShape& shape);
 
 /// The path TABLE.csv.rows, or TABLE.csv.rows.WRITER if there is a writer.
 std::filesystem::path journal_path(const std::filesystem::path& table_path,

@@ -14,7 +14,6 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/descriptor.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/freefem_axi/journal/journal_line.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 namespace viscontact::freefem_axi {

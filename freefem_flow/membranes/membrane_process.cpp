@@ -17,7 +17,6 @@
 #include "viscontact/freefem_flow/dissipation_alone.hpp"
 #include "viscontact/freefem_flow/membranes/membrane_boundary.hpp"
 #include "viscontact/freefem_flow/process/opening.hpp"
-#include "viscontact/freefem_flow/process/request_words.hpp"
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 #include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/membranes/membrane_curve.hpp"

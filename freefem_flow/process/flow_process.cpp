@@ -18,7 +18,6 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/freefem_flow/dissipation_alone.hpp"
 #include "viscontact/freefem_flow/process/opening.hpp"
-#include "viscontact/freefem_flow/process/request_words.hpp"
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 
 namespace viscontact::freefem_flow {

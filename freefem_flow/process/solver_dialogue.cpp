@@ -1,11 +1,13 @@
-// Asks a fluid solver and checks its answers. Each fault is an Error(kExternalProgram). A change
-// must keep that a silent solver is killed at its time limit.
+// Asks a fluid solver and checks its answers, and writes numbers and boundaries for it
+// (solver_dialogue.hpp). Each fault is an Error(kExternalProgram). A change must keep that a silent
+// solver is killed at its time limit.
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/number.hpp"
@@ -195,6 +197,29 @@ void SolverDialogue::fail(const std::string& reason, std::chrono::milliseconds g
       fmt::format("the fluid solver ({}) failed at {}: {}; it {}; {}", name_, asked, reason, end,
                   lines.empty() ? "it wrote nothing else"
                                 : fmt::format("its last lines: {}", fmt::join(lines, " | "))));
+}
+
+void append(std::string& text, std::span<const double> values, const char* what) {
+  for (const double value : values) {
+    if (!std::isfinite(value))
+      throw Error(ErrorKind::kNotConverged,
+                  fmt::format("{} of the particles in the fluid left the range of a double ({})",
+                              what, value));
+    text += ' ';
+    text += format_number(value);
+  }
+}
+
+std::string words_of(const MeshBoundary& boundary) {
+  std::string text =
+      fmt::format("boundary {} {}\n", boundary.points.size(), boundary.curves.size());
+  for (const auto& point : boundary.points) {
+    append(text, point, "a point of the mesh around one");
+    text += '\n';
+  }
+  for (const auto& curve : boundary.curves)
+    text += fmt::format("{} {} {}\n", curve.first, curve.edges, curve.label);
+  return text;
 }
 
 }  // namespace viscontact::freefem_flow

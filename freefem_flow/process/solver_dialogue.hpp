@@ -1,18 +1,21 @@
 // Requests to the process of a fluid solver, and its answers word by word, each of which is
-// checked. Everything that goes wrong becomes an error that names the solver, the request and the
-// last lines of the solver. flow_process.cpp uses it; a change must keep that no answer is waited
-// for without end.
+// checked, in the words of the protocol (docs/fluid-solver.md, which a change must follow).
+// Everything that goes wrong becomes an error that names the solver, the request and the last lines
+// of the solver. flow_process.cpp and membrane_process.cpp use it; a change must keep that no
+// answer is waited for without end, and that numbers read back to the same double.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/common/system/child_process.hpp"
+#include "viscontact/freefem_flow/mesh_boundary.hpp"
 #include "viscontact/freefem_flow/process/solver_command.hpp"
 
 namespace viscontact::freefem_flow {
@@ -71,5 +74,12 @@ class SolverDialogue {
   std::size_t numbers_asked_ = 0, numbers_read_ = 0;  ///< of the numbers that are being read
   ChildProcess::Clock::time_point asked_at_{};
 };
+
+/// Appends numbers with a space before each. Throws Error(kNotConverged) if one of them is not
+/// finite, with the words `what` it is.
+void append(std::string& text, std::span<const double> values, const char* what);
+
+/// The boundary of a mesh. Errors as append().
+std::string words_of(const MeshBoundary& boundary);
 
 }  // namespace viscontact::freefem_flow

@@ -9,7 +9,7 @@
 #include "viscontact/common/named.hpp"
 #include "viscontact/fitting/export/code_text.hpp"
 #include "viscontact/fitting/export/export_fit.hpp"
-#include "viscontact/lubrication/spread_gaps.hpp"
+#include "viscontact/lubrication/fit.hpp"
 
 namespace viscontact::motions {
 namespace {

@@ -1,11 +1,13 @@
 // Sources, from which particles are poured in while a simulation runs. Lengths, masses and times
-// are in the units of the case; nothing is thrown. Setting has them, and pouring.hpp pours. A
-// change must keep the particles and the times of each source, because users repeat runs by their
-// seeds.
+// are in the units of the case; nothing is thrown. Setting has them, and Simulation pours after
+// each step. A change must keep the times of each source, that the particles of each seed are the
+// same bits, because users repeat runs by their seeds, and that a run that is continued pours the
+// same particles.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "viscontact/particles/arrangement/species.hpp"
@@ -28,5 +30,41 @@ struct Source {
   /// The number of particles that are due at a time [T].
   std::size_t due(double time) const;
 };
+
+struct Setting;
+struct State;
+
+/// The particles that a simulation will pour in next.
+class Pouring {
+ public:
+  /// `state` says how many particles each source has poured already, and when the source begins
+  /// (State::sources). A source that is new to it is added there. It begins at state.time if
+  /// Source::begin is earlier, so that a run that continues another one does not pour at once what
+  /// would have come before. `sources` get the times at which they begin.
+  Pouring(std::vector<Source>& sources, State& state);
+
+  /// Adds the particles that are due at state.time. Each is put at a random place in the region of
+  /// its source where it touches no other particle and no obstacle. If 1000 random places are not
+  /// free, the particle waits for the next call, and the later particles of its source wait, too.
+  /// The neighbour list is made again if a particle is added. `setting` has the sources of the
+  /// constructor.
+  void pour(const Setting& setting, State& state);
+
+ private:
+  std::vector<DrawnSpecies> drawn_;                    // of each source
+  std::vector<std::optional<DrawnParticle>> waiting_;  // the next particle of each source
+};
+
+/// Particles of a source that are due but have not come, because there is no free place.
+struct WaitingParticles {
+  std::size_t source;  ///< its number, from 0
+  std::size_t count;   ///< >= 1
+  double radius;       ///< of the first one, for which no place was free [L]
+};
+
+/// The waiting particles of each source in this state. `sources` are those of the case of the
+/// state.
+std::vector<WaitingParticles> waiting_particles(const std::vector<Source>& sources,
+                                                const State& state);
 
 }  // namespace viscontact::particles

@@ -1,7 +1,7 @@
-// Reads [arrangement] of a case of many particles, and the species of particles, which sources have,
-// too (particles_sections.hpp). Lengths, masses and times are in the units of the case. A wrong value
-// is an Error(kBadInput) with its line. A change must keep keys and defaults, which users' cases rely
-// on. Used by particle_tables.cpp and source_section.cpp.
+// Reads [arrangement] of a case of many particles, and the species of particles, which sources
+// have, too (particles_sections.hpp). Lengths, masses and times are in the units of the case. A
+// wrong value is an Error(kBadInput) with its line. A change must keep keys and defaults, which
+// users' cases rely on. Used by particle_tables.cpp and source_section.cpp.
 #include <algorithm>
 #include <limits>
 #include <string_view>

@@ -8,10 +8,10 @@
 #include <span>
 #include <utility>
 
-#include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
 #include "viscontact/particles/domain/periods.hpp"
-#include "viscontact/particles/links/arm_length.hpp"
+#include "viscontact/particles/links/links.hpp"
 #include "viscontact/particles/outline.hpp"
 
 namespace viscontact::particles {

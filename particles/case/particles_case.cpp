@@ -10,8 +10,8 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
-#include "viscontact/particles/fluid/overlapping_members.hpp"
 #include "viscontact/particles/io/contact_file.hpp"
+#include "viscontact/particles/outline.hpp"
 
 namespace viscontact::particles {
 namespace {

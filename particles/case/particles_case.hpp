@@ -40,12 +40,12 @@ struct ParticlesCase {
 };
 
 /// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
-/// value and what is allowed. Also throws if there is neither a particle nor a source; if, at the start, two particles
-/// overlap or a particle is on the wrong side of a plane by more than solver.tolerance mean radii;
-/// if a radius is less than a hundred times that length; if a particle is further from the origin
-/// than particles::largest_resolved_distance; or if a particle is outside the domain or touches its
-/// own image in a periodic one. A case with a fluid has further conditions (check_fluid_start() in
-/// particles_sections.hpp).
+/// value and what is allowed. Also throws if there is neither a particle nor a source; if, at the
+/// start, two particles overlap or a particle is on the wrong side of a plane by more than
+/// solver.tolerance mean radii; if a radius is less than a hundred times that length; if a particle
+/// is further from the origin than particles::largest_resolved_distance; or if a particle is
+/// outside the domain or touches its own image in a periodic one. A case with a fluid has further
+/// conditions (check_fluid_start() in particles_sections.hpp).
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
 /// What docs/case-file.md says about the keys of each section.

@@ -1,7 +1,7 @@
 // Reads [[source]] of a case of many particles, and checks the radii that sources draw
-// (particles_sections.hpp). Lengths, masses and times are in the units of the case. A wrong value is
-// an Error(kBadInput) with its line. A change must keep keys and defaults, which users' cases rely
-// on. Used by particle_tables.cpp.
+// (particles_sections.hpp). Lengths, masses and times are in the units of the case. A wrong value
+// is an Error(kBadInput) with its line. A change must keep keys and defaults, which users' cases
+// rely on. Used by particle_tables.cpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -129,8 +129,8 @@ RadiiOfSource radii_of(const Source& source, int dimension) {
   return radii;
 }
 
-/// Largest radius with which a particle has a place in the region of the source between the walls and
-/// the planes at rest, each taken alone and opposite walls together [L].
+/// Largest radius with which a particle has a place in the region of the source between the walls
+/// and the planes at rest, each taken alone and opposite walls together [L].
 double largest_radius_between_walls(const Source& source, const Setting& setting) {
   double radius = std::numeric_limits<double>::infinity();
   for (const auto& obstacle : obstacles_of(setting)) {

@@ -1,13 +1,13 @@
-// Reads vectors and piecewise constant vectors (vector_values.hpp). Vectors have the unit that the
-// key says; times [T] are in the unit of the case. A wrong value is an Error(kBadInput) with its
-// line. A change must keep accepting users' cases.
-#include "viscontact/particles/case/vector_values.hpp"
-
+// Reads vectors and piecewise constant vectors (particles_sections.hpp). Vectors have the unit that
+// the key says; times [T] are in the unit of the case. A wrong value is an Error(kBadInput) with
+// its line. A change must keep accepting users' cases.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 #include <vector>
+
+#include "viscontact/particles/case/particles_sections.hpp"
 
 namespace viscontact::particles {
 

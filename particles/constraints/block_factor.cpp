@@ -1,6 +1,6 @@
-// Left-looking LU factorisation by columns and rows of blocks (block_factor.hpp). Numbers have the
-// units of the matrix. A singular matrix is no error: factorise() returns false. A change must keep
-// the order of sums.
+// Left-looking LU factorisation by columns and rows of blocks, and the assembly of the matrices of
+// Newton's methods (block_factor.hpp). Numbers have the units of the matrix. A singular matrix is
+// no error: factorise() returns false. A change must keep the order of sums.
 #include "viscontact/particles/constraints/block_factor.hpp"
 
 #include <Eigen/OrderingMethods>
@@ -78,8 +78,8 @@ inline void substitute_back(const std::array<double, static_cast<std::size_t>(K*
   }
 }
 
-/// 1 over the roots of the numbers on the diagonal of a block, with which rows of different units can
-/// be compared; 1 where the number is 0.
+/// 1 over the roots of the numbers on the diagonal of a block, with which rows of different units
+/// can be compared; 1 where the number is 0.
 template <int K, class Block>
 std::array<double, static_cast<std::size_t>(K)> scales_of_rows(const Block& a) {
   std::array<double, static_cast<std::size_t>(K)> scales;
@@ -91,8 +91,9 @@ std::array<double, static_cast<std::size_t>(K)> scales_of_rows(const Block& a) {
 }
 
 /// Replaces a block by its factors L and U with exchange of rows, with the inverses of the numbers
-/// on the diagonal of U, and sets the row of each pivot, which is that with the largest number times
-/// its scale. Changes `sign` if the determinant is negative. Returns false if the block is singular.
+/// on the diagonal of U, and sets the row of each pivot, which is that with the largest number
+/// times its scale. Changes `sign` if the determinant is negative. Returns false if the block is
+/// singular.
 template <int K, class Block, class Pivots>
 bool factorise_block(std::array<double, static_cast<std::size_t>(K)> scales, Block& a,
                      Pivots& pivots, int& sign) {
@@ -316,5 +317,59 @@ template class BlockFactor<3>;
 template class BlockFactor<6>;
 template class BlockFactor<3, true>;
 template class BlockFactor<6, true>;
+
+template <int D, bool kIsSymmetric>
+UnitMatrix<D, kIsSymmetric>::UnitMatrix(const ConstraintProblem<D>& problem) : problem_(problem) {
+  std::vector<typename BlockFactor<kMotion, kIsSymmetric>::Edge> edges;
+  for (const auto& block : problem.blocks) {
+    first_edge_.push_back(edges.size());
+    const auto parts = problem.parts_of(block.row);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      for (std::size_t j = i + 1; j < parts.size(); ++j)
+        edges.push_back({parts[i].unit, parts[j].unit});
+  }
+  factor_.analyse(problem.units.size(), edges);
+}
+
+template <int D, bool kIsSymmetric>
+void UnitMatrix<D, kIsSymmetric>::set_to_masses() {
+  constexpr auto k = static_cast<std::size_t>(kMotion), d = static_cast<std::size_t>(D);
+  factor_.clear();
+  for (std::size_t u = 0; u < problem_.units.size(); ++u) {
+    const auto& unit = problem_.units[u];
+    auto& block = factor_.diagonal(u);
+    for (std::size_t i = 0; i < d; ++i) block[i * k + i] = unit.inverse_mobility;
+    for (std::size_t i = d; i < k; ++i)
+      for (std::size_t j = d; j < k; ++j)
+        block[i * k + j] = unit.inverse_turn_mobility[(i - d) * (k - d) + j - d];
+  }
+}
+
+template <int D, bool kIsSymmetric>
+void UnitMatrix<D, kIsSymmetric>::add_product(std::size_t b, std::size_t row, std::size_t other,
+                                              double weight) {
+  constexpr auto k = static_cast<std::size_t>(kMotion);
+  const auto add = [&](auto& into, const Motion<D>& left, const Motion<D>& right) {
+    for (std::size_t i = 0; i < k; ++i)
+      for (std::size_t j = 0; j < k; ++j) into[i * k + j] += weight * left[i] * right[j];
+  };
+  const auto left = problem_.parts_of(row), right = problem_.parts_of(other);
+  auto edge = first_edge_[b];
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    add(factor_.diagonal(static_cast<std::size_t>(left[i].unit)), left[i].coefficients,
+        right[i].coefficients);
+    for (std::size_t j = i + 1; j < left.size(); ++j, ++edge) {
+      if (!kIsSymmetric || factor_.is_below(edge, 0))
+        add(factor_.off_diagonal(edge, 0), left[i].coefficients, right[j].coefficients);
+      if (!kIsSymmetric || factor_.is_below(edge, 1))
+        add(factor_.off_diagonal(edge, 1), left[j].coefficients, right[i].coefficients);
+    }
+  }
+}
+
+template class UnitMatrix<2>;
+template class UnitMatrix<3>;
+template class UnitMatrix<2, true>;
+template class UnitMatrix<3, true>;
 
 }  // namespace viscontact::particles

@@ -1,6 +1,8 @@
 // Sparse LU factorisation of a matrix of small dense blocks with a symmetric pattern, one block row
-// for each rigid body. Numbers have the units of the matrix. unit_matrix.hpp uses it. A change
-// must keep the order of all sums, so that results do not depend on the number of threads.
+// for each rigid body, and the matrices of Newton's methods for the constraints of a step that it
+// factorises. Numbers have the units of the matrix. Nothing is thrown. Used by
+// constraint_system.cpp, interior_points.hpp and proximal_step.hpp. A change must keep the order of
+// all sums, so that results do not depend on the number of threads.
 #pragma once
 
 #include <array>
@@ -8,6 +10,8 @@
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "viscontact/particles/constraints/constraint_problem.hpp"
 
 namespace viscontact::particles {
 
@@ -82,6 +86,41 @@ class BlockFactor {
   std::vector<std::size_t> next_entry_, entry_in_row_;
   mutable std::vector<Vec> permuted_;
   int sign_ = 1;
+};
+
+/// The sum of M/h, a block for each unit, and of products of rows of one block of constraints. It
+/// need not be symmetric; with `kIsSymmetric` it must be, and is factorised in half of the time.
+template <int D, bool kIsSymmetric = false>
+class UnitMatrix {
+ public:
+  /// `problem` must outlive this object.
+  explicit UnitMatrix(const ConstraintProblem<D>& problem);
+
+  void set_to_masses();  ///< sets the matrix to M/h
+  /// Adds weight * row^T other, for two rows of constraint block `b`. To a symmetric matrix the
+  /// product of the rows in the other order must be added, too.
+  void add_product(std::size_t b, std::size_t row, std::size_t other, double weight);
+  /// Replaces the matrix by its factors. Returns false if it is singular.
+  bool factorise() { return factor_.factorise(); }
+  /// Sign of its determinant, 1 or -1. Needs factorise().
+  int sign_of_determinant() const { return factor_.sign_of_determinant(); }
+  /// Replaces impulses by the motions that they cause. Needs factorise().
+  void solve(std::span<Motion<D>> values) const { factor_.solve(values); }
+  /// The motions that impulses cause. Needs factorise().
+  std::vector<Motion<D>> solution_of(std::span<const Motion<D>> impulses) const {
+    std::vector<Motion<D>> motions(impulses.begin(), impulses.end());
+    solve(motions);
+    return motions;
+  }
+
+ private:
+  static constexpr int kMotion = D + kTurns<D>;
+
+  const ConstraintProblem<D>& problem_;
+  BlockFactor<kMotion, kIsSymmetric> factor_;
+  // Number of the first edge of each block: one for each pair of its units, of which the first is
+  // that of the earlier part.
+  std::vector<std::size_t> first_edge_;
 };
 
 }  // namespace viscontact::particles

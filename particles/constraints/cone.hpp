@@ -98,7 +98,8 @@ class ConeScaling {
   }
 
  private:
-  // Eigenvalues of W^2 + shift, of the vectors (1, direction), (1, -direction) and those across both.
+  // Eigenvalues of W^2 + shift, of the vectors (1, direction), (1, -direction) and those across
+  // both.
   struct Eigenvalues {
     double along, against, across;
     ConePoint direction;

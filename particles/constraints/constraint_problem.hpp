@@ -1,7 +1,7 @@
 // The contacts with friction and the bilateral constraints of one time step, docs/physics.md (5.6)
-// to (5.9), in flat arrays. Lengths, masses and times are in the units of the case.
-// constraint_solver.hpp and the blows solve it. Nothing is thrown. A change must keep contacts
-// without friction those of (5.4).
+// to (5.9), in flat arrays, and the rows of a contact in them. Lengths, masses and times are in the
+// units of the case. constraint_solver.hpp and the blows solve it. Nothing is thrown. A change must
+// keep contacts without friction those of (5.4), and the angular momentum of a pair.
 #pragma once
 
 #include <array>
@@ -10,8 +10,11 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/bodies/rigid_bodies.hpp"
+#include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/contact/friction_law.hpp"
+#include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
@@ -219,5 +222,49 @@ struct BlockResidual {
 /// The residual of `block`. `v`, `p` and `w` point to the numbers of the first row of the block.
 BlockResidual residual_of(const ConstraintBlock& block, const double* v, const double* p,
                           const double* w);
+
+/// What the tangential rows of a contact need besides the contact.
+template <int D>
+struct ContactTangents {
+  std::array<Vector, static_cast<std::size_t>(D - 1)> directions;  ///< unit vectors
+  /// Distances of the contact point from the centres of both particles [L].
+  double first_arm = 0,  ///< from the centre of the first particle
+      second_arm = 0;    ///< from the centre of the second particle
+  Vector surface{};      ///< displacement of the surface of the obstacle in the step [L]
+  double capacity = 0;   ///< ConstraintBlock::capacity
+};
+
+/// The tangents of a contact in a step from time `begin` to `end` [T]; `capacity` is left 0.
+template <int D>
+ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& particles,
+                               std::span<const Plane> obstacles, double begin, double end);
+
+/// Part of a row for one unit: the displacement along `direction` of the point that is at `arm` [L]
+/// from the centre of the unit.
+template <int D>
+Motion<D> displacement_row(const Vector& direction, const Vector& arm) {
+  Motion<D> row{};
+  for (std::size_t d = 0; d < static_cast<std::size_t>(D); ++d) row[d] = direction[d];
+  const Vector moment = cross(arm, direction);
+  if constexpr (D == 2)
+    row[2] = moment[2];
+  else
+    for (std::size_t d = 0; d < 3; ++d) row[3 + d] = moment[d];
+  return row;
+}
+
+/// A particle of a contact as a part of its unit.
+struct ContactSide {
+  std::int32_t unit = -1;  ///< -1: an obstacle
+  Vector offset{};         ///< from the centre of the unit to that of the particle [L]
+};
+
+/// Adds row number `k` of a contact, with a guess of its impulse [M L/T]: its gap (0), or the
+/// tangential displacement of the surface of the second particle relative to that of the first
+/// along direction `k` - 1.
+template <int D>
+void add_contact_row(const Contact<D>& contact, const ContactTangents<D>& tangents,
+                     const ContactSide& first, const ContactSide& second, std::size_t k,
+                     double impulse, ConstraintProblem<D>& problem);
 
 }  // namespace viscontact::particles

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "viscontact/particles/constraints/constraint_problem.hpp"
-#include "viscontact/particles/dual_problem/dual_solver.hpp"
+#include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 namespace viscontact::particles {
 

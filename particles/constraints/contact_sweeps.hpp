@@ -1,6 +1,6 @@
-// Sweeps of nonlinear Gauss-Seidel over the constraints of a step (constraint_problem.hpp). Lengths,
-// masses and times are in the units of the case. constraint_solver.cpp uses them; nothing is
-// thrown.
+// Sweeps of nonlinear Gauss-Seidel over the constraints of a step (constraint_problem.hpp).
+// Lengths, masses and times are in the units of the case. constraint_solver.cpp uses them; nothing
+// is thrown.
 #pragma once
 
 #include <cstddef>

@@ -104,7 +104,8 @@ void InteriorPoints<D>::add_impulse(const Cones& part, const ConePoint& r,
     problem_.add_impulse(part.row + k, impulse[part.first + k], to);
 }
 
-/// The largest value of a row for the motions y_, in the unit of u and r; NaN if one is not a number.
+/// The largest value of a row for the motions y_, in the unit of u and r; NaN if one is not a
+/// number.
 template <int D>
 double InteriorPoints<D>::largest_value() const {
   double largest = 0;

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "viscontact/particles/constraints/block_factor.hpp"
 #include "viscontact/particles/constraints/constraint_problem.hpp"
-#include "viscontact/particles/constraints/unit_matrix.hpp"
 
 namespace viscontact::particles {
 

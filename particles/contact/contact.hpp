@@ -13,7 +13,7 @@
 #include <limits>
 #include <span>
 
-#include "viscontact/particles/domain/plane.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/state.hpp"
 

@@ -13,7 +13,7 @@
 #include "viscontact/particles/contact/film_law.hpp"
 #include "viscontact/particles/contact/friction_law.hpp"
 #include "viscontact/particles/contact/restitution_law.hpp"
-#include "viscontact/particles/domain/plane.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/state.hpp"
 

@@ -11,7 +11,7 @@
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/dual_problem/dual_solver.hpp"
+#include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 namespace viscontact::particles {
 

@@ -1,8 +1,6 @@
 // Chooses between conjugate gradients, a sparse factor and Newton's method for the dual problem. A
 // problem that is not solved is reported by its residual, not thrown. The constants change how long
 // a solution takes, and the results within the tolerances.
-#include "viscontact/particles/dual_problem/dual_solver.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <span>

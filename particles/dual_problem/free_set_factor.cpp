@@ -1,12 +1,12 @@
 // Builds and applies the sparse Cholesky factor of W with Eigen. The scaling is that of
 // mass_dual_problem.hpp, without dimension. If the factor cannot be computed, this is no error:
 // exists() is then false. A change must keep one order of elimination, for equal results.
-#include "viscontact/particles/dual_problem/free_set_factor.hpp"
-
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <utility>
 #include <vector>
+
+#include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -1,13 +1,16 @@
-// The dual problem (dual_problem.hpp) of particles whose motion only their masses resist, because
-// there is no fluid: the contacts and bodies in flat arrays, and the products with the matrix W
-// that all methods need. Lengths, masses and times are in the units of the case. Nothing is checked
-// or thrown. A change must keep the order of all sums, because the results must not depend on the
-// number of threads. Used by dual_solver.cpp, dual_solver.hpp and free_set_factor.hpp.
+// The dual problem (dual_problem.hpp), (5.4) of docs/physics.md, of particles whose motion only
+// their masses resist, because there is no fluid: the contacts and bodies in flat arrays, the
+// products with the matrix W that all methods need, a sparse factor of W, and the solver. Lengths,
+// masses and times are in the units of the case; impulses and residuals are scaled as
+// dual_problem.hpp says. projection/, constraints/ and impacts/ use it. Nothing is checked or
+// thrown: the result has the residual. A change must keep the order of all sums, because the
+// results must not depend on the number of threads.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -162,5 +165,58 @@ class MassDualProblem : public DualProblem {
   std::vector<double> inverse_mobilities_;
   ThreadPool* pool_;
 };
+
+/// A sparse Cholesky factor of the matrix W between chosen contacts, with diagonal 1. It serves
+/// dual_solver.cpp as a solver and as a preconditioner. The chosen contacts are those that are
+/// free: their z is above the bound, and their linearised gap is 0.
+///
+/// Chains, and packings at rest, have as many contacts with impulses as degrees of freedom. W is
+/// then so ill-conditioned that iterative methods take as many iterations as a chain has contacts.
+/// The factor solves for all impulses between the chosen contacts at once.
+template <int D>
+class FreeSetFactor {
+ public:
+  /// `epsilon` >= 0 is added to the diagonal of W, which is 1. W is singular if contacts are
+  /// redundant; epsilon then bounds the impulses that these contacts exert on each other.
+  explicit FreeSetFactor(double epsilon = 1e-10);
+  ~FreeSetFactor();
+
+  /// Factorises W between the contacts c with `free[c]`. Returns false, and leaves no factor, if
+  /// the factor would have so many entries that iterations are cheaper (as in packings of spheres)
+  /// or if W cannot be factorised. Calls with the same number of contacts share one order of
+  /// elimination.
+  bool factorise(const MassDualProblem<D>& problem, const std::vector<char>& free);
+  /// True if the last factorise() succeeded.
+  bool exists() const;
+
+  /// Sets solved = (W + epsilon)^-1 gradient between the contacts of the factor, 0 for all others.
+  void solve(std::span<const double> gradient, std::span<double> solved) const;
+
+  /// Applies the factor as a preconditioner, which is symmetric and positive definite on the
+  /// contacts that are free now. Free contacts without a row in the factor keep their gradient;
+  /// contacts that are not free get 0. `problem` is that of factorise(), or this problem with
+  /// further contacts at its end. Returns solved.gradient.
+  double precondition(const MassDualProblem<D>& problem, std::span<const double> gradient,
+                      std::span<double> solved) const;
+
+ private:
+  struct Factor;
+  double epsilon_;
+  std::unique_ptr<Factor> factor_;
+};
+
+/// Solves the dual problem by projected conjugate gradients (mprgp.hpp), preconditioned by sweeps
+/// of symmetric Gauss-Seidel or, if these take long and it is cheap, by a FreeSetFactor. Newton's
+/// method (active_set_newton.hpp) solves chains of contacts, and is tried if the other methods take
+/// many iterations.
+///
+/// Improves problem.z, which begins as a guess, until all residuals are at most 1 or
+/// `max_iterations` are done. Redundant contacts have impulses of which the velocities determine
+/// only sums; their values depend on the guess. `factor` belongs to earlier solves of the same
+/// step, whose problem may have had fewer contacts. This function uses the factor and may replace
+/// it.
+template <int D>
+SolverResult solve_dual_problem(MassDualProblem<D>& problem, int max_iterations,
+                                FreeSetFactor<D>& factor);
 
 }  // namespace viscontact::particles

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/fluid/fluid_friction.hpp"
+#include "viscontact/particles/fluid/fluid_contacts.hpp"
 #include "viscontact/particles/fluid/fluid_motion.hpp"
 #include "viscontact/particles/fluid/held_rows.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"

@@ -1,12 +1,12 @@
-// Solves a blow in a fluid, that is all hits of solids in one step (fluid_blow.hpp), in two phases:
-// compression and restitution. Numbers are in the units of the case. Errors are those of the
-// mobility. A change must keep that the work of a blow is not positive.
-#include "viscontact/particles/fluid/fluid_blow.hpp"
-
+// Solves a blow in a fluid, that is all hits of solids in one step (fluid_motion.hpp), in two
+// phases: compression and restitution. Numbers are in the units of the case. Errors are those of
+// the mobility. A change must keep that the work of a blow is not positive.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
+
+#include "viscontact/particles/fluid/fluid_motion.hpp"
 
 namespace viscontact::particles {
 namespace {

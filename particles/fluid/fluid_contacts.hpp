@@ -1,10 +1,14 @@
 // The contacts of a step in a fluid, docs/physics.md (6.4): which pairs take part, and impulses
-// that keep their gaps open, as forces on particles whose velocities depend linearly on forces. A
+// that keep their gaps open, as forces on particles whose velocities depend linearly on forces; and
+// their Coulomb friction (6.14): the tangents along which solids slide, and impulses of friction. A
 // gap of a contact is D - D_c here, with the threshold gap D_c. Lengths, masses and times are in
-// the units of the case. fluid_simulation.cpp, friction and the blows use it.
+// the units of the case; masses and impulses of discs are per length. fluid_simulation.cpp,
+// fluid_acceptance.cpp and the blows use it. Errors are those of the mobility. A change must keep
+// that the film carries no friction.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -14,12 +18,14 @@
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/contact/contact_laws.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/links/links.hpp"
-#include "viscontact/particles/solver_settings.hpp"
+#include "viscontact/particles/pair_memory.hpp"
+#include "viscontact/particles/setting.hpp"
 #include "viscontact/particles/state.hpp"
-#include "viscontact/particles/steps/step_residuals.hpp"
+#include "viscontact/particles/steps/step_report.hpp"
 
 namespace viscontact::particles {
 
@@ -84,8 +90,8 @@ struct ContactConditions {
   /// The length of the step in which forces change the momentum, over h; 1 but in a fluid with
   /// inertia. The impulse of a force lambda is h lambda times this share.
   double share_of_impulse = 1;
-  /// Change of the velocity of a gap, or of a slip, by a unit force of its contact [T/M] up to which
-  /// the gap or slip counts as one that hinges hold, and takes no part; 0: none is held.
+  /// Change of the velocity of a gap, or of a slip, by a unit force of its contact [T/M] up to
+  /// which the gap or slip counts as one that hinges hold, and takes no part; 0: none is held.
   double least_w = 0;
   double least_reach = 0;  ///< pairs are listed up to this gap at least [L]
   /// Whether the mobility is symmetric. Moving fluid carries what a contact does to the contacts
@@ -104,8 +110,8 @@ inline double rounding_error_of_gaps(const ContactConditions& conditions) {
              fastest(conditions.free_velocities, conditions.layout);
 }
 
-/// Contact::w of a contact whose gap a hinge holds, as no force of the contact can change it. It takes
-/// no part, and its gap is as exact as the hinge.
+/// Contact::w of a contact whose gap a hinge holds, as no force of the contact can change it. It
+/// takes no part, and its gap is as exact as the hinge.
 inline constexpr double kHeld = -1;
 
 /// Sets Contact::allowed. Contacts with w = 0 take no part, and only the tolerance of the gaps
@@ -185,8 +191,8 @@ struct ContactFrictionInFluid {
   std::array<double, 2> tangent{};
   /// Change of the slip per turn of the first and of the second particle, counter-clockwise [L].
   std::array<double, 2> levers{};
-  /// Slip of the step if no particle moved [L]: the displacement of the image of the second particle
-  /// relative to that particle, or minus that of the obstacle.
+  /// Slip of the step if no particle moved [L]: the displacement of the image of the second
+  /// particle relative to that particle, or minus that of the obstacle.
   double displacement = 0;
   /// gamma - gamma_min >= 0: the impulse that the film takes up before the solids touch [M L/T].
   double capacity = 0;
@@ -289,5 +295,51 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
                             const std::function<bool(const Pair&)>& is_left_out,
                             const Mobility& mobility, const ContactConditions& conditions,
                             ThreadPool& pool, const FrictionOfStep* friction = nullptr);
+
+/// What friction needs of a step besides ContactConditions.
+struct FrictionOfStep {
+  const Setting& setting;            ///< with ContactLaws::friction and a fluid, in the plane
+  std::span<const Plane> obstacles;  ///< obstacles_of(setting)
+  const PairMemories& memories;      ///< of the pairs, whose friction is the first guess
+  double begin = 0;                  ///< time at which the step begins [T]
+  double end = 0;                    ///< time at which it ends [T]
+};
+
+/// Where friction acts on the particles of a contact.
+struct FrictionPlace {
+  /// Distances, along the normal, of the contact from the centres of the first and the second
+  /// particle [L].
+  std::array<double, 2> arms{};
+  Vector on_obstacle{};  ///< the point of the obstacle at the contact [L]
+};
+
+/// The friction of a contact, without ContactFrictionInFluid::contact. `contact` has the gap
+/// between the surfaces, and the particles are where the step begins. The first guess of the
+/// impulse is that in the memory of the pair.
+ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Particles& particles,
+                                           const Pair& pair, const Contact<2>& contact,
+                                           const FrictionPlace& place,
+                                           const ContactConditions& conditions);
+
+/// Solves for contacts as solve_listed(), with the friction of `step.frictions`, of which
+/// `mu_s` >= 0 is the coefficient, without dimension. If Coulomb's law (5.7) is not reached within
+/// the tolerances, `step.is_solved` is false, and the friction has the bounds (5.17) of given
+/// loads; gaps and films are exact for the friction that was found. Throws what the mobility
+/// throws.
+void solve_with_friction(StepContacts& step, double mu_s, const Mobility& mobility,
+                         const ContactConditions& conditions);
+
+/// The heat that friction makes in a unit of time [M L^2/T^3], >= 0 but for the tolerances: minus
+/// the sum of the forces of friction times the slips of the step, for the velocities with which the
+/// particles move.
+double heat_of_friction(const StepContacts& step, std::span<const double> velocities,
+                        const ContactConditions& conditions);
+
+/// Takes the residuals of Coulomb's law into `residuals`, for the velocities that the particles
+/// have with the contact forces [L/T, 1/T]. The residual of a contact is its slip where it sticks,
+/// and the error of its friction times its tangential mobility where it slides [L].
+void take_residuals_of_friction(const StepContacts& step, double mu_s,
+                                std::span<const double> velocities,
+                                const ContactConditions& conditions, StepResiduals& residuals);
 
 }  // namespace viscontact::particles

@@ -1,10 +1,9 @@
-// Solves Coulomb's law of contacts in a fluid (fluid_friction.hpp) in rounds. Each round keeps the gaps
-// open with the friction that was found so far, by solve_listed(), which also finds the pairs that
-// take part. Then solve_constraints() finds normal and tangential impulses of all contacts that take
-// part together, as for particles without a fluid. Numbers are in the units of the case. Errors are
-// those of the mobility. A change must end with gaps that are exact for the friction found.
-#include "viscontact/particles/fluid/fluid_friction.hpp"
-
+// Solves Coulomb's law of contacts in a fluid (fluid_contacts.hpp) in rounds. Each round keeps the
+// gaps open with the friction that was found so far, by solve_listed(), which also finds the pairs
+// that take part. Then solve_constraints() finds normal and tangential impulses of all contacts
+// that take part together, as for particles without a fluid. Numbers are in the units of the case.
+// Errors are those of the mobility. A change must end with gaps that are exact for the friction
+// found.
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -16,6 +15,7 @@
 
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

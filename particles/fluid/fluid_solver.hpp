@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/common/vtk/flow_field.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/particles.hpp"

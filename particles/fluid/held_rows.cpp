@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::particles {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <variant>
 
-#include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 namespace viscontact::particles {

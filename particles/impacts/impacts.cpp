@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/rotation.hpp"
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/constraints/constraint_problem.hpp"
 #include "viscontact/particles/contact/contact_laws.hpp"
-#include "viscontact/particles/domain/plane.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/impacts/rebound.hpp"
 #include "viscontact/particles/neighbours/pairs_of_particles.hpp"
 #include "viscontact/particles/state.hpp"

@@ -8,11 +8,11 @@
 #include <map>
 #include <utility>
 
+#include "viscontact/particles/constraints/constraint_problem.hpp"
 #include "viscontact/particles/constraints/constraint_solver.hpp"
-#include "viscontact/particles/constraints/contact_rows.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/impacts/impacts.hpp"
-#include "viscontact/particles/rotation.hpp"
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 

@@ -12,7 +12,7 @@
 
 #include "viscontact/common/text/units.hpp"
 #include "viscontact/particles/current_contacts.hpp"
-#include "viscontact/particles/domain/plane.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 
 namespace viscontact::particles {
 

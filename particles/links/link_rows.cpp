@@ -9,9 +9,9 @@
 #include <cmath>
 #include <utility>
 
-#include "viscontact/particles/bodies/body_step.hpp"
-#include "viscontact/particles/membranes/necklace_rows.hpp"
-#include "viscontact/particles/rotation.hpp"
+#include "viscontact/particles/bodies/rigid_bodies.hpp"
+#include "viscontact/particles/membranes/necklace.hpp"
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -1,5 +1,5 @@
 // The equations of hinges, springs and arms in a time step, docs/physics.md (5.12) to (5.14), and
-// those of membranes without a fluid (membranes/necklace_rows.hpp).
+// those of membranes without a fluid (membranes/necklace.hpp).
 // Lengths, masses and times are in the units of the case. Equations of displacements [L] have
 // impulses [M L/T], equations of turns [rad] moments of impulses [M L^2/T]; where a member has two
 // dimensions, the first is that of displacements. constraints/ and fluid/ solve the equations.

@@ -1,19 +1,56 @@
 // Hinges, springs, arms and membranes that hold particles and rigid bodies. Lengths, masses and
-// times are in the units of the case. particles/case checks the values; link_rows.hpp makes the
-// equations. A change must keep the order of the forces in State::link_forces, which restart files
-// contain.
+// times are in the units of the case. particles/case checks the values, also that the length of an
+// arm is > 0 at all times; link_rows.hpp makes the equations. A change must keep the order of the
+// forces in State::link_forces, which restart files contain, and rate_at() the derivative of
+// length_at().
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <variant>
 #include <vector>
 
-#include "viscontact/particles/links/arm_length.hpp"
 #include "viscontact/particles/membranes/membrane.hpp"
 #include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
+
+/// Linear between points. Before the first point and after the last one the length is that of the
+/// point, unless there is a period.
+struct PiecewiseLinearLength {
+  std::vector<std::array<double, 2>>
+      points;  ///< (time [T], length [L]), one at least; times increase
+  /// Period [T], > the last time - the first time; between the last point and the first point of
+  /// the next period the length is linear, too. 0: not periodic.
+  double period = 0;
+};
+
+/// The length mean + amplitude sin(angular_frequency t + phase) at the time t.
+struct SinusoidalLength {
+  double mean = 0,               ///< [L]
+      amplitude = 0;             ///< [L]
+  double angular_frequency = 0,  ///< [1/T]
+      phase = 0;                 ///< [rad]
+};
+
+/// Length of an arm as a function of time.
+using ArmLength = std::variant<PiecewiseLinearLength, SinusoidalLength>;
+
+/// Length at time `t` >= 0 [T].
+double length_at(const ArmLength& length, double t);
+
+/// Rate at which the length grows at time `t` >= 0 [L/T]; at a point that of the next piece.
+double rate_at(const ArmLength& length, double t);
+
+/// Least length at times from 0 to `end` >= 0 [T].
+double least_length(const ArmLength& length, double end);
+
+/// Times from 0 to `end` [T] between which the length is linear, or which sample it finely enough
+/// to see where it is shortest and longest: 0, points, extrema and `end`; at most about 1e4 of
+/// them. The checks of a case use them.
+std::vector<double> decisive_times(const ArmLength& length, double end);
 
 /// A point that moves with a particle or with its rigid body.
 struct LinkedPoint {

@@ -1,7 +1,5 @@
-// Checks of membranes when a case is read (membrane_checks.hpp). Lengths are in the unit of the
+// Checks of membranes when a case is read (particles_sections.hpp). Lengths are in the unit of the
 // case. Every fault is an Error(kBadInput) with the line of the case.
-#include "viscontact/particles/membranes/membrane_checks.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +9,8 @@
 #include <vector>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/membranes/membrane_shape.hpp"
+#include "viscontact/particles/case/particles_sections.hpp"
+#include "viscontact/particles/membranes/membrane.hpp"
 
 namespace viscontact::particles {
 namespace {

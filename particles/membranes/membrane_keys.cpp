@@ -8,8 +8,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
-#include "viscontact/particles/membranes/membrane_checks.hpp"
-#include "viscontact/particles/membranes/membrane_shape.hpp"
+#include "viscontact/particles/membranes/membrane.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -1,11 +1,16 @@
 // The polygon of a membrane without a fluid, docs/physics.md (8.9) to (8.12): distances between
-// beads, area, and bending. Only sources of this folder and tests include it, because users of the
-// library need no Eigen. Lengths are in the unit of the case. An array of positions has x of all
-// beads of one membrane and then y of all. Nothing is checked or thrown.
+// beads, area, and bending, and its equations in a time step as those of links
+// (links/link_rows.hpp, which uses them). Only sources of particles/ and tests include it, because
+// users of the library need no Eigen. Lengths, masses and times are in the units of the case. An
+// array of positions has x of all beads of one membrane and then y of all. Nothing is checked or
+// thrown. A change must keep the order of the equations, which is that of State::link_forces.
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
+#include <vector>
 
+#include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/membranes/membrane.hpp"
 #include "viscontact/particles/membranes/membrane_curve.hpp"
 #include "viscontact/particles/particles.hpp"
@@ -37,5 +42,17 @@ bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::Vector
 
 /// Measures a membrane without a fluid in the state of these particles.
 MembraneMeasures measure_necklace(const Membrane& membrane, const Particles& particles);
+
+/// The equations of a membrane, in the order of its forces (Links::forces_of_membrane): the
+/// distances of neighbours, the turns of the beads with the membrane, the bending springs of the
+/// beads if it resists bending, and the area if it is kept. The caller, link_equations(), sets
+/// `number` and `first_force`.
+std::vector<LinkEquations> membrane_equations(const Membrane& membrane, const Particles& particles,
+                                              const LinkTimes& times);
+
+/// Value of the row of a distance, a turn or an area after these motions of the beads, which are in
+/// the order of the parts [L, rad].
+double membrane_value_after(const LinkEquations& equations, const Membrane& membrane,
+                            const Particles& particles, std::span<const UnitMotion> motions);
 
 }  // namespace viscontact::particles

@@ -1,8 +1,6 @@
-// Makes the equations of a membrane without a fluid (necklace_rows.hpp). Lengths, masses and times
-// are in the units of the case. Nothing is checked or thrown. A change must keep that rows and
+// Makes the equations of a membrane without a fluid (necklace.hpp). Lengths, masses and times are
+// in the units of the case. Nothing is checked or thrown. A change must keep that rows and
 // membrane_value_after() agree to first order in the motion.
-#include "viscontact/particles/membranes/necklace_rows.hpp"
-
 #include <cmath>
 
 #include "viscontact/particles/membranes/necklace.hpp"

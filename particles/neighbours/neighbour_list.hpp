@@ -6,7 +6,7 @@
 #include <span>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/domain/plane.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {

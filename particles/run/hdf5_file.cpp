@@ -1,10 +1,9 @@
-// Copies the arrays of the frames into an HDF5 file (hdf5_file.hpp). Numbers are in the units of
-// the case and are copied without conversion. Rows are counted in 64 bits. Each call of the C
+// Copies the arrays of the frames into an HDF5 file (particles_pages.hpp). Numbers are in the units
+// of the case and are copied without conversion. Rows are counted in 64 bits. Each call of the C
 // library whose failure can lose data is checked in one place (checked), and a change must keep
 // this.
-#include "viscontact/particles/run/hdf5_file.hpp"
-
 #include "viscontact/common/error.hpp"
+#include "viscontact/particles/run/particles_pages.hpp"
 
 #ifdef VISCONTACT_HAS_HDF5
 

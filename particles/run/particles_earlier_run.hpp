@@ -8,7 +8,7 @@
 #include <string>
 
 #include "viscontact/particles/case/particles_case.hpp"
-#include "viscontact/particles/run/particles_record.hpp"
+#include "viscontact/particles/run/particles_folder.hpp"
 #include "viscontact/particles/run/run_log.hpp"
 #include "viscontact/particles/state.hpp"
 

@@ -1,11 +1,16 @@
 // Recognises the files of frames by their names, and files that Viscontact wrote by their
-// provenance (particles_folder.hpp). Numbers of frames count from 0. A file of the user in the way
-// is an Error(kBadInput). A change must keep that only files of Viscontact are removed.
+// provenance; writes the rows of steps.csv, the record of restart.bin as JSON, and run.json
+// (particles_folder.hpp). Numbers of frames count from 0, times are in the unit of the case,
+// computing times in seconds. A file of the user in the way and a damaged record are an
+// Error(kBadInput). A change must keep that only files of Viscontact are removed, and columns and
+// keys, which users' scripts read.
 #include "viscontact/particles/run/particles_folder.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -13,9 +18,166 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/json.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/results/foreign_files.hpp"
 
+namespace viscontact {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileEnd, bytes, last_line)
+}  // namespace viscontact
+
 namespace viscontact::particles {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RelativeErrors, best, of_one_mesh, of_penalty)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, failed, iterations,
+                                   most_iterations, first_time, last_time, largest_residual,
+                                   largest_overlap, largest_impulse_residual, divided, unresolved,
+                                   seconds, peak_memory_mebibytes, fluid_seconds, unknowns,
+                                   first_velocity_errors, last_velocity_errors, first_force_errors,
+                                   last_force_errors, averaged_time, mean_dissipation,
+                                   mean_apparent_viscosity)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
+
+namespace {
+constexpr const char* kRecordOf = "# record after step ";
+}  // namespace
+
+void StepTotals::add(const StepReport& report, double average_from) {
+  ++steps;
+  unconverged += report.converged ? 0 : 1;
+  failed += report.converged || report.excess <= kStillAResult ? 0 : 1;
+  iterations += report.iterations;
+  most_iterations = std::max(most_iterations, report.iterations);
+  largest_residual = std::max(largest_residual, report.residual);
+  largest_overlap = std::max(largest_overlap, report.largest_overlap);
+  largest_impulse_residual = std::max(largest_impulse_residual, report.impulse_residual);
+  divided += report.parts > 1 ? 1 : 0;
+  unresolved += static_cast<std::int64_t>(report.unresolved);
+  const auto& fluid = report.fluid;
+  fluid_seconds += fluid.seconds;
+  if (const double duration = report.time - std::max(last_time, average_from); duration > 0) {
+    averaged_time += duration;
+    // This form of the mean has no rounding error if all values are equal (Welford 1962).
+    const auto include = [&](double& mean, double value) {
+      mean += (value - mean) * (duration / averaged_time);
+    };
+    include(mean_dissipation, fluid.dissipation);
+    include(mean_apparent_viscosity, fluid.apparent_viscosity);
+  }
+  last_time = report.time;
+  if (fluid.velocity_errors.best < 0) return;
+  if (first_velocity_errors.best < 0) {
+    first_velocity_errors = fluid.velocity_errors;
+    first_force_errors = fluid.force_errors;
+  }
+  last_velocity_errors = fluid.velocity_errors;
+  last_force_errors = fluid.force_errors;
+}
+
+std::string steps_header(const std::optional<Fluid>& fluid) {
+  std::string header =
+      "step,time,contacts,glued,iterations,residual,largest_overlap,converged,impulse_residual,"
+      "parts,unresolved";
+  if (fluid) header += ",dissipation,apparent_viscosity,fluid_seconds";
+  if (fluid && fluid->has_inertia())
+    header += ",kinetic_energy_fluid,reynolds_number,courant_number,given_force_x,given_force_y";
+  return header + "\n";
+}
+
+std::string probe_rows(const FluidStepReport& report, std::span<const Probe> probes) {
+  std::string rows;
+  for (std::size_t k = 0; k < probes.size(); ++k)
+    rows += fmt::format("{},{},{},{}\n", format_number(report.flow_time), probes[k].name,
+                        format_number(report.probes[k][0]), format_number(report.probes[k][1]));
+  return rows;
+}
+
+std::string step_row(std::int64_t step, const StepReport& report,
+                     const std::optional<Fluid>& fluid) {
+  auto row =
+      fmt::format("{},{},{},{},{},{},{},{},{},{},{}", step, format_number(report.time),
+                  report.contacts, report.glued, report.iterations, format_number(report.residual),
+                  format_number(report.largest_overlap), report.converged ? 1 : 0,
+                  format_number(report.impulse_residual), report.parts, report.unresolved);
+  const auto& of_fluid = report.fluid;
+  if (fluid)
+    row += fmt::format(",{},{},{:.3g}", format_number(of_fluid.dissipation),
+                       format_number(of_fluid.apparent_viscosity), of_fluid.seconds);
+  if (fluid && fluid->has_inertia())
+    row +=
+        fmt::format(",{},{},{},{},{}", format_number(of_fluid.kinetic_energy),
+                    format_number(of_fluid.reynolds_number), format_number(of_fluid.courant_number),
+                    format_number(of_fluid.given_force[0]), format_number(of_fluid.given_force[1]));
+  return row + "\n";
+}
+
+std::string record_comment(const RunRecord& record, std::int64_t step) {
+  return fmt::format("{}{}: {}\n", kRecordOf, step, nlohmann::json(record).dump());
+}
+
+RunRecord read_record(const std::string& head, const std::filesystem::path& restart) {
+  const auto line = head.find(kRecordOf);
+  const auto json = head.find('{', line);
+  if (line == std::string::npos || json == std::string::npos)
+    throw_bad_input({restart.string()}, "has no record of its run");
+  try {
+    return nlohmann::json::parse(head.substr(json, head.find('\n', json) - json));
+  } catch (const nlohmann::json::exception&) {
+    throw_bad_input({restart.string()}, "has a damaged record of its run");
+  }
+}
+
+std::string run_json(const ParticlesCase& c, const StepTotals& totals, const State& state) {
+  const auto steps = static_cast<double>(std::max<std::int64_t>(totals.steps, 1));
+  Json json;
+  json["title"] = c.title;
+  json["particles"] = state.particles.count();
+  json["dimension"] = state.particles.dimension;
+  json["from_time"] = totals.first_time;
+  json["to_time"] = totals.last_time;
+  json["time_step"] = c.setting.time_step;
+  json["steps"] = totals.steps;
+  json["unconverged_steps"] = totals.unconverged;
+  json["failed_steps"] = totals.failed;
+  json["iterations"] = totals.iterations;
+  json["mean_iterations"] = static_cast<double>(totals.iterations) / steps;
+  json["largest_iterations"] = totals.most_iterations;
+  json["tolerance"] = c.setting.solver.tolerance;
+  json["impulse_tolerance"] = c.setting.solver.impulse_tolerance;
+  json["largest_residual"] = totals.largest_residual;
+  json["largest_impulse_residual"] = totals.largest_impulse_residual;
+  json["largest_gamma_error"] = largest_gamma_error(state);
+  json["divided_steps"] = totals.divided;
+  json["unresolved_contacts"] = totals.unresolved;
+  json["largest_overlap"] = totals.largest_overlap;
+  json["final_overlap"] = largest_overlap(c.setting, state);
+  json["seconds"] = totals.seconds;
+  json["peak_memory_mebibytes"] = totals.peak_memory_mebibytes;
+  if (c.setting.fluid) {
+    const auto add_estimates = [&](const std::string& key, const RelativeErrors& first,
+                                   const RelativeErrors& last) {
+      const auto number = [](double error) { return error < 0 ? Json() : Json(error); };
+      const auto add = [&](const std::string& name, double of_first, double of_last) {
+        json[name] = {{"first_step", number(of_first)}, {"last_step", number(of_last)}};
+      };
+      add(key, first.best, last.best);
+      add(key + "_of_one_mesh", first.of_one_mesh, last.of_one_mesh);
+      add(key + "_of_penalty", first.of_penalty, last.of_penalty);
+    };
+    add_estimates("velocity_error_estimate", totals.first_velocity_errors,
+                  totals.last_velocity_errors);
+    add_estimates("force_error_estimate", totals.first_force_errors, totals.last_force_errors);
+    json["average_from"] = std::max(c.average_from, totals.first_time);
+    const auto mean = [&](double value) { return totals.averaged_time > 0 ? Json(value) : Json(); };
+    json["mean_dissipation"] = mean(totals.mean_dissipation);
+    json["mean_apparent_viscosity"] = mean(totals.mean_apparent_viscosity);
+    json["unknowns"] = totals.unknowns;
+    json["fluid_seconds"] = totals.fluid_seconds;
+  }
+  return json.dump(2) + "\n";
+}
+
 namespace {
 
 namespace fs = std::filesystem;

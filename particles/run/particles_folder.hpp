@@ -1,14 +1,23 @@
 // The files in the folder of a run of many particles: their names, which of them a run may replace,
-// and removing those of an earlier run. Runs, logs and pages use it. A change must keep the names,
-// which users' scripts read.
+// removing those of an earlier run, and what they record of it: sums over its steps, for run.json,
+// and where its files end, for restart.bin (docs/file-formats.md). Times [T] are in the unit of the
+// case, computing times in seconds. Runs, logs and pages use it. A change must keep names, columns
+// and keys, which scripts of users and interrupted runs rely on.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
+#include "viscontact/common/files/growing_file.hpp"
 #include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/steps/step_report.hpp"
 
 namespace viscontact::particles {
 
@@ -51,5 +60,69 @@ void remove_results(const std::filesystem::path& folder);
 /// files that a killed process has not finished.
 void remove_later_frames(const std::filesystem::path& folder, std::uint64_t frames,
                          std::uint64_t flows);
+
+/// The largest StepReport::excess of a step that did not converge and still is a result: such steps
+/// cause a warning, and others end the command with an error.
+inline constexpr double kStillAResult = 10;
+
+/// Sums and largest values over the steps of a run: those of this call and those of the interrupted
+/// calls before it in the same folder.
+struct StepTotals {
+  /// Number of steps, of steps that did not converge, and of the iterations of all steps.
+  std::int64_t steps = 0, unconverged = 0, iterations = 0;
+  /// Number of steps among `unconverged` whose StepReport::excess is above kStillAResult.
+  std::int64_t failed = 0;
+  int most_iterations = 0;                           ///< largest number of iterations in one step
+  double first_time = 0, last_time = 0;              ///< at the start and after the last step [T]
+  double largest_residual = 0, largest_overlap = 0;  ///< divided by the mean radius
+  double largest_impulse_residual = 0;               ///< divided by the impulses at work
+  std::int64_t divided = 0;                          ///< steps that were divided into parts
+  std::int64_t unresolved = 0;                       ///< sum of StepReport::unresolved
+  double seconds = 0;                                ///< computing time of earlier calls [s]
+  double peak_memory_mebibytes = 0;                  ///< of earlier calls [MiB]
+  // With a fluid only.
+  double fluid_seconds = 0;    ///< sum of FluidStepReport::seconds [s]
+  std::uint64_t unknowns = 0;  ///< of the fluid solver, in the last step
+  /// Estimates of the relative errors of velocities and forces at the first and at the last step.
+  RelativeErrors first_velocity_errors, last_velocity_errors;
+  RelativeErrors first_force_errors, last_force_errors;
+
+  double averaged_time = 0;  ///< time over which the two means are taken [T]
+  /// Means over time of FluidStepReport::dissipation and ::apparent_viscosity; those of a step hold
+  /// from the end of the step before.
+  double mean_dissipation = 0, mean_apparent_viscosity = 0;
+
+  /// Adds a step; means are taken from the time `average_from` on [T].
+  void add(const StepReport& report, double average_from);
+};
+
+/// What a run has done when a state was reached. A file that a run needs to continue, beside the
+/// state, has an entry in `files`.
+struct RunRecord {
+  StepTotals totals;
+  std::uint64_t frames = 0, flows = 0;   ///< number of frames, and of those whose flow is written
+  double last_frame = 0;                 ///< time of the last frame [T]
+  std::uint64_t rebounds = 0;            ///< number of rows of rebounds.csv
+  std::map<std::string, FileEnd> files;  ///< ends of the files that grow, by name
+};
+
+/// The line with the names of the columns of steps.csv of a run with or without a fluid.
+std::string steps_header(const std::optional<Fluid>& fluid);
+/// The line with the names of the columns of probes.csv.
+inline constexpr std::string_view kProbesHeader = "time,name,flow,pressure\n";
+/// The rows of probes.csv of a step: one for each probe.
+std::string probe_rows(const FluidStepReport& report, std::span<const Probe> probes);
+/// The row of steps.csv of the step with the number `step`.
+std::string step_row(std::int64_t step, const StepReport& report,
+                     const std::optional<Fluid>& fluid);
+
+/// The comment line of restart.bin that contains the record after the step with the number `step`.
+std::string record_comment(const RunRecord& record, std::int64_t step);
+/// Reads that line from `head`, the first lines of the file `restart`. Throws Error(kBadInput),
+/// which names the file, if it has no such line.
+RunRecord read_record(const std::string& head, const std::filesystem::path& restart);
+
+/// The text of run.json at the end of a run with these sums.
+std::string run_json(const ParticlesCase& c, const StepTotals& totals, const State& state);
 
 }  // namespace viscontact::particles

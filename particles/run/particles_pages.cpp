@@ -14,7 +14,6 @@
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/io/playback.hpp"
 #include "viscontact/particles/io/vtk.hpp"
-#include "viscontact/particles/picture/particles_page.hpp"
 #include "viscontact/particles/picture/particles_picture.hpp"
 #include "viscontact/particles/run/particles_folder.hpp"
 #include "viscontact/terminal/progress.hpp"

@@ -28,7 +28,7 @@ struct ParticlesRequest {
 /// Error(kBadInput) before anything is written if the case or the restart file is wrong or a file
 /// must not be replaced, and after it if a file cannot be written; the same request then continues
 /// from the last restart.bin. Throws after everything is written: Error(kNotConverged) if a step
-/// missed the tolerances by more than the factor kStillAResult (particles_record.hpp) or cannot be
+/// missed the tolerances by more than the factor kStillAResult (particles_folder.hpp) or cannot be
 /// computed, Error(kInterrupted) if `stop` requested a stop. Throws Error(kWrongUsage) at the
 /// beginning if `hdf5` is asked for in a program without it.
 void run_particles(const ParticlesRequest& request);

@@ -12,12 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/common/vtk/flow_field.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/particles/case/particles_case.hpp"
 #include "viscontact/particles/impacts/rebound.hpp"
 #include "viscontact/particles/io/link_file.hpp"
 #include "viscontact/particles/run/particles_folder.hpp"
-#include "viscontact/particles/run/particles_record.hpp"
 #include "viscontact/particles/state.hpp"
 #include "viscontact/results/provenance.hpp"
 

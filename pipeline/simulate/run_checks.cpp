@@ -10,7 +10,6 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/reduced_model/models/reached_gaps.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::pipeline {

@@ -16,11 +16,10 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/pipeline/simulate/run_checks.hpp"
-#include "viscontact/pipeline/simulate/run_copies.hpp"
-#include "viscontact/reduced_model/fewer_rows.hpp"
+#include "viscontact/pipeline/simulate/run_inputs.hpp"
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/reduced_model/models/reached_gaps.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/pipeline/simulate/made_from.hpp"
+#include "viscontact/pipeline/simulate/run_inputs.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 #include "viscontact/results/failed_models.hpp"
 #include "viscontact/results/provenance.hpp"
@@ -36,7 +36,7 @@ std::vector<std::string> models_to_run(const case_file::Case& c,
 /// The results of a simulation, before they are written.
 struct Simulated {
   std::string fit_text;   ///< text of the fit file
-  CsvComments made_from;  ///< comments that identify case, fit and version (made_from.hpp)
+  CsvComments made_from;  ///< comments that identify case, fit and version (run_inputs.hpp)
   std::vector<reduced_model::Trajectory> trajectories;  ///< of the models that did not fail
   std::vector<results::FailedModel> failed;             ///< models without a trajectory
   /// Effect of the fit's errors on the motion without inertia (JSON); empty if the fit is exact or

@@ -1,7 +1,7 @@
-// The registry of models, the suffixes of their names, and the budget of models whose film is the
-// whole drag. Numbers are in any consistent units. An unknown name is an Error(kBadInput), and a
-// result that is not finite an Error(kNotConverged). A change must keep the names, and the order,
-// which gives the colours of the report.
+// The registry of models, the suffixes of their names, the budget of models whose film is the
+// whole drag, and the gaps that a model reaches. Numbers are in any consistent units. An unknown
+// name is an Error(kBadInput), and a result that is not finite an Error(kNotConverged). A change
+// must keep the names, and the order, which gives the colours of the report.
 #include "viscontact/reduced_model/models/models.hpp"
 
 #include <fmt/format.h>
@@ -16,14 +16,11 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
-#include "viscontact/reduced_model/models/contact/inelastic_contact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
-#include "viscontact/reduced_model/models/contact/viscous_contact_regular_drag.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/reference.hpp"
-#include "viscontact/reduced_model/models/reference_exact.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
@@ -295,6 +292,24 @@ Trajectory simulate(const ModelChoice& choice, const Motion& motion,
   trajectory.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return trajectory;
+}
+
+std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion& motion,
+                                        const lubrication::LubricationForce& force) {
+  try {
+    const Trajectory trajectory = simulate(choice, motion, force);
+    const auto [low, high] = std::ranges::minmax_element(trajectory.rows, {}, &TrajectoryRow::gap);
+    if (choice.model->contact == nullptr) return ReachedGaps{low->gap, high->gap};
+    const ContactModel contact = contact_model_of(choice, motion, force);
+    if (!contact.drag) return {};
+    ReachedGaps reached{{}, high->gap};
+    if (contact.contact_gap > 0)
+      reached.smallest = trajectory.recovered_minimal_gap.value_or(low->gap);
+    return reached;
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kInterrupted) throw;
+    return {};
+  }
 }
 
 }  // namespace viscontact::reduced_model

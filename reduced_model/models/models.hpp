@@ -1,7 +1,7 @@
-// The registry of models of motion. A new model needs its own source and a row in models.cpp
-// (docs/extending.md); commands, help, sweeps and the report learn of it from there. Lengths,
-// masses and times are in any consistent units. A change must keep the names of models, which case
-// files contain.
+// The registry of models of motion, and the gaps that a model reaches. A new model needs its own
+// source and a row in models.cpp (docs/extending.md); commands, help, sweeps and the report learn
+// of it from there. Lengths, masses and times are in any consistent units. A change must keep the
+// names of models, which case files contain.
 #pragma once
 
 #include <optional>
@@ -124,5 +124,20 @@ void check_model(const ModelChoice& choice, const Motion& motion,
 /// begin with the name of the model.
 Trajectory simulate(const ModelChoice& choice, const Motion& motion,
                     const lubrication::LubricationForce& force);
+
+/// The smallest and the largest gap [L] at which a model evaluates the whole drag in a motion.
+struct ReachedGaps {
+  /// Nothing for a model that evaluates no drag in a thin film.
+  std::optional<double> smallest;
+  double largest = 0;  ///< [L], >= 0
+};
+
+/// Runs the model with `force`, which must be defined for every gap > 0: it must be the exact drag,
+/// or a fit with its limits below and above. If a contact model makes contact at a threshold gap,
+/// `smallest` is the thickness of the film recovered from gamma, because the drag at these gaps
+/// determines that thickness. Returns nothing if the model evaluates no drag, or if the motion
+/// cannot be computed.
+std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion& motion,
+                                        const lubrication::LubricationForce& force);
 
 }  // namespace viscontact::reduced_model

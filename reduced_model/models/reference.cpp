@@ -1,6 +1,6 @@
-// The loop over time of the model `reference`, by the scheme of reference.hpp. Numbers are in any
-// consistent units. A step through the wall is an Error(kNotConverged). A change of results must
-// raise kModelsRevision.
+// The loop over time of the model `reference`, and the rows of `reference_exact` (reference.hpp).
+// Numbers are in any consistent units. A step through the wall is an Error(kNotConverged), a motion
+// outside the fit an Error(kBadInput). A change of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/reference.hpp"
 
 #include <fmt/format.h>
@@ -34,6 +34,21 @@ Trajectory simulate_reference(const Motion& motion, const lubrication::Lubricati
               "reference.time_step than {}",
               t, q, h));
   }
+  return trajectory;
+}
+
+Trajectory simulate_reference_exact(const Motion& motion,
+                                    const lubrication::LubricationForce& force) {
+  Trajectory trajectory;
+  const double at_start = force.impulse(motion.initial_gap);
+  for (const double t : row_times(motion)) {
+    if (trajectory.rows.size() % kStepsBetweenProgressReports == 0) report_progress(motion, t);
+    const double q = t == 0 ? motion.initial_gap
+                            : force.gap_of_impulse(at_start + motion.external_force.impulse(t));
+    const double f = motion.external_force.value(t);
+    trajectory.rows.push_back({t, q, f / force.resistance(q), -f, f, {}});
+  }
+  trajectory.steps = static_cast<long>(trajectory.rows.size()) - 1;
   return trajectory;
 }
 

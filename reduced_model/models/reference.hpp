@@ -1,7 +1,8 @@
-// The model `reference`, the lecture's reference solution (physics.md (4.3)): no inertia, explicit
-// Euler. q is the gap, u the velocity, F_lub the lubrication force, R the resistance. Lengths,
-// masses and times are in any consistent units. models.cpp lists the model. A change of results
-// must raise kModelsRevision.
+// The models without inertia: `reference`, the lecture's reference solution by explicit Euler
+// (physics.md (4.3)), and `reference_exact`, the solution without a time step by the first integral
+// (4.2). q is the gap, q0 the initial one, u the velocity, F_lub the lubrication force, R the
+// resistance, Gamma its primitive, f_ext the external force. Lengths, masses and times are in any
+// consistent units. models.cpp lists the models. A change of results must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/lubrication/lubrication_force.hpp"
@@ -19,5 +20,15 @@ namespace viscontact::reduced_model {
 /// is of first order in h. The film that it computes is too thin. Throws Error(kNotConverged) if a
 /// step goes through the wall, and Error(kBadInput) if the motion leaves the fit's interval.
 Trajectory simulate_reference(const Motion& motion, const lubrication::LubricationForce& force);
+
+/// Without inertia, R(q) dq/dt = f_ext integrates to
+///
+///     Gamma(q(t)) = Gamma(q0) + int_0^t f_ext              (the first integral without mass),
+///
+/// which is solved for q at the time of each row: the multiples of reference.time_step, and
+/// the jumps of f_ext. The velocity is u = f_ext/R(q). Throws Error(kBadInput) if the motion leaves
+/// the fit's interval.
+Trajectory simulate_reference_exact(const Motion& motion,
+                                    const lubrication::LubricationForce& force);
 
 }  // namespace viscontact::reduced_model

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "viscontact/common/vtk/flow_field.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
 
 namespace viscontact::report {
 

@@ -10,7 +10,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/lubrication/scaling.hpp"
-#include "viscontact/swimmer/resistance/chebyshev_arms.hpp"
+#include "viscontact/swimmer/resistance/resistance_fit.hpp"
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 namespace viscontact::swimmer {

@@ -15,7 +15,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/splitmix.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/swimmer/resistance/pair_lubrication.hpp"
+#include "viscontact/swimmer/resistance/resistance_fit.hpp"
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 #include "viscontact/swimmer/resistance/tensor_polynomial.hpp"
 

@@ -1,21 +1,51 @@
-// A fit of the resistance matrix of spheres on a line as a function of the gaps between them
-// (physics.md, section 7). Lengths, masses and times are in the units of the table.
-// swimmer/fit/fit_resistance.hpp makes it, and fitted_resistance.hpp evaluates it. A change must
-// keep the keys of the file, which other programs may read.
+// A fit of the resistance matrix R of spheres on a line as a function of the gaps between them
+// (physics.md, section 7), the lubrication between neighbours that it contains, and R at any gaps
+// from it. Lengths, masses and times are in the units of the table. swimmer/fit/fit_resistance.hpp
+// makes it, and the mechanics of the swimmer evaluates it. A change must keep the keys of the file,
+// which other programs may read, the formula of the lubrication, because files contain only the
+// rest, and R symmetric and positive definite.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <map>
+#include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
+#include "viscontact/swimmer/resistance/tensor_polynomial.hpp"
 
 namespace viscontact::swimmer {
 
+/// The most terms of pair_lubrication.
+inline constexpr int kLubricationTerms = 3;
+
+/// The singular part of the resistance of two spheres, radii a and b [L] > 0 and surfaces at the
+/// distance gap [L] > 0, against a change of their distance, over the viscosity [L]:
+///
+///   6 pi a [ g1/xi + g2 ln(1 + 1/xi) + g3 xi ln(1 + 1/xi) ],   xi = 2 gap/(a + b),
+///
+/// with g1, g2, g3 of Jeffrey & Onishi 1984 (J. Fluid Mech. 139, 261, equation (3.17) for X11A).
+/// Their ln(1/xi) is replaced by ln(1 + 1/xi), which has the same singularity and stays positive.
+/// The value is symmetric in a and b. The first `terms` of the three are added, 0 to
+/// kLubricationTerms.
+double pair_lubrication(double a, double b, double gap, int terms);
+
+/// The resistance matrix over the viscosity [L] of a line of spheres of which only neighbours
+/// resist a change of their gap, by pair_lubrication(). `radii` and `gaps` are in [L]; `gaps` has
+/// one element less than `radii`. The matrix is positive semidefinite.
+Eigen::MatrixXd lubrication_matrix(std::span<const double> radii, std::span<const double> gaps,
+                                   int terms);
+
+/// d pair_lubrication / d gap [1].
+double pair_lubrication_slope(double a, double b, double gap, int terms);
+
 /// R = mu (R_lub + l exp(S)), physics.md (7.2), with the viscosity mu and the largest radius l.
-/// R_lub [L] is the lubrication between neighbours (pair_lubrication.hpp), which is known: singular
+/// R_lub [L] is the lubrication between neighbours, lubrication_matrix(), which is known: singular
 /// at contact and positive semidefinite. S [1] is symmetric, and each of its entries is a
 /// polynomial in t_k = 1/(gap_k + a_k + a_{k+1}), the inverse distance of the centres of spheres k
 /// and k + 1 with radii a_k and a_{k+1}. Therefore R is symmetric and positive definite for any
@@ -52,5 +82,52 @@ std::string write_resistance_fit(const ResistanceFit& fit);
 
 /// Reads a fit file. Throws Error(kBadInput) with the line, the key and what is allowed.
 ResistanceFit read_resistance_fit(const std::filesystem::path& path);
+
+/// `count` >= 2 rising distances of centres from `from` to `to` [L], 0 < from < to: the extrema of
+/// a Chebyshev polynomial in 1/distance, at which polynomials in 1/distance interpolate well
+/// (ResistanceFit). Both ends are among them.
+inline std::vector<double> chebyshev_arms(double from, double to, int count) {
+  std::vector<double> arms;
+  for (int i = 0; i < count; ++i) {
+    const double share = (1 - std::cos(std::numbers::pi * i / (count - 1))) / 2;
+    arms.push_back(1 / ((1 - share) / from + share / to));
+  }
+  arms.front() = from;
+  arms.back() = to;
+  return arms;
+}
+
+/// R and its derivatives.
+struct ResistanceWithSlopes {
+  Eigen::MatrixXd value;                ///< R [M/T], symmetric and positive definite
+  std::vector<Eigen::MatrixXd> slopes;  ///< dR/dgap_k [M/(L T)] for each gap
+};
+
+/// Evaluates a ResistanceFit.
+class FittedResistance {
+ public:
+  /// Copies what it needs from `fit`, so that `fit` need not outlive the object.
+  explicit FittedResistance(const ResistanceFit& fit);
+
+  /// The radii of the spheres along the line [L], > 0.
+  const std::vector<double>& radii() const { return radii_; }
+
+  /// The smallest and the largest value of gap k [L] in the table.
+  std::array<double, 2> gap_interval(std::size_t k) const { return intervals_.at(k); }
+
+  /// True if each gap is within its interval, up to a relative 1e-12 for rounding.
+  bool contains(std::span<const double> gaps) const;
+
+  /// R at these gaps [L], one less than the spheres. Throws Error(kBadInput) unless contains(gaps).
+  ResistanceWithSlopes operator()(std::span<const double> gaps) const;
+
+ private:
+  double viscosity_;
+  std::vector<double> radii_;
+  int lubrication_terms_;
+  std::vector<std::array<double, 2>> intervals_;
+  double unit_length_;  ///< the largest radius
+  TensorPolynomial logarithm_;
+};
 
 }  // namespace viscontact::swimmer

@@ -11,7 +11,6 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/json_fields.hpp"
 #include "viscontact/lubrication/scaling.hpp"
-#include "viscontact/swimmer/resistance/pair_lubrication.hpp"
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
 
 namespace viscontact::swimmer {

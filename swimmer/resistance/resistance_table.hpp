@@ -73,14 +73,14 @@ ResistanceTable read_resistance_table(const std::filesystem::path& path);
 std::vector<std::vector<double>> gap_grid(const ResistanceTable& table);
 
 /// The length by which `radii` [L] differ from radii of the same number, `other`: radii = ratio
-/// other. Throws Error(kBadInput) if there is no such ratio up to rounding; `what` names the owner of
-/// `other`, "table" or "fit".
+/// other. Throws Error(kBadInput) if there is no such ratio up to rounding; `what` names the owner
+/// of `other`, "table" or "fit".
 double ratio_of_radii(const std::vector<double>& radii, const std::vector<double>& other,
                       std::string_view what);
 
-/// The table for spheres of other radii [L], in a fluid of another viscosity mu' [M/(L T)] > 0. Stokes
-/// flow has no length of its own: with r' = ratio r, the matrix at the gaps ratio q is (mu'/mu) ratio
-/// R(q). The container grows with the spheres. Throws the error of ratio_of_radii().
+/// The table for spheres of other radii [L], in a fluid of another viscosity mu' [M/(L T)] > 0.
+/// Stokes flow has no length of its own: with r' = ratio r, the matrix at the gaps ratio q is
+/// (mu'/mu) ratio R(q). The container grows with the spheres. Throws the error of ratio_of_radii().
 ResistanceTable scaled_to(ResistanceTable table, double viscosity,
                           const std::vector<double>& radii);
 

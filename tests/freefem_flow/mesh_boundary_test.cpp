@@ -17,7 +17,7 @@
 #include "tests/common/failure.hpp"
 #include "tests/freefem_flow/placed_flow.hpp"
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
-#include "viscontact/particles/fluid/overlapping_members.hpp"
+#include "viscontact/particles/outline.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

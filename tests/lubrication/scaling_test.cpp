@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
-#include "viscontact/lubrication/spread_gaps.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact::lubrication {

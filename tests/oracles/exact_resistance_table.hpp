@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tests/oracles/collinear_spheres.hpp"
-#include "viscontact/swimmer/resistance/chebyshev_arms.hpp"
+#include "viscontact/swimmer/resistance/resistance_fit.hpp"
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 namespace viscontact {

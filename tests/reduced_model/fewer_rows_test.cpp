@@ -1,5 +1,3 @@
-#include "viscontact/reduced_model/fewer_rows.hpp"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact::reduced_model {
 namespace {

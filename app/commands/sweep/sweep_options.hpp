@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "viscontact/app/arguments/command_options.hpp"
-#include "viscontact/app/commands/array_options.hpp"
 #include "viscontact/case_file/case_template.hpp"
 #include "viscontact/particles/case/particles_study.hpp"
 #include "viscontact/sweep/study.hpp"

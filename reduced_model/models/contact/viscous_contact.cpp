@@ -1,6 +1,7 @@
-// The models `viscous_contact` and `viscous_contact_leapfrog`: contact at the gap q = 0 and no
-// resolved drag. A fit without a positive coefficient of 1/q is an Error(kBadInput). A change of
-// results must raise kModelsRevision.
+// The models `viscous_contact`, `viscous_contact_leapfrog` and `inelastic_contact`: contact at the
+// gap q = 0 [L] and no resolved drag, and `viscous_contact_regular_drag` with the drag R(q) - k/q
+// [M/T]. A fit without a positive coefficient k of 1/q is an Error(kBadInput); inelastic contact
+// needs none. A change of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
 #include <algorithm>
@@ -31,5 +32,15 @@ ContactModel viscous_contact_leapfrog(const Motion& motion,
   model.is_staggered = true;
   return model;
 }
+
+ContactModel viscous_contact_regular_drag(const Motion& motion,
+                                          const lubrication::LubricationForce& force) {
+  ContactModel model = viscous_contact(motion, force);
+  model.drag = ResolvedDrag{[&force](double q) { return force.regular_resistance(q); },
+                            [&force](double q) { return force.regular_impulse(q); }};
+  return model;
+}
+
+ContactModel inelastic_contact(const Motion&, const lubrication::LubricationForce&) { return {}; }
 
 }  // namespace viscontact::reduced_model

@@ -1,8 +1,10 @@
-// The models `viscous_contact` and `viscous_contact_leapfrog` (physics.md (4.4) to (4.6)). q is the
-// gap, u the velocity, m the mass, f_ext the external force, lambda the force of the contact, gamma
-// minus the impulse that the film has absorbed, k the coefficient of 1/q in the resistance; - and +
-// mark values before and after an impact. Lengths, masses and times are in any consistent units.
-// models.cpp lists the models. A change of results must raise kModelsRevision.
+// The models `viscous_contact` and `viscous_contact_leapfrog` (physics.md (4.4) to (4.6)), and the
+// two that differ from them by one term: `viscous_contact_regular_drag` (4.7), and plain inelastic
+// contact for comparison. q is the gap, u the velocity, m the mass, f_ext the external force,
+// lambda the force of the contact, gamma minus the impulse that the film has absorbed, k the
+// coefficient of 1/q in the resistance R; - and + mark values before and after an impact. Lengths,
+// masses and times are in any consistent units. models.cpp lists the models. A change of results
+// must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
@@ -31,5 +33,32 @@ ContactModel viscous_contact(const Motion& motion, const lubrication::Lubricatio
 /// The gap then is of second order in h away from impacts.
 ContactModel viscous_contact_leapfrog(const Motion& motion,
                                       const lubrication::LubricationForce& force);
+
+/// The lecture's splitting (Lefebvre 2008, "Methode de splitting") for a fluid solver that resolves
+/// the drag without its singular part k/q. Each step is that of contact_step.hpp, with the step h,
+/// the mean external force f^n and the force lambda of the contact,
+///
+///     m (u^{n+1} - u^n) = h f^n - (Gamma_res(q^{n+1}) - Gamma_res(q^n)) + h lambda,
+///     Gamma_res(q) = int_0^q (R(q') - k/q') dq'.
+///
+/// The lecture instead projects u^{n+1/2}, the velocity after a step with drag and lambda = 0. The
+/// drag then acts even on a sphere at rest in contact, and in each step gamma lacks the fraction h
+/// (R - k/q)/m of the load. Here the drag enters by its impulse along the path of the sphere. Film
+/// and gamma therefore agree with the first integral for every step length: m u + Gamma_res(q) +
+/// gamma is the impulse of the external force plus a constant. Below the fit's interval R - k/q is
+/// constant. `force` must outlive the model. Throws Error(kBadInput) if the fit's resistance has no
+/// positive coefficient of 1/q, or if the motion goes above the fit's interval.
+ContactModel viscous_contact_regular_drag(const Motion& motion,
+                                          const lubrication::LubricationForce& force);
+
+/// Plain inelastic contact (Moreau 1988): the sphere stops on the wall and leaves it as soon as it
+/// is pulled,
+///
+///     q >= 0,  lambda >= 0,  q lambda = 0,  m d^2q/dt^2 = f_ext + lambda,
+///     u+ = max(u-, 0) where q = 0.
+///
+/// This is viscous contact with gamma_min = 0, that is without a memory. `force` is not used, and
+/// nothing is thrown.
+ContactModel inelastic_contact(const Motion& motion, const lubrication::LubricationForce& force);
 
 }  // namespace viscontact::reduced_model

@@ -19,8 +19,8 @@
 #include "viscontact/common/system/process.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
-#include "viscontact/lubrication/spread_gaps.hpp"
 
 namespace viscontact::fitting {
 namespace {

@@ -1,7 +1,5 @@
 // Bodies of discs that overlap, in the fluid of FreeFEM: the fluid sees their union. Viscosity 1.
 // Docs: fluid.md.
-#include "viscontact/particles/fluid/overlapping_members.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "tests/freefem_flow/placed_flow.hpp"
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
+#include "viscontact/particles/outline.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
@@ -78,8 +77,8 @@ TEST(OverlappingMembers, InARowMoveAsAPlate) {
   }
 }
 
-// A body with the mass of the fluid in its place stays where it is, without turning: buoyancy acts on
-// the union, at the centre of its area.
+// A body with the mass of the fluid in its place stays where it is, without turning: buoyancy acts
+// on the union, at the centre of its area.
 TEST(OverlappingMembers, FloatInAFluidOfTheirDensity) {
   InRoundWall body({{-0.3, 0.2, 0.5}, {0.3, -0.1, 0.3}, {-0.9, 0.3, 0.2}});
   auto& p = body.state.particles;
@@ -103,8 +102,8 @@ TEST(OverlappingMembers, FloatInAFluidOfTheirDensity) {
   }
 }
 
-// Two plates of one body whose circles meet, but not the plates, are plates, by rigid motions and by
-// penalty.
+// Two plates of one body whose circles meet, but not the plates, are plates, by rigid motions and
+// by penalty.
 TEST(OverlappingMembers, AreNoPlatesWhoseCirclesMeet) {
   const auto velocity = [](RigidConstraint constraint) {
     InRoundWall body({{0, -0.5, 1}, {0, 0.5, 1}}, 12);

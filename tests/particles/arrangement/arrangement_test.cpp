@@ -109,8 +109,8 @@ TEST(Arrangement, LeavesTheGapsToPresentParticles) {
   EXPECT_GE(smallest_gap(x, domain), kGap - 1e-13);
 }
 
-/// The smallest gap of two spheres or discs of these radii, across periodic sides too, and of one and
-/// a wall of the box.
+/// The smallest gap of two spheres or discs of these radii, across periodic sides too, and of one
+/// and a wall of the box.
 double smallest_gap_in_box(const std::vector<double>& x, const std::vector<double>& radii,
                            const BoxDomain& box) {
   const auto n = box.dimension();

@@ -1,4 +1,6 @@
 // Particles that are poured in: their times, places, and bits after a restart; and those that wait.
+#include "viscontact/particles/arrangement/source.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,7 +8,6 @@
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/arrangement/pouring.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/restart.hpp"
 

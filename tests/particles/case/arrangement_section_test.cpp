@@ -1,5 +1,5 @@
-// The sections [arrangement] and [[source]]: which particles they add, their defaults, and what they
-// refuse.
+// The sections [arrangement] and [[source]]: which particles they add, their defaults, and what
+// they refuse.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

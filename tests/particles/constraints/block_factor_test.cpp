@@ -1,5 +1,5 @@
-// The factors of small dense blocks against the formula of Woodbury, where stiff contacts of 1e10 stand
-// beside masses of 1, and in other units.
+// The factors of small dense blocks against the formula of Woodbury, where stiff contacts of 1e10
+// stand beside masses of 1, and in other units.
 #include "viscontact/particles/constraints/block_factor.hpp"
 
 #include <gtest/gtest.h>
@@ -98,7 +98,8 @@ struct Chain {
     return solution;
   }
 
-  /// Woodbury (1950), "Inverting modified matrices": only sums of the order of 1 and of 1e-10 occur.
+  /// Woodbury (1950), "Inverting modified matrices": only sums of the order of 1 and of 1e-10
+  /// occur.
   Eigen::VectorXd expected() const {
     const Eigen::VectorXd free = sides.cwiseQuotient(masses);
     const Eigen::MatrixXd moved = masses.cwiseInverse().asDiagonal() * left.transpose();
@@ -113,8 +114,8 @@ void expect_digits() {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const Chain<K> chain(kIsSymmetric, 1, seed);
     const auto expected = chain.expected();
-    // Numbers of 1e10 have rounding errors of 1e-6 beside masses of 1. A second solution squares what
-    // the first one leaves, but for the rounding errors of numbers of 1.
+    // Numbers of 1e10 have rounding errors of 1e-6 beside masses of 1. A second solution squares
+    // what the first one leaves, but for the rounding errors of numbers of 1.
     EXPECT_LE((chain.template solved<kIsSymmetric>(1) - expected).norm(), 1e-4 * expected.norm())
         << seed;
     EXPECT_LE((chain.template solved<kIsSymmetric>(2) - expected).norm(), 1e-10 * expected.norm())

@@ -10,7 +10,6 @@
 
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/constraints/constraint_problem.hpp"
-#include "viscontact/particles/constraints/contact_rows.hpp"
 
 namespace viscontact::particles {
 

@@ -11,7 +11,7 @@
 #include "tests/particles/dual_problem/dense_problem.hpp"
 #include "tests/particles/dual_problem/random_problem.hpp"
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/dual_problem/dual_solver.hpp"
+#include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -14,8 +14,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// Impulses are exact to 1e-10 of the impulses at work (SolverSettings::impulse_tolerance), and so are
-/// slips and what follows from both; all numbers are of the order of 1 to 10.
+/// Impulses are exact to 1e-10 of the impulses at work (SolverSettings::impulse_tolerance), and so
+/// are slips and what follows from both; all numbers are of the order of 1 to 10.
 constexpr double kExact = 1e-9;
 
 constexpr double kDrag = 5, kTurning = 2, kRadius = 0.5, kThreshold = 0.05;
@@ -182,8 +182,8 @@ TEST(FrictionInFluid, OfWallsOfAShearFlowIsThatOfTheirVelocityAlongThem) {
 }
 
 TEST(FrictionInFluid, KeepsTheTorqueOfAPair) {
-  // Two discs of unequal size, pressed on each other and sheared: forces of the contact have neither
-  // a sum nor a torque.
+  // Two discs of unequal size, pressed on each other and sheared: forces of the contact have
+  // neither a sum nor a torque.
   auto system = in_fluid(2, 10, 0.1, kThreshold);
   system.setting.laws.film.gamma_min = 0;
   system.setting.laws.friction = FrictionLaw{0.3};
@@ -241,8 +241,8 @@ Resistance drag_in_units(const Heap& of) {
   };
 }
 
-/// Coulomb's law at every contact of every step, measured at the velocities of the step: by positions
-/// before and after it.
+/// Coulomb's law at every contact of every step, measured at the velocities of the step: by
+/// positions before and after it.
 void expect_coulomb(const Heap& of, int steps) {
   auto system = heap(of);
   const double l = of.unit_of_length, f = of.unit_of_force;
@@ -382,8 +382,8 @@ TEST(FrictionInFluid, ThatPassesThroughAHingeIsNone) {
   }
 }
 
-/// A body of two discs on a hinge that falls on the floor: in the step in which it meets the floor it
-/// turns by another angle than without contact, and the hinge and the body hold all the same.
+/// A body of two discs on a hinge that falls on the floor: in the step in which it meets the floor
+/// it turns by another angle than without contact, and the hinge and the body hold all the same.
 TEST(HeldInFluid, BodiesAndHingesHoldWhereAContactStopsTheirTurn) {
   const double load = 30;
   auto system = in_fluid(2, 20, 0.1, kThreshold);

@@ -112,8 +112,8 @@ TEST(PlateContact, TurnAboutAnEndAtTheRateOfTheLever) {
   EXPECT_NEAR(gamma_of_ends(simulation.state()), -1e-4 * 1 / (1 + lever * lever), 1e-9);
 }
 
-// A plate that lies on the floor slides with Coulomb's friction at both ends. Friction acts below the
-// centre, and therefore the end in front has the larger load.
+// A plate that lies on the floor slides with Coulomb's friction at both ends. Friction acts below
+// the centre, and therefore the end in front has the larger load.
 TEST(PlateContact, SlidesOnBothEnds) {
   const double drag = 0.5, load = 4, pull = 2, mu_s = 0.3, h = 0.05;
   auto system = with_plates(h);
@@ -136,8 +136,8 @@ TEST(PlateContact, SlidesOnBothEnds) {
     EXPECT_NEAR(contact.tangential_force[0], -mu_s * contact.normal_force, 1e-9);
 }
 
-// With friction enough, the point of the lower end that touches the floor stays where it is while the
-// plate falls over.
+// With friction enough, the point of the lower end that touches the floor stays where it is while
+// the plate falls over.
 TEST(PlateContact, TurnsAboutAnEndThatSticks) {
   const double h = 1e-4, angle = 0.7;
   auto system = with_plates(h);
@@ -237,8 +237,8 @@ TEST_P(Plates, ReboundFromTheFloor) {
   EXPECT_NEAR(simulation.state().particles.velocities[1], 0.6, 1e-3);
 }
 
-// On a hinge the blow turns a plate back with e_d of its rate; the hinge takes the rest. A stop gives
-// nothing back.
+// On a hinge the blow turns a plate back with e_d of its rate; the hinge takes the rest. A stop
+// gives nothing back.
 TEST_P(Plates, ReboundOnAHingeAndRestOnAStop) {
   const auto after = [&](double lowest_angle) {
     const double h = 0.005, angle = 0.4, l = kHalf - kEnd;
@@ -275,8 +275,8 @@ TEST_P(Plates, ReboundOnAHingeAndRestOnAStop) {
   EXPECT_NEAR(after(-std::asin(1 / (2 * l)) + 0.1), 0, 1e-6);
 }
 
-// A hinge holds the end of a plate where a fixed disc touches it: no force of this contact moves the
-// plate, which turns about the hinge as if the disc were not there.
+// A hinge holds the end of a plate where a fixed disc touches it: no force of this contact moves
+// the plate, which turns about the hinge as if the disc were not there.
 TEST_P(Plates, OnAHingeAtTheirContactTurnAsWithoutIt) {
   const auto angle_with = [&](bool has_disc) {
     auto system = with_plates(0.01, GetParam());
@@ -302,8 +302,8 @@ TEST_P(Plates, OnAHingeAtTheirContactTurnAsWithoutIt) {
   EXPECT_NEAR(angle_with(true), angle_with(false), 1e-9);
 }
 
-// A disc of the mass 0.5 and the velocity 1 meets a plate that rests on its stop, 0.7 from the hinge: the
-// stop takes the moment (1 + e_d) 0.5 0.7 of the whole blow, and the plate stays.
+// A disc of the mass 0.5 and the velocity 1 meets a plate that rests on its stop, 0.7 from the
+// hinge: the stop takes the moment (1 + e_d) 0.5 0.7 of the whole blow, and the plate stays.
 TEST_P(Plates, OnAStopGiveItTheWholeBlow) {
   for (const double dry : {0.0, 0.5, 1.0}) {
     auto system = with_plates(0.01, GetParam());
@@ -330,7 +330,8 @@ TEST_P(Plates, OnAStopGiveItTheWholeBlow) {
   }
 }
 
-// Plates that are pressed on each other come to lie flat, with both of their ends at the threshold gap.
+// Plates that are pressed on each other come to lie flat, with both of their ends at the threshold
+// gap.
 TEST_P(Plates, ThatLieOnEachOtherKeepBothEndsApart) {
   for (const double tilt : {0.0, 0.01, 0.3}) {
     auto system = with_plates(0.01, GetParam());
@@ -350,8 +351,9 @@ TEST_P(Plates, ThatLieOnEachOtherKeepBothEndsApart) {
   }
 }
 
-// The load of a plate that lies on a fixed one is shared by its contacts as by the supports of a beam: the
-// ends of the spines are at x = 9.1, 10.9 and 9.6, 11.4, so that the contacts are at 9.6 and 10.9.
+// The load of a plate that lies on a fixed one is shared by its contacts as by the supports of a
+// beam: the ends of the spines are at x = 9.1, 10.9 and 9.6, 11.4, so that the contacts are at 9.6
+// and 10.9.
 TEST_P(Plates, ShareALoadAsABeam) {
   auto system = with_plates(0.01, GetParam());
   add_plate(system, {10, 10, 0}, 0, 1);
@@ -369,8 +371,9 @@ TEST_P(Plates, ShareALoadAsABeam) {
   EXPECT_NEAR(simulation.state().particles.angles[1], 0, 1e-9);
 }
 
-// Each end of a plate that lies on another one has a film, which books the load of this end. Without its
-// load the plate, pulled in its middle, comes off without turning, as the mirror image of itself.
+// Each end of a plate that lies on another one has a film, which books the load of this end.
+// Without its load the plate, pulled in its middle, comes off without turning, as the mirror image
+// of itself.
 TEST_P(Plates, ThatLieOnEachOtherHaveAFilmAtEachEnd) {
   auto system = with_plates(0.01, GetParam());
   add_plate(system, {10, 10, 0}, 0, 1);

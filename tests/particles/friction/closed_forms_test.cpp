@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/rotation.hpp"
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

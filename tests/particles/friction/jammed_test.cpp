@@ -1,4 +1,5 @@
-// A packing that comes to rest with friction: what a step leaves that does not reach the tolerances.
+// A packing that comes to rest with friction: what a step leaves that does not reach the
+// tolerances.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/io/restart.hpp"
-#include "viscontact/particles/rotation.hpp"
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "tests/particles/impacts/scene.hpp"
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
-#include "viscontact/particles/rotation.hpp"
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

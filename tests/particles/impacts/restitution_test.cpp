@@ -14,7 +14,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/current_contacts.hpp"
-#include "viscontact/particles/rotation.hpp"
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

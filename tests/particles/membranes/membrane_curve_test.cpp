@@ -7,7 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "viscontact/particles/membranes/membrane_shape.hpp"
+#include "viscontact/particles/membranes/membrane.hpp"
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

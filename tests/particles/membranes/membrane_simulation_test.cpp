@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "tests/common/failure.hpp"
+#include "viscontact/particles/membranes/membrane.hpp"
 #include "viscontact/particles/membranes/membrane_curve.hpp"
-#include "viscontact/particles/membranes/membrane_shape.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -11,9 +11,8 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/particles/membranes/membrane.hpp"
 #include "viscontact/particles/membranes/membrane_motion.hpp"
-#include "viscontact/particles/membranes/membrane_shape.hpp"
-#include "viscontact/particles/membranes/necklace_rows.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -166,8 +165,8 @@ TEST(Necklace, KeepsMomentaLengthsAndArea) {
   const auto distances = distances_of(necklace_of(scene.membrane(), p));
   EXPECT_NEAR(distances.maxCoeff(), 6.6 / 20, 1e-9);
   EXPECT_NEAR(distances.minCoeff(), 6.6 / 20, 1e-9);
-  // Each bead turns with the line between its neighbours, (8.10), at the places where the step began:
-  // those of its end differ by the step times the rate.
+  // Each bead turns with the line between its neighbours, (8.10), at the places where the step
+  // began: those of its end differ by the step times the rate.
   double fastest = 0, largest = 0;
   for (std::int32_t k = 0; k < scene.membrane().count(); ++k) {
     const auto before_it = index_of(scene.membrane().bead(k - 1)),
@@ -183,12 +182,12 @@ TEST(Necklace, KeepsMomentaLengthsAndArea) {
   EXPECT_LT(largest, 0.05 * fastest);
 }
 
-// A ring of the radius R, the mass rho per length, the rigidity B and the bending viscosity eta swings
-// in the mode cos(2 theta) with the frequency omega and decays with the rate gamma,
+// A ring of the radius R, the mass rho per length, the rigidity B and the bending viscosity eta
+// swings in the mode cos(2 theta) with the frequency omega and decays with the rate gamma,
 //   omega^2 = B m^2 (m^2 - 1)^2/(rho R^4 (m^2 + 1)), m = 2,   2 gamma = eta omega^2/B
 // (Love 1927, art. 293, for an inextensible ring; a ring whose natural curvature is 0 has the same
-// energy up to a constant, because its turns add up to 2 pi). A polygon of 40 beads differs by 1/40^2
-// times a number of order 10.
+// energy up to a constant, because its turns add up to 2 pi). A polygon of 40 beads differs by
+// 1/40^2 times a number of order 10.
 TEST(Necklace, SwingsAndDecaysAsARing) {
   constexpr double kRadius = 6.6 / (2 * kPi), kAmplitude = 0.01, kViscosity = 0.05, kModes = 2;
   Scene scene;
@@ -228,8 +227,8 @@ TEST(Necklace, SwingsAndDecaysAsARing) {
 }
 
 TEST(Necklace, HasALargestArea) {
-  // A regular polygon; a triangle of the sides 3, 4, 5, whose circle has its centre on a side; and an
-  // obtuse triangle, whose circle has it outside.
+  // A regular polygon; a triangle of the sides 3, 4, 5, whose circle has its centre on a side; and
+  // an obtuse triangle, whose circle has it outside.
   const std::vector<double> regular(7, 0.3), right = {3, 4, 5}, obtuse = {2, 3, 4.5};
   EXPECT_NEAR(largest_area(regular), 7 * 0.09 / (4 * std::tan(kPi / 7)), 1e-12);
   EXPECT_NEAR(largest_area(right), 6, 1e-12);
@@ -337,7 +336,8 @@ TEST(Necklace, UnitsOrderAndRotationDoNotMatter) {
   EXPECT_NEAR(measures.x, reference.x * std::cos(0.7) - reference.y * std::sin(0.7), 1e-8);
 }
 
-/// A necklace with its centre at this height above a floor, under gravity, with a bending viscosity.
+/// A necklace with its centre at this height above a floor, under gravity, with a bending
+/// viscosity.
 Scene above_a_floor(double height, double viscosity) {
   Scene scene;
   scene.gravity = {0, -1, 0};

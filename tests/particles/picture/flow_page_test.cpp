@@ -5,7 +5,7 @@
 #include "tests/particles/picture/page_reader.hpp"
 #include "tests/particles/picture/playbacks.hpp"
 #include "tests/report/flow/flows.hpp"
-#include "viscontact/particles/picture/particles_page.hpp"
+#include "viscontact/particles/picture/particles_picture.hpp"
 
 namespace viscontact::particles {
 namespace {

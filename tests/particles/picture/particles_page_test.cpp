@@ -1,6 +1,4 @@
 // The page that plays a motion of particles, in a browser (chromium) and as text.
-#include "viscontact/particles/picture/particles_page.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -370,7 +368,8 @@ TEST_P(ParticlesInBrowser, ParticlesThatArePouredInAreShownFromTheirFirstFrameOn
 })();
 )JS",
                                700);
-  // The contacts of the nearer frame are drawn, at 1.3 without that of the particle that comes at 1.5.
+  // The contacts of the nearer frame are drawn, at 1.3 without that of the particle that comes at
+  // 1.5.
   EXPECT_EQ(found, (nlohmann::json{{3, 0, 0}, {3, 2, 2}, {4, 3, 3}, {4, 7, 7}}));
 }
 
@@ -411,7 +410,8 @@ TEST_P(ParticlesInBrowser, ContactIsAsLongAsThePairIsApartWhileItCrossesAPeriod)
 )JS",
                                700);
   ASSERT_EQ(found.size(), 5U);
-  // By perspective, lines at both sides of the cell differ by 12 percent; the cell is 5 times as long.
+  // By perspective, lines at both sides of the cell differ by 12 percent; the cell is 5 times as
+  // long.
   for (const double length : found) EXPECT_NEAR(length / found[0].get<double>(), 1, 0.2);
 }
 

@@ -6,7 +6,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "tests/report/flow/flows.hpp"
 #include "viscontact/common/vtk/flow_vtk.hpp"
-#include "viscontact/particles/picture/particles_page.hpp"
+#include "viscontact/particles/picture/particles_picture.hpp"
 
 namespace viscontact::particles {
 
@@ -60,9 +60,9 @@ inline Playback linked_row(int dimension, int frames) {
   return playback;
 }
 
-/// A row of four discs or spheres of radius 1 with friction 0.5 and without films. The forces of the
-/// three contacts are 4, 2 and 1. The first sticks with half of Coulomb's bound, the second slides,
-/// and the third has no friction.
+/// A row of four discs or spheres of radius 1 with friction 0.5 and without films. The forces of
+/// the three contacts are 4, 2 and 1. The first sticks with half of Coulomb's bound, the second
+/// slides, and the third has no friction.
 inline Playback loaded_row(int dimension) {
   auto playback = falling_row(dimension, 4, 1);
   playback.friction_coefficient = 0.5;

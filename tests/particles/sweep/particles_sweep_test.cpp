@@ -12,7 +12,7 @@
 #include "tests/particles/sweep/particles_case.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particles/case/particles_study.hpp"
-#include "viscontact/particles/run/particles_record.hpp"
+#include "viscontact/particles/run/particles_folder.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -1,9 +1,8 @@
-#include "viscontact/pipeline/simulate/made_from.hpp"
-
 #include <gtest/gtest.h>
 
 #include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/pipeline/simulate/run_inputs.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 #include "viscontact/results/provenance.hpp"
 

@@ -1,11 +1,10 @@
-#include "viscontact/pipeline/simulate/run_copies.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/pipeline/simulate/run_inputs.hpp"
 #include "viscontact/results/provenance.hpp"
 
 namespace viscontact::pipeline {

@@ -89,8 +89,8 @@ TEST_F(ShippedFluidCase, ShearedDiscsRubEachOther) {
   EXPECT_GT(rubbing, 0);
 }
 
-// The wall of a shear flow drags a disc that is pressed on it. In the fluid alone, the force and the
-// torque of Coulomb's friction move it in the same way.
+// The wall of a shear flow drags a disc that is pressed on it. In the fluid alone, the force and
+// the torque of Coulomb's friction move it in the same way.
 TEST_F(ShippedFluidCase, FrictionIsAForceAndATorque) {
   const auto text = [](const std::string& friction, const std::string& force) {
     return "title = \"A disc at a wall\"\n[space]\ndimension = 2\n"

@@ -1,5 +1,5 @@
-// The HDF5 file that `viscontact particles --hdf5` writes: its numbers, in h5py, are those of the other
-// results of the run, and no failure leaves a part of it. libhdf5 and h5py must be there
+// The HDF5 file that `viscontact particles --hdf5` writes: its numbers, in h5py, are those of the
+// other results of the run, and no failure leaves a part of it. libhdf5 and h5py must be there
 // (scripts/setup --tests).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,8 @@ using ::testing::HasSubstr;
 
 class Hdf5File : public ParticlesCommand {
  protected:
-  /// Runs a script of this folder with Debian's python3, for which python3-h5py and python3-vtk9 are.
+  /// Runs a script of this folder with Debian's python3, for which python3-h5py and python3-vtk9
+  /// are.
   static void expect_script_done(const std::string& words) {
     const TemporaryFolder scratch;
     const auto log = scratch.path() / "log.txt";

@@ -133,8 +133,8 @@ TEST_F(ParticlesCommand, ARestartHasTheSourcesOfItsRunAndMayHaveMore) {
   EXPECT_EQ(poured(source(), run_half("", "none"), "new"), 6);
 }
 
-// A disc of the radius 1 hangs on a hinge at its top and swings from the angle 0 to about 1; a restart
-// with a stop at 0.5 would have to turn it back at once.
+// A disc of the radius 1 hangs on a hinge at its top and swings from the angle 0 to about 1; a
+// restart with a stop at 0.5 would have to turn it back at once.
 TEST_F(ParticlesCommand, ARestartIsNotBeyondAStop) {
   const std::string swing = R"(title = "Swing"
 [space]

@@ -86,7 +86,8 @@ TEST_F(SwimmerCommand, SwimsWithTheShippedTableAsThePublishedSwimmerDoes) {
     EXPECT_THAT(read_file(path("out/plots/") + name + ".svg"), HasSubstr("</svg>")) << name;
 }
 
-/// Stokes flow has no length of its own: displacements scale with the radius r, energies with mu r^3/T.
+/// Stokes flow has no length of its own: displacements scale with the radius r, and energies with
+/// mu r^3/T.
 TEST_F(SwimmerCommand, NamedTableServesOtherRadiiAndViscosities) {
   const auto swum = [&](double radius, double viscosity) {
     const auto text = fmt::format(

@@ -12,7 +12,7 @@
 #include "tests/common/failure.hpp"
 #include "tests/reduced_model/cases.hpp"
 #include "viscontact/common/text/csv.hpp"
-#include "viscontact/reduced_model/models/reference_exact.hpp"
+#include "viscontact/reduced_model/models/reference.hpp"
 
 namespace viscontact::reduced_model {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/reduced_model/cases.hpp"
-#include "viscontact/reduced_model/models/reference_exact.hpp"
 
 namespace viscontact::reduced_model {
 namespace {

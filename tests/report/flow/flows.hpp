@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "viscontact/common/vtk/flow_field.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/report/flow/flow_grid.hpp"
 
 namespace viscontact::report {

@@ -8,7 +8,7 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/oracles/exact_resistance_table.hpp"
-#include "viscontact/swimmer/resistance/fitted_resistance.hpp"
+#include "viscontact/swimmer/resistance/resistance_fit.hpp"
 
 namespace viscontact::swimmer {
 namespace {

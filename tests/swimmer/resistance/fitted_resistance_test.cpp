@@ -1,7 +1,5 @@
 // The parts of a fit of resistance matrices: lubrication of pairs, polynomials on a grid, the fit's
 // file and its evaluation.
-#include "viscontact/swimmer/resistance/fitted_resistance.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +13,7 @@
 #include "tests/oracles/bispherical/bispherical.hpp"
 #include "tests/oracles/exact_resistance_table.hpp"
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
-#include "viscontact/swimmer/resistance/pair_lubrication.hpp"
+#include "viscontact/swimmer/resistance/resistance_fit.hpp"
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 namespace viscontact::swimmer {

@@ -11,7 +11,6 @@
 
 #include "tests/reduced_model/cases.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
-#include "viscontact/reduced_model/models/contact/viscous_contact_regular_drag.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 
 namespace viscontact::reduced_model {

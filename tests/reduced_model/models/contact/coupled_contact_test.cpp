@@ -6,10 +6,10 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/reduced_model/cases.hpp"
-#include "viscontact/reduced_model/models/contact/viscous_contact_regular_drag.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
-#include "viscontact/reduced_model/models/reference_exact.hpp"
+#include "viscontact/reduced_model/models/reference.hpp"
 
 namespace viscontact::reduced_model {
 namespace {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "tests/reduced_model/cases.hpp"
-#include "viscontact/reduced_model/models/contact/inelastic_contact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
 namespace viscontact::reduced_model {

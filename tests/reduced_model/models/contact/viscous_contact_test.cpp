@@ -11,7 +11,7 @@
 #include "tests/reduced_model/cases.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/reduced_model/models/reference_exact.hpp"
+#include "viscontact/reduced_model/models/reference.hpp"
 
 namespace viscontact::reduced_model {
 namespace {

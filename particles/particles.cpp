@@ -1,6 +1,6 @@
-// Quaternions, and how particles turn in a step (rotation.hpp). Turns are in radians; nothing is
+// Quaternions, and how particles turn in a step (particles.hpp). Turns are in radians; nothing is
 // checked or thrown. A change must keep quaternions at length 1.
-#include "viscontact/particles/rotation.hpp"
+#include "viscontact/particles/particles.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,4 @@
 // Where discs of a body that overlap are cut, against closed forms.
-#include "viscontact/particles/fluid/overlapping_members.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
+#include "viscontact/particles/outline.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -73,8 +72,8 @@ TEST(OverlappingMembers, AreDiscsOfOneBodyThatIsHeldRigid) {
   EXPECT_TRUE(cut_areas_of(plates, p).empty());
 }
 
-// Four discs in a row, of which each overlaps three: what is left of them is the union, whose area is the
-// integral of its height over x.
+// Four discs in a row, of which each overlaps three: what is left of them is the union, whose area
+// is the integral of its height over x.
 TEST(OverlappingMembers, InARowCoverTheUnionOnce) {
   State state = no_particles(2);
   const std::array<double, 4> places = {0, 0.5, 1, 1.5}, radii = {1, 1.02, 1.01, 0.99};

@@ -1,8 +1,15 @@
-// The copies of case, force files and fit in a run's folder, so that the folder alone repeats the
-// run. The stages of the main job call it. A copy must never replace a file of the user.
+// The inputs of a run: their copies in its folder (case, force files, fit), so that the folder
+// alone repeats the run, and the record of what a trajectory was made from, by which `run` decides
+// whether it is up to date. The stages of the main job call it. Numbers are in the units of the
+// case. A copy must never replace a file of the user, and the record must name everything that
+// alters a trajectory.
 #pragma once
 
+#include <string>
+
 #include "viscontact/case_file/case_file.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/results/run_folder.hpp"
 
 namespace viscontact::pipeline {
@@ -26,5 +33,14 @@ void check_fit_copy(const results::RunFolder& run, const std::string& fit_text);
 /// run can be interrupted in this function.
 void write_copies(const results::RunFolder& run, const case_file::Case& c,
                   const std::string& fit_text);
+
+/// The lines "# key: value" that identify the inputs of a trajectory: hashes of case, fit (the text
+/// `fit_text`) and forces, limits of the drag, revision of the models and version.
+CsvComments identity_of_trajectory(const case_file::Case& c, const std::string& fit_text,
+                                   const lubrication::OutsideInterval& outside);
+
+/// True if the folder has a trajectory of the model that was made from the inputs `identity`.
+bool is_simulated(const results::RunFolder& run, const std::string& model,
+                  const CsvComments& identity);
 
 }  // namespace viscontact::pipeline

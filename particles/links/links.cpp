@@ -1,7 +1,7 @@
-// Piecewise linear and sinusoidal lengths of arms (arm_length.hpp). Lengths [L] and times [T] are
+// Piecewise linear and sinusoidal lengths of arms (links.hpp). Lengths [L] and times [T] are
 // in the units of the case. Nothing is checked or thrown. A change must keep rate_at() the
 // derivative of length_at().
-#include "viscontact/particles/links/arm_length.hpp"
+#include "viscontact/particles/links/links.hpp"
 
 #include <algorithm>
 #include <cmath>

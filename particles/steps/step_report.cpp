@@ -1,7 +1,7 @@
-// Residuals of a step and their limits (step_residuals.hpp). Numbers are in the units of the case.
-// Errors are those of step_residuals.hpp. A change must keep one measure for particles with masses
+// Residuals of a step and their limits (step_report.hpp). Numbers are in the units of the case. A
+// deep overlap is an Error(kNotConverged). A change must keep one measure for particles with masses
 // and in a fluid.
-#include "viscontact/particles/steps/step_residuals.hpp"
+#include "viscontact/particles/steps/step_report.hpp"
 
 #include <fmt/format.h>
 

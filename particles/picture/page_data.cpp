@@ -1,0 +1,357 @@
+// Chooses what of a motion a page shows, and encodes it (page_data.hpp). Numbers are in the units
+// of the case; nothing is thrown. The layout of the blocks must agree with the scripts in
+// particles/picture/page.
+#include "viscontact/particles/picture/page_data.hpp"
+
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace viscontact::particles {
+namespace {
+
+/// The number of characters that `bytes` bytes have in base64.
+constexpr std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
+
+// The script reads the numbers as little-endian.
+static_assert(std::endian::native == std::endian::little);
+
+template <class Number>
+void append(Bytes& bytes, Number value) {
+  const auto at = bytes.size();
+  bytes.resize(at + sizeof value);
+  std::memcpy(bytes.data() + at, &value, sizeof value);
+}
+
+/// Appends a number with seven bits in each byte, the lowest first. The eighth bit is set in all
+/// bytes but the last.
+void append_short(Bytes& bytes, std::uint32_t value) {
+  for (; value >= 128; value >>= 7) bytes.push_back(static_cast<unsigned char>(value | 128));
+  bytes.push_back(static_cast<unsigned char>(value));
+}
+
+/// Chooses whether positions are written as 16-bit numbers or as floats.
+void choose_position_bytes(PageData& data, const Playback& playback) {
+  constexpr double kSteps = 65535, kSmall = 0.02;  // largest 16-bit number; step over radius
+  const auto dimension = static_cast<std::size_t>(playback.dimension);
+  for (std::size_t d = 0; d < dimension; ++d) {
+    Interval reach;
+    for (const auto& frame : playback.frames)
+      for (std::size_t i = d; i < frame.positions.size(); i += dimension)
+        reach.add(frame.positions[i], frame.positions[i]);
+    if (!(reach.low <= reach.high)) reach = {0, 0};
+    data.low[d] = reach.low;
+    data.step[d] = (reach.high - reach.low) / kSteps;
+  }
+  const auto smallest = std::ranges::min_element(playback.radii);
+  const double largest_step =
+      *std::max_element(data.step.begin(), data.step.begin() + playback.dimension);
+  // If the step is not finite, the comparison is false, and positions are written as floats.
+  if (smallest == playback.radii.end() || largest_step <= kSmall * *smallest) return;
+  data.position_bytes = 4;
+  data.low = {0, 0, 0};
+  data.step = {1, 1, 1};
+}
+
+/// Chooses every `every_frame`-th frame and the last one.
+void choose_frames(PageData& data, const Playback& playback, std::size_t every_frame) {
+  data.every_frame = every_frame;
+  data.frames.clear();
+  for (std::size_t f = 0; f < playback.frames.size(); f += every_frame) data.frames.push_back(f);
+  if (!data.frames.empty() && data.frames.back() + 1 != playback.frames.size())
+    data.frames.push_back(playback.frames.size() - 1);
+}
+
+/// The contacts of all frames: a list of all pairs that are ever in contact, and for each frame the
+/// contacts in it. A contact is written as its distance in the list from the contact before it, a
+/// byte for gamma from 0 (gamma = 0) to 255 (the lowest gamma); in a motion with friction a byte
+/// for mobilised_friction(), 255 if it slides; and, if there are forces, a byte for force_share().
+struct Contacts {
+  Bytes pairs;    ///< int32, int32: as in CurrentContact, by number of the drawn particle
+  Bytes images;   ///< int8: CurrentContact::image of each pair
+  Bytes offsets;  ///< uint32: begin of each frame in `frames`, then the end
+  Bytes frames;   ///< the contacts of the frames, in the form that the comment of Contacts says
+};
+
+using Pair = std::array<std::int32_t, 3>;  // both particles and the image of the second
+
+Contacts contacts_of(const Scene& scene, const PageData& data) {
+  const auto& playback = scene.playback;
+  const double lowest = scene.lowest_gamma;
+  Contacts contacts;
+  append(contacts.offsets, std::uint32_t{0});
+  const auto every = static_cast<std::int32_t>(data.every_particle);
+  const auto shown = [&](const CurrentContact& c) {
+    return data.contacts && c.second % every == 0 && (c.first < 0 || c.first % every == 0);
+  };
+  std::vector<Pair> pairs;
+  for (const auto f : data.frames)
+    for (const auto& c : playback.frames[f].contacts)
+      if (shown(c)) pairs.push_back({c.first, c.second, c.image});
+  std::ranges::sort(pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  for (const auto& [first, second, image] : pairs) {
+    append(contacts.pairs, first < 0 ? first : first / every);
+    append(contacts.pairs, second / every);
+    append(contacts.images, static_cast<std::int8_t>(image));
+  }
+  struct Listed {
+    std::uint32_t at;
+    unsigned char level, friction, force;
+  };
+  std::vector<Listed> listed;
+  for (const auto f : data.frames) {
+    listed.clear();
+    for (const auto& c : playback.frames[f].contacts) {
+      if (!shown(c)) continue;
+      const auto at =
+          std::ranges::lower_bound(pairs, Pair{c.first, c.second, c.image}) - pairs.begin();
+      const auto level =
+          c.gamma < 0 ? std::max(1L, std::lround(255 * std::clamp(c.gamma / lowest, 0.0, 1.0)))
+                      : 0L;
+      listed.push_back(
+          {static_cast<std::uint32_t>(at), static_cast<unsigned char>(level),
+           static_cast<unsigned char>(c.friction == ContactFriction::kSlides
+                                          ? 255
+                                          : std::lround(254 * mobilised_friction(playback, c))),
+           static_cast<unsigned char>(std::lround(255 * force_share(scene, c)))});
+    }
+    std::ranges::sort(listed, {}, &Listed::at);
+    std::uint32_t before = 0;
+    for (const auto& [at, level, friction, force] : listed) {
+      append_short(contacts.frames, at - before);
+      contacts.frames.push_back(level);
+      if (playback.friction_coefficient) contacts.frames.push_back(friction);
+      if (scene.top_force > 0) contacts.frames.push_back(force);
+      before = at;
+    }
+    append(contacts.offsets, static_cast<std::uint32_t>(contacts.frames.size()));
+  }
+  return contacts;
+}
+
+/// Numbers that say how far a particle has turned: none, an angle, or a quaternion.
+std::size_t numbers_of_turn(const Playback& playback) {
+  const auto all_have = [&](const std::vector<float> Frame::*member, std::size_t numbers) {
+    return !playback.frames.empty() && !playback.radii.empty() &&
+           std::ranges::all_of(playback.frames, [&](const Frame& frame) {
+             return (frame.*member).size() == numbers * playback.radii.size();
+           });
+  };
+  if (all_have(&Frame::angles, 1)) return 1;
+  return all_have(&Frame::orientations, 4) ? 4 : 0;
+}
+
+/// Chooses frames, and whether contacts are shown, so that the page is not too large.
+Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_bytes) {
+  const auto& playback = scene.playback;
+  constexpr std::size_t kMostBytes = 24'000'000, kMostParticles = 200'000;
+  constexpr std::size_t kRest = 200'000;  // bytes for script, style and words
+  data.every_particle = playback.radii.size() / (kMostParticles + 1) + 1;
+  const auto particles = (playback.radii.size() + data.every_particle - 1) / data.every_particle;
+  const auto planes = playback.frames.empty() ? 0 : playback.frames.front().planes.size();
+  const auto positions =
+      particles * static_cast<std::size_t>(playback.dimension * data.position_bytes);
+  const auto angles = particles * numbers_of_turn(playback) * sizeof(float);
+  // Speeds take a byte.
+  const auto bytes_of_frame =
+      base64_size(positions + angles + particles + planes * 6 * sizeof(float) + sizeof(double));
+  const auto of_particles = static_cast<std::size_t>(1 + (playback.ids.empty() ? 0 : 1) +
+                                                     (playback.masses.empty() ? 0 : 1));
+  const auto radii_masses_and_ids = of_particles * base64_size(particles * sizeof(float));
+  for (std::size_t every = 1;; every *= 2) {
+    choose_frames(data, playback, every);
+    const auto others =
+        kRest + other_bytes + data.frames.size() * bytes_of_frame + radii_masses_and_ids;
+    const bool last = data.frames.size() <= 2;
+    if (others > kMostBytes && !last) continue;
+    auto contacts = contacts_of(scene, data);
+    const auto size = others + base64_size(contacts.pairs.size()) +
+                      base64_size(contacts.images.size()) + base64_size(contacts.offsets.size()) +
+                      base64_size(contacts.frames.size());
+    if (size <= kMostBytes) return contacts;
+    if (!last) continue;
+    data.contacts = false;
+    return contacts_of(scene, data);
+  }
+}
+
+/// Finds out in which frame each particle is there first.
+void find_first_frames(PageData& data, const Playback& playback) {
+  const auto dimension = static_cast<std::size_t>(playback.dimension);
+  bool any = false;
+  for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle) {
+    std::size_t first = 0;
+    while (first + 1 < data.frames.size() &&
+           std::isnan(playback.frames[data.frames[first]].positions[k * dimension]))
+      ++first;
+    any = any || first > 0;
+    data.first_frames.push_back(static_cast<std::int32_t>(first));
+  }
+  if (!any) data.first_frames.clear();
+}
+
+/// The speeds of the shown particles in the shown frames, a byte for each from 0 to `top_speed`.
+/// Empty if they are not known or all are 0.
+Bytes speeds_of(PageData& data, const Playback& playback) {
+  data.top_speed = 0;
+  for (const auto f : data.frames) {
+    const auto& speeds = playback.frames[f].speeds;
+    if (speeds.size() != playback.radii.size()) return {};
+    for (const float speed : speeds)
+      data.top_speed = std::max(data.top_speed, static_cast<double>(speed));
+  }
+  Bytes bytes;
+  if (!(data.top_speed > 0) || !std::isfinite(data.top_speed)) return bytes;
+  for (const auto f : data.frames)
+    for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle)
+      bytes.push_back(static_cast<unsigned char>(
+          std::lround(255 * playback.frames[f].speeds[k] / data.top_speed)));
+  return bytes;
+}
+
+constexpr double kLevels = 254;            // highest level of a byte
+constexpr unsigned char kNothing = 255;    // level of a point without flow
+constexpr std::uint16_t kNoArrow = 65535;  // place of the arrow of a line without one
+constexpr double kLineSteps = 65535;       // steps of a coordinate across the window
+
+/// Appends a byte for each value. `share` gives the place of a value on its scale, from 0 to 1.
+template <class Share>
+void append_levels(Bytes& bytes, const std::vector<float>& field, std::size_t columns,
+                   const Share& share) {
+  // The page interpolates between points, so that points just outside the flow need values.
+  constexpr int kLayers = 3;
+  std::vector<double> values(field.begin(), field.end());
+  for (int layer = 0; layer < kLayers; ++layer) report::fill_next_to_known(values, columns);
+  for (const double value : values)
+    bytes.push_back(std::isnan(value) ? kNothing
+                                      : static_cast<unsigned char>(std::lround(
+                                            kLevels * std::clamp(share(value), 0.0, 1.0))));
+}
+
+void append_lines(Bytes& bytes, const FlowFrame& frame, const report::Window& window) {
+  const auto write = [&](std::size_t number) { append(bytes, static_cast<std::uint16_t>(number)); };
+  const auto step = [](double share) {
+    return static_cast<std::size_t>(std::lround(kLineSteps * std::clamp(share, 0.0, 1.0)));
+  };
+  // A line with more points than a 16-bit number can count is left out, and so are lines beyond
+  // that number.
+  constexpr std::size_t kMost = 65000;
+  const auto is_short = [&](const report::StreamLine& line) { return line.points.size() < kMost; };
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(frame.lines, is_short));
+  write(std::min(count, kMost));
+  std::size_t written = 0;
+  for (const auto& line : frame.lines) {
+    if (!is_short(line) || written++ >= kMost) continue;
+    write(line.points.size());
+    write(line.arrow > 0 ? static_cast<std::size_t>(line.arrow) : kNoArrow);
+    for (const auto& [x, y] : line.points) {
+      write(step((x - window.left) / window.width()));
+      write(step((y - window.bottom) / window.height()));
+    }
+  }
+}
+
+}  // namespace
+
+std::string base64(const Bytes& bytes) {
+  std::string text(base64_size(bytes.size()), '\0');  // OpenSSL also writes the '\0' at its end
+  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()), bytes.data(),
+                  static_cast<int>(bytes.size()));
+  return text;
+}
+
+PageData page_data(const Scene& scene, const Blocks& others) {
+  const auto& playback = scene.playback;
+  PageData data;
+  choose_position_bytes(data, playback);
+  std::size_t other_bytes = 0;
+  for (const auto& [name, bytes] : others) other_bytes += base64_size(bytes.size());
+  auto contacts = choose_content(data, scene, other_bytes);
+  Bytes radii, masses, semi_axes, plates, ids, bodies, times, positions, turns, planes;
+  const auto turn_numbers = numbers_of_turn(playback);
+  const auto dimension = static_cast<std::size_t>(playback.dimension);
+  for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle) {
+    append(radii, playback.radii[k]);
+    if (!playback.masses.empty()) append(masses, playback.masses[k]);
+    if (!playback.semi_axes.empty())
+      for (const double axis : playback.semi_axes[k]) append(semi_axes, static_cast<float>(axis));
+    if (!playback.plates.empty()) append(plates, playback.plates[k]);
+    if (!playback.ids.empty()) append(ids, playback.ids[k]);
+    if (!playback.bodies.empty()) append(bodies, playback.bodies[k]);
+  }
+  for (const auto f : data.frames) {
+    const auto& frame = playback.frames[f];
+    append(times, frame.time);
+    for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle)
+      for (std::size_t d = 0; d < dimension; ++d) {
+        const float at = frame.positions[k * dimension + d];
+        const float x = std::isnan(at) ? static_cast<float>(data.low[d]) : at;
+        const double step = data.step[d];
+        if (data.position_bytes == 4)
+          append(positions, x);
+        else
+          append(positions,
+                 static_cast<std::uint16_t>(std::lround(
+                     step > 0 ? std::clamp((x - data.low[d]) / step, 0.0, 65535.0) : 0.0)));
+      }
+    const auto& written = turn_numbers == 1 ? frame.angles : frame.orientations;
+    for (std::size_t k = 0; turn_numbers > 0 && k < playback.radii.size(); k += data.every_particle)
+      for (std::size_t i = 0; i < turn_numbers; ++i) append(turns, written[k * turn_numbers + i]);
+    for (const auto& plane : frame.planes) {
+      // In two dimensions, a third component of the normal is the radius of a circle.
+      const auto normal = plane.is_curved() ? Vector{0, 0, plane.radius} : plane.normal;
+      for (const auto* vector : {&plane.point, &normal})
+        for (const double x : *vector) append(planes, static_cast<float>(x));
+    }
+  }
+  data.blocks = {{"radii", radii}};
+  if (find_first_frames(data, playback); !data.first_frames.empty()) {
+    Bytes first_frames;
+    for (const auto frame : data.first_frames) append(first_frames, frame);
+    data.blocks.emplace_back("firstFrames", first_frames);
+  }
+  if (!masses.empty()) data.blocks.emplace_back("masses", masses);
+  if (auto speeds = speeds_of(data, playback); !speeds.empty())
+    data.blocks.emplace_back("speeds", std::move(speeds));
+  if (!semi_axes.empty()) data.blocks.emplace_back("semiAxes", semi_axes);
+  if (!plates.empty()) data.blocks.emplace_back("plates", plates);
+  if (!ids.empty()) data.blocks.emplace_back("ids", ids);
+  if (!bodies.empty()) data.blocks.emplace_back("bodies", bodies);
+  if (turn_numbers > 0)
+    data.blocks.emplace_back(turn_numbers == 1 ? "angles" : "orientations", turns);
+  if (playback.cell.is_periodic()) data.blocks.emplace_back("images", contacts.images);
+  data.blocks.insert(data.blocks.end(), {{"times", times},
+                                         {"positions", positions},
+                                         {"planes", planes},
+                                         {"pairs", contacts.pairs},
+                                         {"offsets", contacts.offsets},
+                                         {"contacts", contacts.frames}});
+  return data;
+}
+
+Blocks flow_blocks(const Scene& scene) {
+  const auto& flows = scene.flows;
+  if (flows.frames.empty()) return {};
+  Bytes times, speeds, pressures, lines, offsets;
+  for (const auto& frame : flows.frames) {
+    append(times, scene.playback.frames[frame.frame].time);
+    append_levels(speeds, frame.speed, flows.grid.columns,
+                  [&](double speed) { return flows.top_speed > 0 ? speed / flows.top_speed : 0; });
+    append_levels(pressures, frame.pressure, flows.grid.columns,
+                  [&](double value) { return flows.pressure_colours.share_of(value); });
+    append(offsets, static_cast<std::uint32_t>(lines.size() / sizeof(std::uint16_t)));
+    append_lines(lines, frame, flows.grid.window);
+  }
+  append(offsets, static_cast<std::uint32_t>(lines.size() / sizeof(std::uint16_t)));
+  return {{"flow-times", times},
+          {"flow-speed", speeds},
+          {"flow-pressure", pressures},
+          {"flow-lines", lines},
+          {"flow-offsets", offsets}};
+}
+
+}  // namespace viscontact::particles
