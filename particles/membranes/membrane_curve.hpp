@@ -78,6 +78,9 @@ struct AreaMoments {
       xy = 0;     ///< integral of x y [L^4]
   /// The direction of the long axis, in (-pi/2, pi/2] [rad].
   double inclination() const;
+  /// From a point (x, y) to the centre. `area` [L^2] is inside, mx and my are its first moments
+  /// about the point [L^3].
+  void move_to_centre(double area, double mx, double my);
 };
 
 /// What is measured of a closed line through beads, and how: MembraneCurve or the polygon of
