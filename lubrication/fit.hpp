@@ -214,9 +214,9 @@ Fit parse_fit(const std::string& text, const std::string& file);
 /// The text of the fit file (JSON), without provenance.
 std::string write_fit(const Fit& fit);
 
-/// `count` >= 2 gaps [L] in geometric progression on `interval`, 0 < first < second, at which fits are
-/// checked and exported. The first and the last gap are exactly its ends. The default of 201 points is
-/// also stated in the help of `export` and in docs/file-formats.md.
+/// `count` >= 2 gaps [L] in geometric progression on `interval`, 0 < first < second, at which fits
+/// are checked and exported. The first and the last gap are exactly its ends. The default of 201
+/// points is also stated in the help of `export` and in docs/file-formats.md.
 std::vector<double> spread_gaps(const std::array<double, 2>& interval, int count = 201);
 
 }  // namespace viscontact::lubrication

@@ -1,7 +1,7 @@
 // The names of the motions, the head of a table, and the checks of its numbers (table.hpp,
 // docs/file-formats.md). Numbers are in the units of the table. An unknown name is an
-// Error(kBadInput), and a fault of a file one with file and key or line. A change must keep names and
-// keys.
+// Error(kBadInput), and a fault of a file one with file and key or line. A change must keep names
+// and keys.
 #include "viscontact/lubrication/table.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // What all tables have in common that FreeFEM computes and the fits read: a head, and rows with
-// named columns of values and error estimates; and the motions of a sphere beside its neighbour whose
-// resistances are tabulated. Lengths, masses and times are in any consistent units. A change must
-// keep the keys of the head and the names of the motions, which published tables have.
+// named columns of values and error estimates; and the motions of a sphere beside its neighbour
+// whose resistances are tabulated. Lengths, masses and times are in any consistent units. A change
+// must keep the keys of the head and the names of the motions, which published tables have.
 //
 // A kind of table is a struct Row and four functions beside it: columns_of(), prepare(), complete()
 // and check() (table_codec.hpp). A new column is a member of the row and a line of columns_of();

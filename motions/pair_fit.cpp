@@ -1,7 +1,7 @@
-// The names, bases and values of the resistances of a pair, and the fields of their file (pair_fit.hpp,
-// docs/file-formats.md): one object per entry, each of which has the keys of a fit file. Numbers have
-// the units of the fit. An unknown name, a missing entry and a fault of the file are an
-// Error(kBadInput). A change must keep the names, and published files readable.
+// The names, bases and values of the resistances of a pair, and the fields of their file
+// (pair_fit.hpp, docs/file-formats.md): one object per entry, each of which has the keys of a fit
+// file. Numbers have the units of the fit. An unknown name, a missing entry and a fault of the file
+// are an Error(kBadInput). A change must keep the names, and published files readable.
 #include "viscontact/motions/pair_fit.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-// Distances to circles, ellipses and plates, and where circles meet, by the triangle of both centres
-// and a point where they meet (outline.hpp). Lengths are in the unit of the case. Nothing is checked
-// or thrown. A change must keep distances to rounding errors.
+// Distances to circles, ellipses and plates, and where circles meet, by the triangle of both
+// centres and a point where they meet (outline.hpp). Lengths are in the unit of the case. Nothing
+// is checked or thrown. A change must keep distances to rounding errors.
 #include "viscontact/particles/outline.hpp"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
-// The outline of a particle in the plane: a circle, an ellipse, or a plate with round ends; and that
-// of a rigid body in a fluid whose discs overlap, which is their union: each disc is cut along the
-// chords at which its circle meets those of the others, so that the cut discs cover the union once.
-// Lengths are in the unit of the case, angles in radians, counter-clockwise. Checks of a case, the
-// fluid and its meshes use it. Nothing is checked or thrown. A change must keep a circle exact, and
-// the sum of what is left of the discs that of the union.
+// The outline of a particle in the plane: a circle, an ellipse, or a plate with round ends; and
+// that of a rigid body in a fluid whose discs overlap, which is their union: each disc is cut along
+// the chords at which its circle meets those of the others, so that the cut discs cover the union
+// once. Lengths are in the unit of the case, angles in radians, counter-clockwise. Checks of a
+// case, the fluid and its meshes use it. Nothing is checked or thrown. A change must keep a circle
+// exact, and the sum of what is left of the discs that of the union.
 #pragma once
 
 #include <array>
@@ -101,8 +101,8 @@ Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<con
 /// How a disc is cut by one that overlaps it.
 struct Chord {
   std::size_t other = 0;  ///< number of the disc that overlaps it
-  // The ends of the chord, at which the circles meet. The arc from `from` to `to`, counter-clockwise,
-  // is inside the other disc.
+  // The ends of the chord, at which the circles meet. The arc from `from` to `to`,
+  // counter-clockwise, is inside the other disc.
   std::array<double, 2> from{},  ///< first end [L]
       to{};                      ///< last end [L]
   double middle = 0;             ///< angle of the middle of this arc with the x axis [rad]
@@ -113,13 +113,13 @@ struct Chord {
   double wedge = 0;
 };
 
-/// The chord at which the disc `other` cuts the disc k; none if their circles do not meet. Both must
-/// not be images of each other. The ends of the chord are the same numbers for both discs.
+/// The chord at which the disc `other` cuts the disc k; none if their circles do not meet. Both
+/// must not be images of each other. The ends of the chord are the same numbers for both discs.
 std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::size_t other);
 
-/// The chords at which discs of its body cut disc k in this fluid, by their angle `middle` from -pi to pi,
-/// without those whose arc is within that of another one. None if particle k is an ellipse or plate,
-/// which have no chords, and by penalty, where discs may not overlap.
+/// The chords at which discs of its body cut disc k in this fluid, by their angle `middle` from -pi
+/// to pi, without those whose arc is within that of another one. None if particle k is an ellipse
+/// or plate, which have no chords, and by penalty, where discs may not overlap.
 std::vector<Chord> chords_of(const Fluid& fluid, const Particles& particles, std::size_t k);
 
 /// Fluid::cut_areas for these particles [L^2]: of each one the sum of the areas beyond its chords.

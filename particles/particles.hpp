@@ -1,7 +1,8 @@
 // The particles of a simulation: rigid discs or spheres, and how they turn. Lengths, masses and
 // times are in any consistent units; turns and angles are in radians. The restart file stores these
 // arrays as they are (io/restart.cpp), so that a change of their layout needs a new version of that
-// file, and quaternions must keep the length 1. All of particles/ uses them; nothing is checked here.
+// file, and quaternions must keep the length 1. All of particles/ uses them; nothing is checked
+// here.
 #pragma once
 
 #include <algorithm>
@@ -82,8 +83,8 @@ inline std::size_t ids_left(const Particles& particles) {
                                   largest_id(particles));
 }
 
-/// If particles have ids, gives the last ones, which have none, the largest id so far plus 1, 2, ...
-/// There must be as many ids_left().
+/// If particles have ids, gives the last ones, which have none, the largest id so far plus 1, 2,
+/// ... There must be as many ids_left().
 inline void add_missing_ids(Particles& particles) {
   if (particles.ids.empty()) return;
   auto largest = largest_id(particles);

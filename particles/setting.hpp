@@ -1,8 +1,8 @@
-// What moves the particles of a simulation, how their motion is computed, and when the projection of
-// a step has converged: the content of a case file. Nothing is checked here; particles/case checks
-// the values. Both simulations (simulation.hpp, fluid/fluid_simulation.hpp) and the output of their
-// states read it. Lengths, masses and times are in any consistent units. A change of a default of
-// SolverSettings changes the results of every case that does not set it.
+// What moves the particles of a simulation, how their motion is computed, and when the projection
+// of a step has converged: the content of a case file. Nothing is checked here; particles/case
+// checks the values. Both simulations (simulation.hpp, fluid/fluid_simulation.hpp) and the output
+// of their states read it. Lengths, masses and times are in any consistent units. A change of a
+// default of SolverSettings changes the results of every case that does not set it.
 #pragma once
 
 #include <algorithm>

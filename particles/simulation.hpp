@@ -50,9 +50,9 @@ class Simulation {
   ~Simulation();
   Simulation(Simulation&&) noexcept;  ///< the other simulation must not be used afterwards
 
-  /// Computes one step and pours in the particles of Setting::sources that are due at its end. A new
-  /// simulation begins with those that are due at its begin. Arrays of the particles keep their places
-  /// in memory.
+  /// Computes one step and pours in the particles of Setting::sources that are due at its end. A
+  /// new simulation begins with those that are due at its begin. Arrays of the particles keep their
+  /// places in memory.
   ///
   /// The step has the length h = Setting::time_step, but for steps at jumps (step_times.hpp).
   /// If the time `end` [T] is earlier than the end of this step by more than a millionth of h, the

@@ -1,6 +1,6 @@
-// What all files of the Python module use: calls that take long, arrays of NumPy, and a fit with its
-// force. Numbers are in the units of the fit. While a long call runs, other Python threads run, too,
-// and Ctrl-C (SIGINT) stops it. A change must keep that no object of Python is used while the
+// What all files of the Python module use: calls that take long, arrays of NumPy, and a fit with
+// its force. Numbers are in the units of the fit. While a long call runs, other Python threads run,
+// too, and Ctrl-C (SIGINT) stops it. A change must keep that no object of Python is used while the
 // interpreter is released.
 #pragma once
 
@@ -23,8 +23,8 @@ namespace py = pybind11;
 
 /// While an object of this class exists, SIGINT sets a flag instead of calling the handler of
 /// Python, which could not run before the call returns. The handler of Python runs afterwards. If
-/// SIGINT is ignored or ends the process, this stays so. The interpreter must be held when an object
-/// is made and when it ends.
+/// SIGINT is ignored or ends the process, this stays so. The interpreter must be held when an
+/// object is made and when it ends.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -59,8 +59,8 @@ auto long_call(const Compute& compute) {
 /// another type or with gaps in memory.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// The values of `function` at all elements of an array, in an array of the same shape; for a number
-/// (an array without dimensions) a float.
+/// The values of `function` at all elements of an array, in an array of the same shape; for a
+/// number (an array without dimensions) a float.
 template <class Function>
 py::object mapped(const Doubles& x, const Function& function) {
   if (x.ndim() == 0) return py::float_(function(*x.data()));

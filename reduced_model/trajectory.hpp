@@ -1,8 +1,8 @@
-// A trajectory, which every model of motion returns, its budget of momentum and energy, its file, and
-// the reduction of its rows for that file (key `rows` of [motion]). Lengths, masses and times are in
-// the units of the case. A change must keep the names of the columns, which published files have, both
-// balances of the budget, and all rows that compare_trajectories() looks for, such as the one with the
-// smallest gap.
+// A trajectory, which every model of motion returns, its budget of momentum and energy, its file,
+// and the reduction of its rows for that file (key `rows` of [motion]). Lengths, masses and times
+// are in the units of the case. A change must keep the names of the columns, which published files
+// have, both balances of the budget, and all rows that compare_trajectories() looks for, such as
+// the one with the smallest gap.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
-// Makes strokes from corners, samples and ellipses, and the points of a quadrature by the eigenvalues
-// of the Jacobi matrix (stroke.hpp; Golub & Welsch 1969, Math. Comp. 23, 221), in the units of the
-// case. Samples that do not close the loop are an Error(kBadInput). A change must keep where legs
-// meet, because forces jump there.
+// Makes strokes from corners, samples and ellipses, and the points of a quadrature by the
+// eigenvalues of the Jacobi matrix (stroke.hpp; Golub & Welsch 1969, Math. Comp. 23, 221), in the
+// units of the case. Samples that do not close the loop are an Error(kBadInput). A change must keep
+// where legs meet, because forces jump there.
 #include "viscontact/swimmer/stroke.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // Strokes: closed paths of a swimmer's arms, with their time law, and the quadrature for integrals
 // along them. An arm is the distance between the centres of neighbouring spheres. Lengths and times
 // are in the units of the case. Cases make strokes, and swim.hpp and polynomial_loop.hpp integrate
-// them. Legs must follow each other without a gap, and sums depend on the points of the quadrature to
-// the last digit.
+// them. Legs must follow each other without a gap, and sums depend on the points of the quadrature
+// to the last digit.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,8 +1,8 @@
-// Options that several commands have, and checks of what a command line names; among them the options
-// of commands whose rows an array job on a Slurm cluster can compute (docs/cluster.md).
+// Options that several commands have, and checks of what a command line names; among them the
+// options of commands whose rows an array job on a Slurm cluster can compute (docs/cluster.md).
 // help/self_description.cpp recognises by the type names below whether to offer files, folders or
-// models as the value of an option; a change of the names must be made there, too. A change must keep
-// the names of options, because submitted scripts contain them.
+// models as the value of an option; a change of the names must be made there, too. A change must
+// keep the names of options, because submitted scripts contain them.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -78,7 +78,8 @@ CLI::Option* add_json(CLI::App& command, bool& json);
 /// be left out must be added to the list in command_options.cpp.
 std::vector<std::string> with_files_apart(std::vector<std::string> arguments);
 
-/// The values of these options.
+/// The values of the options of array jobs, which `tabulate` and `sweep` have: --launcher, --tasks,
+/// --slurm-options, --gather and --task.
 struct ArrayOptions {
   std::string launcher = "local",  ///< "local" or "slurm"
       slurm_options,               ///< words for sbatch, quoted as in a shell; may be empty
@@ -91,7 +92,7 @@ struct ArrayOptions {
   bool is_slurm() const { return launcher == "slurm"; }  ///< whether a job is submitted
 };
 
-/// Adds the options. `results` says in --help what is written from the rows: "the tables".
+/// Adds these options. `results` says in --help what is written from the rows: "the tables".
 void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& results);
 
 /// Throws Error(kWrongUsage) if options are given that only --launcher slurm uses, or if --task is

@@ -1,7 +1,7 @@
 // The flow of a fluid on a mesh of quadratic triangles in a plane, and its VTK file for ParaView.
-// freefem_axi/ and freefem_flow/ make it, and report/flow/ reads the file again to draw it. Lengths,
-// masses and times are in the units of the case. A change must keep the order of nodes, which is that
-// of VTK, and the arrays and names of the file.
+// freefem_axi/ and freefem_flow/ make it, and report/flow/ reads the file again to draw it.
+// Lengths, masses and times are in the units of the case. A change must keep the order of nodes,
+// which is that of VTK, and the arrays and names of the file.
 #pragma once
 
 #include <array>

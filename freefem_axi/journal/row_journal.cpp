@@ -1,8 +1,8 @@
-// Opens, locks and appends to a journal, and writes and reads its lines (row_journal.hpp). A line is
-// "HASH row POINT NUMBERS VERSION CHECKSUM" or "HASH failed POINT REASON CHECKSUM". A damaged line is
-// no error; it is read as nothing, and its row is computed again. A journal that cannot be written is
-// an Error(kBadInput). A change must keep lines in one piece, and on disk when append() returns, and
-// old journals readable.
+// Opens, locks and appends to a journal, and writes and reads its lines (row_journal.hpp). A line
+// is "HASH row POINT NUMBERS VERSION CHECKSUM" or "HASH failed POINT REASON CHECKSUM". A damaged
+// line is no error; it is read as nothing, and its row is computed again. A journal that cannot be
+// written is an Error(kBadInput). A change must keep lines in one piece, and on disk when append()
+// returns, and old journals readable.
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 #include <fcntl.h>

@@ -1,8 +1,8 @@
 // Requests to the process of a fluid solver, and its answers word by word, each of which is
 // checked, in the words of the protocol (docs/fluid-solver.md, which a change must follow).
-// Everything that goes wrong becomes an error that names the solver, the request and the last lines of
-// the solver. flow_process.cpp and membrane_process.cpp use it; a change must keep that no answer is
-// waited for without end, and that numbers read back to the same double.
+// Everything that goes wrong becomes an error that names the solver, the request and the last lines
+// of the solver. flow_process.cpp and membrane_process.cpp use it; a change must keep that no
+// answer is waited for without end, and that numbers read back to the same double.
 #pragma once
 
 #include <chrono>

@@ -1,6 +1,6 @@
 // When particles of a source are due, and where they are poured in (source.hpp). Numbers are in the
-// units of the case; nothing is thrown. A change must keep the times, which decide the steps in which
-// particles come. As in arrangement.cpp, the compiler must not contract products and sums.
+// units of the case; nothing is thrown. A change must keep the times, which decide the steps in
+// which particles come. As in arrangement.cpp, the compiler must not contract products and sums.
 #include "viscontact/particles/arrangement/source.hpp"
 
 #include <algorithm>

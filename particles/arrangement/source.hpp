@@ -1,8 +1,8 @@
-// Sources, from which particles are poured in while a simulation runs. Lengths, masses and times are
-// in the units of the case; nothing is thrown. Setting has them, and Simulation pours after each
-// step. A change must keep the times of each source, that the particles of each seed are the same
-// bits, because users repeat runs by their seeds, and that a run that is continued pours the same
-// ones.
+// Sources, from which particles are poured in while a simulation runs. Lengths, masses and times
+// are in the units of the case; nothing is thrown. Setting has them, and Simulation pours after
+// each step. A change must keep the times of each source, that the particles of each seed are the
+// same bits, because users repeat runs by their seeds, and that a run that is continued pours the
+// same ones.
 #pragma once
 
 #include <cstddef>
@@ -45,8 +45,8 @@ class Pouring {
 
   /// Adds the particles that are due at state.time. Each is put at a random place in the region of
   /// its source where it touches no other particle and no obstacle. One for which 1000 places are
-  /// taken waits for the next call, and those after it wait, too. The neighbour list is made again if
-  /// a particle is added. `setting` has the sources of the constructor.
+  /// taken waits for the next call, and those after it wait, too. The neighbour list is made again
+  /// if a particle is added. `setting` has the sources of the constructor.
   void pour(const Setting& setting, State& state);
 
  private:

@@ -1,7 +1,7 @@
-// Mass, inertia, places, and free and constrained motion of rigid bodies (rigid_bodies.hpp). Numbers
-// are in the units of the case. Nothing is checked or thrown: a turn that does not converge is taken
-// as it is. A change must keep members that do not cross a side of the cell where they are, bit for
-// bit, and the angular momentum to rounding errors.
+// Mass, inertia, places, and free and constrained motion of rigid bodies (rigid_bodies.hpp).
+// Numbers are in the units of the case. Nothing is checked or thrown: a turn that does not converge
+// is taken as it is. A change must keep members that do not cross a side of the cell where they
+// are, bit for bit, and the angular momentum to rounding errors.
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 
 #include <algorithm>

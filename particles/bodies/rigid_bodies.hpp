@@ -1,10 +1,10 @@
-// Rigid bodies of several discs or spheres, which keep their places in the body, and their motion in
-// a time step, docs/physics.md (5.11). Lengths, masses and times are in any consistent units.
-// `dimension` is 2 or 3; in the plane only the third component of turns, torques and angular momenta
-// is used. The restart file stores the motion of the bodies (io/restart.cpp); the case gives all
-// else. Nothing is checked or thrown here; particles/case checks the bodies. Simulations,
-// constraints, blows, links and particles.hpp use it. Without force, torque and constraints, momentum
-// and angular momentum must stay constant to rounding.
+// Rigid bodies of several discs or spheres, which keep their places in the body, and their motion
+// in a time step, docs/physics.md (5.11). Lengths, masses and times are in any consistent units.
+// `dimension` is 2 or 3; in the plane only the third component of turns, torques and angular
+// momenta is used. The restart file stores the motion of the bodies (io/restart.cpp); the case
+// gives all else. Nothing is checked or thrown here; particles/case checks the bodies. Simulations,
+// constraints, blows, links and particles.hpp use it. Without force, torque and constraints,
+// momentum and angular momentum must stay constant to rounding.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // Checks what a fluid needs of the particles at the start of a case, and chooses the default of the
-// threshold gap by them. Lengths are in the unit of the case. Each fault is an Error(kBadInput) with
-// the line of the particle or of the key. Used by particles_case.cpp.
+// threshold gap by them. Lengths are in the unit of the case. Each fault is an Error(kBadInput)
+// with the line of the particle or of the key. Used by particles_case.cpp.
 #include <algorithm>
 #include <numbers>
 #include <numeric>

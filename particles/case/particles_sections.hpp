@@ -67,8 +67,8 @@ inline constexpr int kLargestCount = 1000000;
 /// known to a hundredth of the radius.
 inline constexpr double kToleranceOfRadius = 0.01;
 
-/// Least gap of a particle and its own image without a fluid, in radii. It leaves room for the skin of
-/// the neighbour list.
+/// Least gap of a particle and its own image without a fluid, in radii. It leaves room for the skin
+/// of the neighbour list.
 inline constexpr double kLeastGapToImage = 0.01;
 
 /// Reads [domain]. `dimension` is that of the case: 1 (spheres on an axis), 2 or 3. Also throws if
@@ -109,10 +109,10 @@ struct ParticleLines {
 /// Needs c.path, c.end_time, c.particles.dimension, c.setting.domain and c.setting.fluid. Returns
 /// where the particles are given.
 ///
-/// Also throws if there is neither a particle nor a source; for a key of particles in a fluid if the
-/// case has no fluid; for a rotation on an axis; for a force, a torque or an initial velocity of a particle whose
-/// motion is given, because it has no effect; for an arrangement in a domain that is no disc or
-/// box; and if its discs do not fit.
+/// Also throws if there is neither a particle nor a source; for a key of particles in a fluid if
+/// the case has no fluid; for a rotation on an axis; for a force, a torque or an initial velocity
+/// of a particle whose motion is given, because it has no effect; for an arrangement in a domain
+/// that is no disc or box; and if its discs do not fit.
 ParticleLines read_particles_of_case(const case_file::TomlSection& root, ParticlesCase& c);
 
 /// Reads [arrangement], called by read_particles_of_case(), and adds its particles, which are at
@@ -124,10 +124,10 @@ std::vector<case_file::KeyTable> arrangement_tables();
 /// section itself.
 void all_species_keys(case_file::Keys& keys, std::vector<Species>& all, bool has_fluid);
 
-/// Reads [[source]], called by read_particles_of_case() after all particles, into c.setting.sources.
-/// Also throws in a case with a fluid; for a region that is outside the domain or reaches into an
-/// obstacle at time 0; for radii that have no place in the region, are too large for a period or too
-/// small for solver.tolerance; and if there are too few ids for the particles.
+/// Reads [[source]], called by read_particles_of_case() after all particles, into
+/// c.setting.sources. Also throws in a case with a fluid; for a region that is outside the domain
+/// or reaches into an obstacle at time 0; for radii that have no place in the region, are too large
+/// for a period or too small for solver.tolerance; and if there are too few ids for the particles.
 void read_sources(const case_file::TomlSection& root, ParticlesCase& c);
 /// Describes this section.
 std::vector<case_file::KeyTable> source_tables();
@@ -137,6 +137,9 @@ std::vector<case_file::KeyTable> source_tables();
 /// case has what cannot stand beside membranes, or a fluid that cannot have them; if so few beads
 /// cannot have the reduced area; and for membranes that cross.
 void read_membranes(const case_file::TomlSection& root, ParticlesCase& c, ParticleLines& lines);
+/// Describes this section.
+std::vector<case_file::KeyTable> membrane_tables();
+
 // What of [[membrane]] is refused, each with its line, for read_membranes().
 
 /// Throws if the case has what cannot be computed together with membranes. `first` is the section
@@ -161,9 +164,6 @@ void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& 
 /// Throws if a case with a fluid has, beside the beads of its membranes, particles with a mass or a
 /// torque, ellipses, or particles that cross a membrane.
 void check_others(const case_file::TomlSection& first, const ParticlesCase& c);
-
-/// Describes this section.
-std::vector<case_file::KeyTable> membrane_tables();
 
 /// Throws an error at `key` if there are fewer than `count` ids above the largest one of `p`.
 void require_ids(const case_file::TomlSection& section, std::string_view key, const Particles& p,

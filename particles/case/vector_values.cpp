@@ -1,6 +1,6 @@
-// Reads vectors and piecewise constant vectors (particles_sections.hpp). Vectors have the unit that the
-// key says; times [T] are in the unit of the case. A wrong value is an Error(kBadInput) with its
-// line. A change must keep accepting users' cases.
+// Reads vectors and piecewise constant vectors (particles_sections.hpp). Vectors have the unit that
+// the key says; times [T] are in the unit of the case. A wrong value is an Error(kBadInput) with
+// its line. A change must keep accepting users' cases.
 #include <fmt/format.h>
 
 #include <algorithm>

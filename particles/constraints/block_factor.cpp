@@ -1,6 +1,6 @@
 // Left-looking LU factorisation by columns and rows of blocks, and the assembly of the matrices of
-// Newton's methods (block_factor.hpp). Numbers have the units of the matrix. A singular matrix is no
-// error: factorise() returns false. A change must keep the order of sums.
+// Newton's methods (block_factor.hpp). Numbers have the units of the matrix. A singular matrix is
+// no error: factorise() returns false. A change must keep the order of sums.
 #include "viscontact/particles/constraints/block_factor.hpp"
 
 #include <Eigen/OrderingMethods>
@@ -78,8 +78,8 @@ inline void substitute_back(const std::array<double, static_cast<std::size_t>(K*
   }
 }
 
-/// 1 over the roots of the numbers on the diagonal of a block, with which rows of different units can
-/// be compared; 1 where the number is 0.
+/// 1 over the roots of the numbers on the diagonal of a block, with which rows of different units
+/// can be compared; 1 where the number is 0.
 template <int K, class Block>
 std::array<double, static_cast<std::size_t>(K)> scales_of_rows(const Block& a) {
   std::array<double, static_cast<std::size_t>(K)> scales;
@@ -91,8 +91,9 @@ std::array<double, static_cast<std::size_t>(K)> scales_of_rows(const Block& a) {
 }
 
 /// Replaces a block by its factors L and U with exchange of rows, with the inverses of the numbers
-/// on the diagonal of U, and sets the row of each pivot, which is that with the largest number times
-/// its scale. Changes `sign` if the determinant is negative. Returns false if the block is singular.
+/// on the diagonal of U, and sets the row of each pivot, which is that with the largest number
+/// times its scale. Changes `sign` if the determinant is negative. Returns false if the block is
+/// singular.
 template <int K, class Block, class Pivots>
 bool factorise_block(std::array<double, static_cast<std::size_t>(K)> scales, Block& a,
                      Pivots& pivots, int& sign) {

@@ -1,8 +1,8 @@
 // Sparse LU factorisation of a matrix of small dense blocks with a symmetric pattern, one block row
 // for each rigid body, and the matrices of Newton's methods for the constraints of a step that it
-// factorises. Numbers have the units of the matrix. Used by constraint_system.cpp, interior_points.hpp
-// and proximal_step.hpp. A change must keep the order of all sums, so that results do not depend on
-// the number of threads.
+// factorises. Numbers have the units of the matrix. Used by constraint_system.cpp,
+// interior_points.hpp and proximal_step.hpp. A change must keep the order of all sums, so that
+// results do not depend on the number of threads.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // Products and residuals of the constraints of a step, and the tangents and rows of contacts
-// (constraint_problem.hpp), in the units of the case. Nothing is thrown. A change alters which steps
-// converge, and must keep the angular momentum of a pair.
+// (constraint_problem.hpp), in the units of the case. Nothing is thrown. A change alters which
+// steps converge, and must keep the angular momentum of a pair.
 #include "viscontact/particles/constraints/constraint_problem.hpp"
 
 #include <algorithm>

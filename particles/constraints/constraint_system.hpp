@@ -70,9 +70,9 @@ class ConstraintSystem {
   /// are corrected by the difference between the linear values and those of the finite turns, until
   /// hinges, arms and the contacts of rigid bodies hold with these.
   ///
-  /// If Coulomb's law is not solved in `max_iterations`, give_loads() takes its place with the loads
-  /// of the best iterate, in this and all later solutions of the step, so that gaps, films and links
-  /// are exact. The residuals remain those of Coulomb's law.
+  /// If Coulomb's law is not solved in `max_iterations`, give_loads() takes its place with the
+  /// loads of the best iterate, in this and all later solutions of the step, so that gaps, films
+  /// and links are exact. The residuals remain those of Coulomb's law.
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double allowed_slip,
                      int max_iterations);
 
@@ -90,10 +90,10 @@ class ConstraintSystem {
   /// radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
   /// By how much each constraint of the last problem is violated [L], >= 0, in the motion that
-  /// violates them least: first of the contacts, then of the links. That motion has the smallest sum
-  /// of v^2/w over the rows of bilateral constraints without compliance and the negative gaps. If
-  /// some motion satisfies all of them, these are 0 but for rounding. Otherwise the values v/w of the
-  /// rows, as impulses, move nothing and so prove the contradiction (Farkas' lemma), and a
+  /// violates them least: first of the contacts, then of the links. That motion has the smallest
+  /// sum of v^2/w over the rows of bilateral constraints without compliance and the negative gaps.
+  /// If some motion satisfies all of them, these are 0 but for rounding. Otherwise the values v/w
+  /// of the rows, as impulses, move nothing and so prove the contradiction (Farkas' lemma), and a
   /// constraint that has no part in it is not violated.
   std::vector<double> least_violations() const;
 

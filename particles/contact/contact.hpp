@@ -148,10 +148,10 @@ Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
 }
 
 /// True if two particles are so far from each other that these displacements cannot make their
-/// linearised gap smaller than `margin` [L], >= 0: |x_j - x_i| > r_i + r_j + |w|_1 + margin, where w
-/// is the relative displacement and |w|_1, the sum of its components' magnitudes, is at least its
-/// length. This test is fast, because it
-/// needs no square root and no division, and it decides for most pairs of a list.
+/// linearised gap smaller than `margin` [L], >= 0: |x_j - x_i| > r_i + r_j + |w|_1 + margin, where
+/// w is the relative displacement and |w|_1, the sum of its components' magnitudes, is at least its
+/// length. This test is fast, because it needs no square root and no division, and it decides for
+/// most pairs of a list.
 template <int D>
 bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> displacements,
                   double margin = 0) {

@@ -1,7 +1,7 @@
 // The position of a plane at a given time, a rotation about its pivot, then a translation; measures
-// of domains, and obstacles of their walls (domain.hpp). Numbers are in the units of the case. Nothing
-// is checked or thrown. A change must keep a plane at rest bit for bit, and the order of the walls,
-// which numbers obstacles in files.
+// of domains, and obstacles of their walls (domain.hpp). Numbers are in the units of the case.
+// Nothing is checked or thrown. A change must keep a plane at rest bit for bit, and the order of
+// the walls, which numbers obstacles in files.
 #include "viscontact/particles/domain/domain.hpp"
 
 #include <cmath>

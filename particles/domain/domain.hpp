@@ -1,8 +1,8 @@
 // The domain that holds the particles and, if there is one, the fluid: a disc, a box that may be
 // periodic, or a cylinder with the particles on its axis; and the obstacles that bound the space of
 // the particles: planes (lines, for discs) and circles. A plane is at rest, moves or turns. Lengths
-// and times are in the units of the case. All contacts use them; particles/case checks the values. A
-// change must keep the numbers of obstacles in files, and normals at length 1.
+// and times are in the units of the case. All contacts use them; particles/case checks the values.
+// A change must keep the numbers of obstacles in files, and normals at length 1.
 #pragma once
 
 #include <array>

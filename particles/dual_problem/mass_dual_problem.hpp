@@ -1,9 +1,9 @@
 // The dual problem (5.4) of docs/physics.md for particles that only their masses resist: the two
-// products with W that all methods use, in flat arrays of contacts and bodies, a sparse factor of W,
-// and the solver. Lengths, masses and times are in the units of the case; impulses and residuals are
-// scaled as dual_problem.hpp says. projection/, constraints/ and impacts/ use it. Nothing is thrown:
-// the result has the residual. A change must keep the order of all sums, because the results must not
-// depend on the threads.
+// products with W that all methods use, in flat arrays of contacts and bodies, a sparse factor of
+// W, and the solver. Lengths, masses and times are in the units of the case; impulses and residuals
+// are scaled as dual_problem.hpp says. projection/, constraints/ and impacts/ use it. Nothing is
+// thrown: the result has the residual. A change must keep the order of all sums, because the
+// results must not depend on the threads.
 #pragma once
 
 #include <array>
@@ -162,8 +162,8 @@ class MassDualProblem : public DualProblem {
 };
 
 /// A sparse Cholesky factor of the matrix W between chosen contacts, with diagonal 1. It serves
-/// dual_solver.cpp as a solver and as a preconditioner. The chosen contacts are those that are free:
-/// their z is above the bound, and their linearised gap is 0.
+/// dual_solver.cpp as a solver and as a preconditioner. The chosen contacts are those that are
+/// free: their z is above the bound, and their linearised gap is 0.
 ///
 /// Chains, and packings at rest, have as many contacts with impulses as degrees of freedom. W is
 /// then so ill-conditioned that iterative methods take as many iterations as a chain has contacts.
@@ -201,8 +201,9 @@ class FreeSetFactor {
 };
 
 /// Solves the dual problem by projected conjugate gradients (mprgp.hpp), preconditioned by sweeps
-/// of symmetric Gauss-Seidel or, if these take long and it is cheap, by a FreeSetFactor. Newton's method (active_set_newton.hpp) solves chains of contacts, and is
-/// tried if the other methods take many iterations.
+/// of symmetric Gauss-Seidel or, if these take long and it is cheap, by a FreeSetFactor. Newton's
+/// method (active_set_newton.hpp) solves chains of contacts, and is tried if the other methods take
+/// many iterations.
 ///
 /// Improves problem.z, which begins as a guess, until all residuals are at most 1 or
 /// `max_iterations` are done. Redundant contacts have impulses of which the velocities determine

@@ -345,8 +345,8 @@ void add_torques_of_stops(const Links& links, const Particles& particles,
 
 namespace {
 
-/// Whether a force of the contact changes its gap. It does not where a hinge holds the place at which
-/// it acts.
+/// Whether a force of the contact changes its gap. It does not where a hinge holds the place at
+/// which it acts.
 bool moves(const Contact<2>& contact, const Mobility& mobility,
            const ContactConditions& conditions) {
   if (!(conditions.least_w > 0)) return true;

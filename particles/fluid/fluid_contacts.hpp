@@ -90,8 +90,8 @@ struct ContactConditions {
   /// The length of the step in which forces change the momentum, over h; 1 but in a fluid with
   /// inertia. The impulse of a force lambda is h lambda times this share.
   double share_of_impulse = 1;
-  /// Change of the velocity of a gap, or of a slip, by a unit force of its contact [T/M] up to which
-  /// the gap or slip counts as one that hinges hold, and takes no part; 0: none is held.
+  /// Change of the velocity of a gap, or of a slip, by a unit force of its contact [T/M] up to
+  /// which the gap or slip counts as one that hinges hold, and takes no part; 0: none is held.
   double least_w = 0;
   double least_reach = 0;  ///< pairs are listed up to this gap at least [L]
   /// Whether the mobility is symmetric. Moving fluid carries what a contact does to the contacts
@@ -110,8 +110,8 @@ inline double rounding_error_of_gaps(const ContactConditions& conditions) {
              fastest(conditions.free_velocities, conditions.layout);
 }
 
-/// Contact::w of a contact whose gap a hinge holds, as no force of the contact can change it. It takes
-/// no part, and its gap is as exact as the hinge.
+/// Contact::w of a contact whose gap a hinge holds, as no force of the contact can change it. It
+/// takes no part, and its gap is as exact as the hinge.
 inline constexpr double kHeld = -1;
 
 /// Sets Contact::allowed. Contacts with w = 0 take no part, and only the tolerance of the gaps
@@ -191,8 +191,8 @@ struct ContactFrictionInFluid {
   std::array<double, 2> tangent{};
   /// Change of the slip per turn of the first and of the second particle, counter-clockwise [L].
   std::array<double, 2> levers{};
-  /// Slip of the step if no particle moved [L]: the displacement of the image of the second particle
-  /// relative to that particle, or minus that of the obstacle.
+  /// Slip of the step if no particle moved [L]: the displacement of the image of the second
+  /// particle relative to that particle, or minus that of the obstacle.
   double displacement = 0;
   /// gamma - gamma_min >= 0: the impulse that the film takes up before the solids touch [M L/T].
   double capacity = 0;
@@ -321,22 +321,22 @@ ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Par
                                            const FrictionPlace& place,
                                            const ContactConditions& conditions);
 
-/// Solves for contacts as solve_listed(), with the friction of `step.frictions`, of which
-/// `mu_s` >= 0 is the coefficient, without dimension. If Coulomb's law (5.7) is not reached within
-/// the tolerances, `step.is_solved` is false, and the friction has the bounds (5.17) of given loads;
+/// Solves for contacts as solve_listed(), with the friction of `step.frictions`, of which `mu_s` >=
+/// 0 is the coefficient, without dimension. If Coulomb's law (5.7) is not reached within the
+/// tolerances, `step.is_solved` is false, and the friction has the bounds (5.17) of given loads;
 /// gaps and films are exact for the friction that was found. Throws what the mobility throws.
 void solve_with_friction(StepContacts& step, double mu_s, const Mobility& mobility,
                          const ContactConditions& conditions);
 
-/// The heat that friction makes in a unit of time [M L^2/T^3], >= 0 but for the tolerances: minus the
-/// sum of the forces of friction times the slips of the step, for the velocities with which the
+/// The heat that friction makes in a unit of time [M L^2/T^3], >= 0 but for the tolerances: minus
+/// the sum of the forces of friction times the slips of the step, for the velocities with which the
 /// particles move.
 double heat_of_friction(const StepContacts& step, std::span<const double> velocities,
                         const ContactConditions& conditions);
 
-/// Takes the residuals of Coulomb's law into `residuals`, for the velocities that the particles have
-/// with the contact forces [L/T, 1/T]. The residual of a contact is its slip where it sticks, and
-/// the error of its friction times its tangential mobility where it slides [L].
+/// Takes the residuals of Coulomb's law into `residuals`, for the velocities that the particles
+/// have with the contact forces [L/T, 1/T]. The residual of a contact is its slip where it sticks,
+/// and the error of its friction times its tangential mobility where it slides [L].
 void take_residuals_of_friction(const StepContacts& step, double mu_s,
                                 std::span<const double> velocities,
                                 const ContactConditions& conditions, StepResiduals& residuals);

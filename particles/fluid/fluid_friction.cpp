@@ -1,8 +1,9 @@
-// Solves Coulomb's law of contacts in a fluid (fluid_contacts.hpp) in rounds. Each round keeps the gaps
-// open with the friction that was found so far, by solve_listed(), which also finds the pairs that
-// take part. Then solve_constraints() finds normal and tangential impulses of all contacts that take
-// part together, as for particles without a fluid. Numbers are in the units of the case. Errors are
-// those of the mobility. A change must end with gaps that are exact for the friction found.
+// Solves Coulomb's law of contacts in a fluid (fluid_contacts.hpp) in rounds. Each round keeps the
+// gaps open with the friction that was found so far, by solve_listed(), which also finds the pairs
+// that take part. Then solve_constraints() finds normal and tangential impulses of all contacts
+// that take part together, as for particles without a fluid. Numbers are in the units of the case.
+// Errors are those of the mobility. A change must end with gaps that are exact for the friction
+// found.
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -91,8 +92,8 @@ struct MovedDirections {
     root = scales.asDiagonal() * modes.eigenvectors() * roots.asDiagonal();
   }
 
-  /// Takes the sums that no impulse moves from the offsets, where they are as small as `rounding` of
-  /// all of them explains [L]. Otherwise impulses would grow to move what they cannot.
+  /// Takes the sums that no impulse moves from the offsets, where they are as small as `rounding`
+  /// of all of them explains [L]. Otherwise impulses would grow to move what they cannot.
   Eigen::VectorXd consistent(const Eigen::VectorXd& offsets, double rounding) const {
     Eigen::VectorXd scaled = offsets.cwiseQuotient(scales);
     for (Index m = 0; m < unmoved.cols(); ++m) {

@@ -1,9 +1,9 @@
-// What a step in a fluid computes before it changes the state (fluid_simulation.hpp), and the blow of
-// a step between solids that rebound, docs/physics.md (6.11): Poisson's restitution of
+// What a step in a fluid computes before it changes the state (fluid_simulation.hpp), and the blow
+// of a step between solids that rebound, docs/physics.md (6.11): Poisson's restitution of
 // contact/restitution_law.hpp, with the mobility of the fluid in place of masses. Velocities are in
 // [L/T, 1/T], forces in [M L/T^2, M L^2/T^2], in the units of the case; impulses and gamma of discs
-// are per length. Nothing is thrown. A change must keep the state unchanged until a step is accepted,
-// and results may depend on the order of the particles by rounding errors only.
+// are per length. Nothing is thrown. A change must keep the state unchanged until a step is
+// accepted, and results may depend on the order of the particles by rounding errors only.
 #pragma once
 
 #include <algorithm>

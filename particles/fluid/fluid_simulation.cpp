@@ -180,8 +180,9 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
       free, h, layout_, setting_.solver, mean_radius_, error_of_answers(fluid), kick_length(h) / h};
   conditions.is_symmetric = !fluid.has_inertia() || fluid.coupling == Coupling::kSplitting;
   if (!setting_.links.hinges.empty()) {
-    // A particle resists with its mass over the step and with a drag of about the viscosity, or some
-    // 1e5 times as much in the narrowest gap of a mesh. What a hinge holds moves by errors only.
+    // A particle resists with its mass over the step and with a drag of about the viscosity, or
+    // some 1e5 times as much in the narrowest gap of a mesh. What a hinge holds moves by errors
+    // only.
     constexpr double kShare = 1e-9, kErrors = 10;
     double heaviest = 0;
     const auto& p = state_.particles;
@@ -301,9 +302,9 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
   return forces;
 }
 
-/// Changes velocities until bodies are rigid, and hinges and arms hold, after their finite turns, and
-/// adds the forces of this to those in the rows. Springs keep their forces. Returns by how much rows
-/// are off then [L].
+/// Changes velocities until bodies are rigid, and hinges and arms hold, after their finite turns,
+/// and adds the forces of this to those in the rows. Springs keep their forces. Returns by how much
+/// rows are off then [L].
 double FluidSimulation::hold_turned(const HeldMotion& held, double h,
                                     std::vector<double>& velocities,
                                     std::vector<double>& row_forces) const {
@@ -320,9 +321,9 @@ double FluidSimulation::hold_turned(const HeldMotion& held, double h,
 }
 
 /// Solves the contacts of a step again until bodies are rigid, and hinges and arms hold, after the
-/// finite turns of the motion with contacts, which differ from those without. Changes the velocities
-/// without contact, and adds the forces of this to those in the rows. Sets Motion::links_hold. Does
-/// nothing in a step in which solids rebound.
+/// finite turns of the motion with contacts, which differ from those without. Changes the
+/// velocities without contact, and adds the forces of this to those in the rows. Sets
+/// Motion::links_hold. Does nothing in a step in which solids rebound.
 void FluidSimulation::hold_with_contacts(const StepEquation& equation, const HeldMotion& held,
                                          double h, double next, Motion& motion,
                                          std::vector<double>& row_forces) {

@@ -1,8 +1,8 @@
 // Membranes, as a case describes them, and the shapes in which they begin. A membrane is a closed
-// necklace of particles, its beads, that bends and does not change its length, nor that of any of its
-// parts, nor the area inside. In a fluid it is the curve through the centres of the beads, without a
-// fluid the polygon (docs/physics.md, section 8). Lengths, masses and times are in the units of the
-// case; in a fluid masses and forces are per unit length of the third dimension.
+// necklace of particles, its beads, that bends and does not change its length, nor that of any of
+// its parts, nor the area inside. In a fluid it is the curve through the centres of the beads,
+// without a fluid the polygon (docs/physics.md, section 8). Lengths, masses and times are in the
+// units of the case; in a fluid masses and forces are per unit length of the third dimension.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Makes the equations of a membrane without a fluid (necklace.hpp). A change must keep that rows and
-// membrane_value_after() agree to first order in the motion.
+// Makes the equations of a membrane without a fluid (necklace.hpp). A change must keep that rows
+// and membrane_value_after() agree to first order in the motion.
 #include <cmath>
 
 #include "viscontact/particles/membranes/necklace.hpp"

@@ -1,5 +1,5 @@
-// Chooses what of a motion a page shows, and encodes it (page_data.hpp). Numbers are in the units of
-// the case; nothing is thrown. The layout of the blocks must agree with the scripts in
+// Chooses what of a motion a page shows, and encodes it (page_data.hpp). Numbers are in the units
+// of the case; nothing is thrown. The layout of the blocks must agree with the scripts in
 // particles/picture/page.
 #include "viscontact/particles/picture/page_data.hpp"
 
@@ -67,8 +67,8 @@ void choose_frames(PageData& data, const Playback& playback, std::size_t every_f
 
 /// The contacts of all frames: a list of all pairs that are ever in contact, and for each frame the
 /// contacts in it. A contact is written as its distance in the list from the contact before it, a
-/// byte for gamma from 0 (gamma = 0) to 255 (the lowest gamma); in a motion with friction a byte for
-/// mobilised_friction(), 255 if it slides; and, if there are forces, a byte for force_share().
+/// byte for gamma from 0 (gamma = 0) to 255 (the lowest gamma); in a motion with friction a byte
+/// for mobilised_friction(), 255 if it slides; and, if there are forces, a byte for force_share().
 struct Contacts {
   Bytes pairs;    ///< int32, int32: as in CurrentContact, by number of the drawn particle
   Bytes images;   ///< int8: CurrentContact::image of each pair

@@ -1,6 +1,6 @@
 // The numbers of the page that plays a motion: chooses the frames, particles and contacts that fit
-// into it, and encodes them, and the flow, as blocks that its script reads. Numbers are in the units
-// of the case; nothing is thrown. The layout of the blocks must agree with the scripts in
+// into it, and encodes them, and the flow, as blocks that its script reads. Numbers are in the
+// units of the case; nothing is thrown. The layout of the blocks must agree with the scripts in
 // particles/picture/page. Used by particles_page.cpp.
 #pragma once
 
@@ -35,7 +35,8 @@ struct PageData {
   /// are in [L].
   int position_bytes = 2;
   std::array<double, 3> low{}, step{1, 1, 1};
-  /// For each shown particle, the first of `frames` in which it is there. Empty: all are always there.
+  /// For each shown particle, the first of `frames` in which it is there. Empty: all are always
+  /// there.
   std::vector<std::int32_t> first_frames{};
   double top_speed = 0;  ///< largest speed of the shown frames [L/T]; 0: not known
   Blocks blocks{};       ///< all that the script reads of these frames
@@ -45,11 +46,11 @@ struct PageData {
 /// encodes them. If even two frames are too large, the contacts are left out.
 PageData page_data(const Scene& scene, const Blocks& others);
 
-/// The blocks of the flow, none if there is none: times [T] as doubles; for each flow and point a byte
-/// of the speed and of the pressure, 0 to 254 from the lower to the upper end of the scale, 255
-/// where there is no flow; streamlines as 16-bit numbers (the number of lines; for each line the
-/// number of its points, the place of its arrow or 65535, and its points as multiples of 1/65535
-/// of the window), and the begin of each flow in them, then the end.
+/// The blocks of the flow, none if there is none: times [T] as doubles; for each flow and point a
+/// byte of the speed and of the pressure, 0 to 254 from the lower to the upper end of the scale,
+/// 255 where there is no flow; streamlines as 16-bit numbers (the number of lines; for each line
+/// the number of its points, the place of its arrow or 65535, and its points as multiples of
+/// 1/65535 of the window), and the begin of each flow in them, then the end.
 Blocks flow_blocks(const Scene& scene);
 
 }  // namespace viscontact::particles

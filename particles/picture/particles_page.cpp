@@ -1,6 +1,6 @@
 // Writes the page that plays a motion: words, controls, scales, and the numbers of page_data.hpp.
-// Numbers are in the units of the case; a flow that cannot be read is an Error(kBadInput). The keys of
-// the JSON and the ids of elements must agree with the scripts in particles/picture/page.
+// Numbers are in the units of the case; a flow that cannot be read is an Error(kBadInput). The keys
+// of the JSON and the ids of elements must agree with the scripts in particles/picture/page.
 #include <fmt/format.h>
 
 #include <algorithm>

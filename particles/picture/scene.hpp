@@ -97,13 +97,13 @@ struct SceneStyle {
   /// Widths of the lines that join the particles of a body, of arms, and half the width of springs,
   /// divided by the smaller radius of both ends.
   double body_line = 0.18, arm = 0.25, spring_width = 0.35;
-  /// If no contact has a force: the line of a film or of a contact that slides, in proportion to the
-  /// smaller radius of both ends.
+  /// If no contact has a force: the line of a film or of a contact that slides, in proportion to
+  /// the smaller radius of both ends.
   LineWidth film_line{0.3, 0.8, 5};
   LineWidth touching_line{0.06, 0.3, 1};  ///< likewise, of another contact
-  /// If contacts have forces: the line of a contact with the force Scene::top_force, in proportion to
-  /// the mean radius. Lines of smaller forces have the same share of this width as of the force, but
-  /// at least the next two widths.
+  /// If contacts have forces: the line of a contact with the force Scene::top_force, in proportion
+  /// to the mean radius. Lines of smaller forces have the same share of this width as of the force,
+  /// but at least the next two widths.
   LineWidth force_line{0.9, 0, 12};
   LineWidth film_with_force{0.1, 0.8, 2};  ///< least of a film, by the smaller radius of both ends
   LineWidth touching_with_force{0, 0.3, 0.3};  ///< least of another contact, likewise
@@ -120,7 +120,8 @@ struct Scene {
   Playback playback;
   bool has_axis = false;     ///< the motion is on an axis, at which the picture is symmetric
   bool is_in_fluid = false;  ///< there is a flow to draw
-  /// Whether forces, impulses and masses are those per length across the plane, as of discs in a fluid.
+  /// Whether forces, impulses and masses are those per length across the plane, as of discs in a
+  /// fluid.
   bool is_per_length() const {
     return playback.is_in_fluid && !has_axis && playback.dimension == 2;
   }
@@ -149,8 +150,8 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
 /// The normal force of a contact, of either sign, divided by Scene::top_force: from 0 to 1.
 double force_share(const Scene& scene, const CurrentContact& contact);
 
-/// |p_t|/(mu_s p_n) of a contact, the share of Coulomb's bound that its friction has reached, from 0
-/// to 1; 1 if it slides, 0 without friction or load.
+/// |p_t|/(mu_s p_n) of a contact, the share of Coulomb's bound that its friction has reached, from
+/// 0 to 1; 1 if it slides, 0 without friction or load.
 double mobilised_friction(const Playback& playback, const CurrentContact& contact);
 
 /// What the colours of that share mean.

@@ -1,6 +1,6 @@
-// Chooses the contacts of a step, solves the projection in rounds, and computes the impulses at work
-// and the rounding errors of contacts (step_projection.hpp, docs/particles.md). Numbers are in the
-// units of the case. What is not solved is reported, not thrown. Results must not depend on the
+// Chooses the contacts of a step, solves the projection in rounds, and computes the impulses at
+// work and the rounding errors of contacts (step_projection.hpp, docs/particles.md). Numbers are in
+// the units of the case. What is not solved is reported, not thrown. Results must not depend on the
 // number of threads; a change of a scale alters which steps converge.
 #include "viscontact/particles/projection/step_projection.hpp"
 
@@ -201,12 +201,12 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   ProjectionResult result;
   // Tolerate half of the allowed overlap. The other half is for the overlap that this step may add.
   tolerated_ = settings.tolerance * mean_radius / 2;
-  // With friction a solution costs more than contacts that stay open. Therefore pairs whose gaps are
-  // nearly closed are chosen early: with Coulomb's law together with the first ones that a solution
-  // has closed, but not before, because a tower that stands by itself would lean on neighbours that
-  // it only touches, and because redundant contacts cost more iterations than rounds. The convex
-  // relaxation holds dry particles that slide apart, (5.9), also where they would not meet. With it
-  // only pairs with a film are chosen early, and at once.
+  // With friction a solution costs more than contacts that stay open. Therefore pairs whose gaps
+  // are nearly closed are chosen early: with Coulomb's law together with the first ones that a
+  // solution has closed, but not before, because a tower that stands by itself would lean on
+  // neighbours that it only touches, and because redundant contacts cost more iterations than
+  // rounds. The convex relaxation holds dry particles that slide apart, (5.9), also where they
+  // would not meet. With it only pairs with a film are chosen early, and at once.
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;

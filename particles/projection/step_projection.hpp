@@ -1,7 +1,7 @@
 // Solves the projection (5.3) of one step on the contacts and particles that take part in it:
-// chooses them, sets their tolerances, and checks the solution by scales that do not depend on units.
-// Lengths, masses and times are in the units of the case. simulation.cpp uses it; what is not solved
-// is reported, not thrown. The results must not depend on the number of threads.
+// chooses them, sets their tolerances, and checks the solution by scales that do not depend on
+// units. Lengths, masses and times are in the units of the case. simulation.cpp uses it; what is
+// not solved is reported, not thrown. The results must not depend on the number of threads.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
-// Copies the arrays of the frames into an HDF5 file (particles_pages.hpp). Numbers are in the units of the case
-// and are copied without conversion. Rows are counted in 64 bits. Each call of the C library whose failure
-// can lose data is checked in one place (checked), and a change must keep this.
+// Copies the arrays of the frames into an HDF5 file (particles_pages.hpp). Numbers are in the units
+// of the case and are copied without conversion. Rows are counted in 64 bits. Each call of the C
+// library whose failure can lose data is checked in one place (checked), and a change must keep
+// this.
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/run/particles_pages.hpp"
 
@@ -26,8 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// While it lives, the C library prints no errors, because they are thrown. Then the library does as
-/// before: other code of the process, such as h5py beside the Python module, may rely on it.
+/// While it lives, the C library prints no errors, because they are thrown. Then the library does
+/// as before: other code of the process, such as h5py beside the Python module, may rely on it.
 class SilentErrors {
  public:
   SilentErrors() {
@@ -43,8 +44,8 @@ class SilentErrors {
   void* data_ = nullptr;
 };
 
-/// The cause of the last error of the C library: the message of the operating system, such as "No space
-/// left on device", or else what the library says itself.
+/// The cause of the last error of the C library: the message of the operating system, such as "No
+/// space left on device", or else what the library says itself.
 std::string cause_of_error() {
   std::string cause;  // the innermost function that failed says it first
   H5Ewalk2(
@@ -66,8 +67,8 @@ Result checked(Result result, const fs::path& file) {
   return result;
 }
 
-/// An object of the C library, which is closed at the end. Its data must have been flushed before, because
-/// an error of closing is then not seen.
+/// An object of the C library, which is closed at the end. Its data must have been flushed before,
+/// because an error of closing is then not seen.
 class Handle {
  public:
   /// `closing` is the function of the C library that closes it.
@@ -160,8 +161,8 @@ struct Array {
   std::size_t columns;
 };
 
-/// The arrays of one kind of number that the first frame has, each with its rows. All frames have the same
-/// arrays, because a run has particles from its start on.
+/// The arrays of one kind of number that the first frame has, each with its rows. All frames have
+/// the same arrays, because a run has particles from its start on.
 template <class Number>
 class Arrays {
  public:
@@ -259,8 +260,8 @@ void require_hdf5() {}
 
 void write_hdf5(const ParticlesCase& c, const fs::path& folder,
                 const results::Provenance& provenance) {
-  // After an error of writing, version 1.10 crashes when it closes the file once more at the end of the
-  // process. A file that was closed without an error needs nothing at the end.
+  // After an error of writing, version 1.10 crashes when it closes the file once more at the end of
+  // the process. A file that was closed without an error needs nothing at the end.
   H5dont_atexit();
   const SilentErrors silent;
   const fs::path file = folder / "particles.h5";

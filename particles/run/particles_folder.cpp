@@ -1,9 +1,9 @@
-// Recognises the files of frames by their names, and files that Viscontact wrote by their provenance;
-// writes the rows of steps.csv, the record of restart.bin as JSON, and run.json
-// (particles_folder.hpp). Numbers of frames count from 0, times are in the unit of the case, computing
-// times in seconds. A file of the user in the way and a damaged record are an Error(kBadInput). A
-// change must keep that only files of Viscontact are removed, and columns and keys, which users'
-// scripts read.
+// Recognises the files of frames by their names, and files that Viscontact wrote by their
+// provenance; writes the rows of steps.csv, the record of restart.bin as JSON, and run.json
+// (particles_folder.hpp). Numbers of frames count from 0, times are in the unit of the case,
+// computing times in seconds. A file of the user in the way and a damaged record are an
+// Error(kBadInput). A change must keep that only files of Viscontact are removed, and columns and
+// keys, which users' scripts read.
 #include "viscontact/particles/run/particles_folder.hpp"
 
 #include <fmt/format.h>

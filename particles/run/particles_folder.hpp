@@ -1,8 +1,8 @@
 // The files in the folder of a run of many particles: their names, which of them a run may replace,
-// removing those of an earlier run, and what they record of it: sums over its steps, for run.json, and
-// where its files end, for restart.bin (docs/file-formats.md). Times [T] are in the unit of the case,
-// computing times in seconds. Runs, logs and pages use it. A change must keep names, columns and
-// keys, which scripts of users and interrupted runs rely on.
+// removing those of an earlier run, and what they record of it: sums over its steps, for run.json,
+// and where its files end, for restart.bin (docs/file-formats.md). Times [T] are in the unit of the
+// case, computing times in seconds. Runs, logs and pages use it. A change must keep names, columns
+// and keys, which scripts of users and interrupted runs rely on.
 #pragma once
 
 #include <array>

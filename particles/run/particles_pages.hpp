@@ -1,6 +1,6 @@
 // The page, the picture and the HDF5 file of a run of many particles, which are made from the files
-// of the run, in the units of the case. The commands `particles` and `report` call it. A change must
-// keep that frames of earlier versions can be drawn, and names and layout of the data sets
+// of the run, in the units of the case. The commands `particles` and `report` call it. A change
+// must keep that frames of earlier versions can be drawn, and names and layout of the data sets
 // (docs/file-formats.md, "HDF5"), because users' scripts read them.
 #pragma once
 
@@ -23,13 +23,14 @@ void write_pages(const ParticlesCase& c, const std::filesystem::path& folder,
 /// Error(kBadInput) if a file is missing or damaged.
 void report_particles(const std::filesystem::path& folder);
 
-/// Throws Error(kWrongUsage), which says what to install, if this program was built without libhdf5.
+/// Throws Error(kWrongUsage), which says what to install, if this program was built without
+/// libhdf5.
 void require_hdf5();
 
 /// Writes `folder`/particles.h5 from the frames that `folder`/particles.pvd lists, one after the
-/// other, so that the memory of two frames is enough. At any time, also after a power cut, an earlier
-/// file or the whole new one is there (write_file_by). Throws Error(kBadInput) if a frame is missing or
-/// damaged, or if the file cannot be written, and the error of require_hdf5().
+/// other, so that the memory of two frames is enough. At any time, also after a power cut, an
+/// earlier file or the whole new one is there (write_file_by). Throws Error(kBadInput) if a frame
+/// is missing or damaged, or if the file cannot be written, and the error of require_hdf5().
 void write_hdf5(const ParticlesCase& c, const std::filesystem::path& folder,
                 const results::Provenance& provenance);
 

@@ -1,9 +1,10 @@
-// What is recorded of one step of a simulation, for steps.csv and run.json, and how far its solution
-// misses its conditions, by which it is accepted: the same for particles with masses (projection/)
-// and in a fluid (fluid/). A residual is how far a gap or a length is from what its condition asks,
-// [L]; docs/particles.md, "The projection", says what is allowed. Lengths, masses and times are in
-// the units of the case. Simulations fill the report, and particles/run writes it. A change must keep
-// what the columns of steps.csv mean; a change of a limit changes which steps are accepted.
+// What is recorded of one step of a simulation, for steps.csv and run.json, and how far its
+// solution misses its conditions, by which it is accepted: the same for particles with masses
+// (projection/) and in a fluid (fluid/). A residual is how far a gap or a length is from what its
+// condition asks, [L]; docs/particles.md, "The projection", says what is allowed. Lengths, masses
+// and times are in the units of the case. Simulations fill the report, and particles/run writes it.
+// A change must keep what the columns of steps.csv mean; a change of a limit changes which steps
+// are accepted.
 #pragma once
 
 #include <array>

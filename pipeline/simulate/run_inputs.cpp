@@ -1,8 +1,8 @@
-// Checks and writes the copies of a run's inputs in its folder, and the comment lines of trajectories
-// that identify these inputs. A file of the user in the way is an Error(kBadInput); a trajectory that
-// cannot be read counts as one from other inputs. A change must keep the order of writing
-// (write_copies), by which files of the user are told from copies. A change of a key makes `run`
-// simulate again, because trajectories of earlier versions lack the key.
+// Checks and writes the copies of a run's inputs in its folder, and the comment lines of
+// trajectories that identify these inputs. A file of the user in the way is an Error(kBadInput); a
+// trajectory that cannot be read counts as one from other inputs. A change must keep the order of
+// writing (write_copies), by which files of the user are told from copies. A change of a key makes
+// `run` simulate again, because trajectories of earlier versions lack the key.
 #include "viscontact/pipeline/simulate/run_inputs.hpp"
 
 #include <fmt/format.h>

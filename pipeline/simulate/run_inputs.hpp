@@ -1,8 +1,8 @@
-// The inputs of a run: their copies in its folder (case, force files, fit), so that the folder alone
-// repeats the run, and the record of what a trajectory was made from, by which `run` decides whether
-// it is up to date. The stages of the main job call it. Numbers are in the units of the case. A copy
-// must never replace a file of the user, and the record must name everything that alters a
-// trajectory.
+// The inputs of a run: their copies in its folder (case, force files, fit), so that the folder
+// alone repeats the run, and the record of what a trajectory was made from, by which `run` decides
+// whether it is up to date. The stages of the main job call it. Numbers are in the units of the
+// case. A copy must never replace a file of the user, and the record must name everything that
+// alters a trajectory.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// The registry of models, the suffixes of their names, the budget of models whose film is the
-// whole drag, and the gaps that a model reaches. Numbers are in any consistent units. An unknown name
-// is an Error(kBadInput), and a result that is not finite an Error(kNotConverged). A change must keep
+// The registry of models, the suffixes of their names, the budget of models whose film is the whole
+// drag, and the gaps that a model reaches. Numbers are in any consistent units. An unknown name is
+// an Error(kBadInput), and a result that is not finite an Error(kNotConverged). A change must keep
 // the names, and the order, which gives the colours of the report.
 #include "viscontact/reduced_model/models/models.hpp"
 

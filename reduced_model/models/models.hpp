@@ -1,7 +1,7 @@
 // The registry of models of motion, and the gaps that a model reaches. A new model needs its own
-// source and a row in models.cpp (docs/extending.md); commands, help, sweeps and the report learn of
-// it from there. Lengths, masses and times are in any consistent units. A change must keep the names
-// of models, which case files contain.
+// source and a row in models.cpp (docs/extending.md); commands, help, sweeps and the report learn
+// of it from there. Lengths, masses and times are in any consistent units. A change must keep the
+// names of models, which case files contain.
 #pragma once
 
 #include <optional>

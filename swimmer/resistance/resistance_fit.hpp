@@ -1,9 +1,9 @@
 // A fit of the resistance matrix R of spheres on a line as a function of the gaps between them
-// (physics.md, section 7), the lubrication between neighbours that it contains, and R at any gaps from
-// it. Lengths, masses and times are in the units of the table. swimmer/fit/fit_resistance.hpp makes
-// it, and the mechanics of the swimmer evaluates it. A change must keep the keys of the file, which
-// other programs may read, the formula of the lubrication, because files contain only the rest, and R
-// symmetric and positive definite.
+// (physics.md, section 7), the lubrication between neighbours that it contains, and R at any gaps
+// from it. Lengths, masses and times are in the units of the table. swimmer/fit/fit_resistance.hpp
+// makes it, and the mechanics of the swimmer evaluates it. A change must keep the keys of the file,
+// which other programs may read, the formula of the lubrication, because files contain only the
+// rest, and R symmetric and positive definite.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,10 +1,10 @@
-// The models `viscous_contact` and `viscous_contact_leapfrog` (physics.md (4.4) to (4.6)), and the two
-// that differ from them by one term: `viscous_contact_regular_drag` (4.7), and plain inelastic
-// contact for comparison. q is the gap, u the velocity, m the mass, f_ext the external force, lambda
-// the force of the contact, gamma minus the impulse that the film has absorbed, k the coefficient of
-// 1/q in the resistance R; - and + mark values before and after an impact. Lengths, masses and times
-// are in any consistent units. models.cpp lists the models. A change of results must raise
-// kModelsRevision.
+// The models `viscous_contact` and `viscous_contact_leapfrog` (physics.md (4.4) to (4.6)), and the
+// two that differ from them by one term: `viscous_contact_regular_drag` (4.7), and plain inelastic
+// contact for comparison. q is the gap, u the velocity, m the mass, f_ext the external force,
+// lambda the force of the contact, gamma minus the impulse that the film has absorbed, k the
+// coefficient of 1/q in the resistance R; - and + mark values before and after an impact. Lengths,
+// masses and times are in any consistent units. models.cpp lists the models. A change of results
+// must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
