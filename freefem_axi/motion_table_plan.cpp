@@ -144,9 +144,4 @@ TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
   return make_plan(std::move(parts));
 }
 
-TablePlan force_table_plan(const Tabulation& tabulation) {
-  return motion_table_plan(tabulation, MotionGroup::kAlong,
-                           [](MotionKind) { return std::filesystem::path(); });
-}
-
 }  // namespace viscontact::freefem_axi

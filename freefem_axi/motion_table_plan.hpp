@@ -30,7 +30,4 @@ using TablePath = std::function<std::filesystem::path(lubrication::MotionKind)>;
 TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
                             const TablePath& path_of);
 
-/// The plan of the table of the approach.
-TablePlan force_table_plan(const Tabulation& tabulation);
-
 }  // namespace viscontact::freefem_axi

@@ -3,21 +3,11 @@
 // known, because 0 means "not known".
 #include "viscontact/freefem_flow/dissipation_alone.hpp"
 
-#include <numbers>
-
 namespace viscontact::freefem_flow {
 namespace {
 
 using particles::BoxDomain;
 using particles::WallVelocity;
-
-double area_of(const particles::Domain& domain) {
-  if (const auto* disc = std::get_if<particles::DiscDomain>(&domain))
-    return std::numbers::pi * disc->radius * disc->radius;
-  if (const auto* box = std::get_if<BoxDomain>(&domain))
-    return (box->to[0] - box->from[0]) * (box->to[1] - box->from[1]);
-  return 0;  // the walls of a cylinder are at rest
-}
 
 /// 2 D:D for the symmetric part D of the gradient E = (g0, g1; g2, g3) [1/T^2].
 double twice_strain_squared(const particles::LinearFlow& flow) {
@@ -41,7 +31,7 @@ double shear_rate_squared(const WallVelocity& low, const WallVelocity& high, std
 }  // namespace
 
 double dissipation_alone(const particles::Fluid& fluid, const particles::Domain& domain) {
-  const double scale = fluid.viscosity * area_of(domain);
+  const double scale = fluid.viscosity * particles::measure(domain);
   if (const auto* flow = std::get_if<particles::LinearFlow>(&fluid.boundary))
     return scale * twice_strain_squared(*flow);
   const auto* box = std::get_if<BoxDomain>(&domain);

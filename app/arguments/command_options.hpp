@@ -78,7 +78,8 @@ CLI::Option* add_json(CLI::App& command, bool& json);
 /// be left out must be added to the list in command_options.cpp.
 std::vector<std::string> with_files_apart(std::vector<std::string> arguments);
 
-/// The values of these options.
+/// The values of the options of array jobs, which `tabulate` and `sweep` have: --launcher, --tasks,
+/// --slurm-options, --gather and --task.
 struct ArrayOptions {
   std::string launcher = "local",  ///< "local" or "slurm"
       slurm_options,               ///< words for sbatch, quoted as in a shell; may be empty

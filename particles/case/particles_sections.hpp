@@ -137,6 +137,9 @@ std::vector<case_file::KeyTable> source_tables();
 /// case has something that cannot be combined with membranes, or a fluid that cannot have them; if
 /// so few beads cannot have the reduced area; and for membranes that cross.
 void read_membranes(const case_file::TomlSection& root, ParticlesCase& c, ParticleLines& lines);
+/// Describes this section.
+std::vector<case_file::KeyTable> membrane_tables();
+
 // What of [[membrane]] is refused, each with its line, for read_membranes().
 
 /// Throws if the case has what cannot be computed together with membranes. `first` is the section
@@ -161,9 +164,6 @@ void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& 
 /// Throws if a case with a fluid has, beside the beads of its membranes, particles with a mass or a
 /// torque, ellipses, or particles that cross a membrane.
 void check_others(const case_file::TomlSection& first, const ParticlesCase& c);
-
-/// Describes this section.
-std::vector<case_file::KeyTable> membrane_tables();
 
 /// Throws an error at `key` if there are fewer than `count` ids above the largest one of `p`.
 void require_ids(const case_file::TomlSection& section, std::string_view key, const Particles& p,

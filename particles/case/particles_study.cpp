@@ -50,16 +50,6 @@ std::vector<std::string> columns_of(const ParticlesCase& c) {
   return columns;
 }
 
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields(1);
-  for (const char c : line)
-    if (c == ',')
-      fields.emplace_back();
-    else
-      fields.back() += c;
-  return fields;
-}
-
 /// "MEAN,STANDARD_ERROR" of some values; fields that the values do not give are empty.
 std::string mean_fields(const std::vector<double>& values) {
   if (values.empty()) return ",";
@@ -174,7 +164,7 @@ std::string table_of_means(const ParticlesSweep& sweep, const std::filesystem::p
       header_is_read = true;
       continue;
     }
-    const auto fields = fields_of(line);
+    const auto fields = csv_fields(line);
     if (fields.size() != keys + columns.size() + 1 ||
         !line.starts_with(points.key_fields(row) + ","))
       throw_bad_input({path.string()}, fmt::format("row {} is not that of the sweep", row + 1));

@@ -202,7 +202,7 @@ AreaMoments moments_of(const MembraneCurve& curve, const Eigen::VectorXd& positi
   // beads.
   const double mean_x = positions.head(n).mean(), mean_y = positions.tail(n).mean();
   double mx = 0, my = 0;
-  AreaMoments moments;
+  AreaMoments moments{mean_x, mean_y};
   for (int i = 0; i < n; ++i) {
     const double x = positions(i) - mean_x, y = positions(n + i) - mean_y;
     const double dx = kTwoPi / n * tangents(i, 0), dy = kTwoPi / n * tangents(i, 1);
@@ -212,18 +212,22 @@ AreaMoments moments_of(const MembraneCurve& curve, const Eigen::VectorXd& positi
     moments.yy -= y * y * y / 3 * dx;
     moments.xy += (x * x * y * dy - x * y * y * dx) / 4;
   }
-  const double area = curve.area(positions), cx = mx / area, cy = my / area;
-  moments.x = mean_x + cx;
-  moments.y = mean_y + cy;
-  moments.xx -= area * cx * cx;
-  moments.yy -= area * cy * cy;
-  moments.xy -= area * cx * cy;
+  moments.move_to_centre(curve.area(positions), mx, my);
   return moments;
 }
 
 }  // namespace
 
 double AreaMoments::inclination() const { return 0.5 * std::atan2(2 * xy, xx - yy); }
+
+void AreaMoments::move_to_centre(double area, double mx, double my) {
+  const double cx = mx / area, cy = my / area;
+  x += cx;
+  y += cy;
+  xx -= area * cx * cx;
+  yy -= area * cy * cy;
+  xy -= area * cx * cy;
+}
 
 MembraneMeasures measure(const MembraneCurve& curve, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities) {

@@ -82,6 +82,9 @@ struct AreaMoments {
       xy = 0;     ///< integral of x y [L^4]
   /// The direction of the long axis, in (-pi/2, pi/2] [rad].
   double inclination() const;
+  /// From a point (x, y) to the centre. `area` [L^2] is inside, mx and my are its first moments
+  /// about the point [L^3].
+  void move_to_centre(double area, double mx, double my);
 };
 
 /// A closed line through beads, as measure() needs it: a MembraneCurve or the polygon of

@@ -25,8 +25,8 @@ AreaMoments moments_of_polygon(const Eigen::VectorXd& necklace) {
   const auto n = necklace.size() / 2;
   const Eigen::Vector2d mean(necklace.head(n).mean(), necklace.tail(n).mean());
   double area = 0, mx = 0, my = 0;
-  AreaMoments moments;
-  // Sums over the triangles that the mean of the beads makes with each pair of neighbours.
+  AreaMoments moments{mean.x(), mean.y()};
+  // Sums over the triangles of the mean of the beads and two neighbours.
   for (Eigen::Index k = 0; k < n; ++k) {
     const Eigen::Vector2d a = bead(necklace, k) - mean, b = bead(necklace, k + 1) - mean;
     const double twice = cross(a, b);
@@ -38,12 +38,7 @@ AreaMoments moments_of_polygon(const Eigen::VectorXd& necklace) {
     moments.xy +=
         twice * (2 * a.x() * a.y() + a.x() * b.y() + b.x() * a.y() + 2 * b.x() * b.y()) / 24;
   }
-  const double cx = mx / area, cy = my / area;
-  moments.x = mean.x() + cx;
-  moments.y = mean.y() + cy;
-  moments.xx -= area * cx * cx;
-  moments.yy -= area * cy * cy;
-  moments.xy -= area * cx * cy;
+  moments.move_to_centre(area, mx, my);
   return moments;
 }
 

@@ -15,6 +15,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locks.hpp"
+#include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
 #include "viscontact/particles/arrangement/arrangement.hpp"
@@ -41,19 +42,12 @@ std::optional<double> number_of(const Json& json) {
   return largest;
 }
 
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields;
-  std::istringstream words(line);
-  for (std::string field; std::getline(words, field, ',');) fields.push_back(field);
-  return fields;
-}
-
 /// Adds the values of the last row of steps.csv.
 void add_last_step(const fs::path& path, const std::vector<std::string>& columns, Values& values) {
   std::istringstream text(read_file(path));
   std::vector<std::string> names, last;
   for (std::string line; std::getline(text, line);)
-    if (!line.starts_with('#')) (names.empty() ? names : last) = fields_of(line);
+    if (!line.starts_with('#')) (names.empty() ? names : last) = csv_fields(line);
   for (std::size_t i = 0; i < std::min(names.size(), last.size()); ++i)
     if (const auto value = parse_number(last[i]);
         value && std::ranges::find(columns, names[i]) != columns.end())

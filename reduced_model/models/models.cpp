@@ -37,9 +37,6 @@ namespace {
 /// a row of gap 0 where the sphere goes through the wall, or at the end of the motion. Throws
 /// Error(kBadInput) if the motion leaves the fit's interval.
 Trajectory simulate_explicit_euler(const Motion& motion,
-                                   const lubrication::LubricationForce& force);
-
-Trajectory simulate_explicit_euler(const Motion& motion,
                                    const lubrication::LubricationForce& force) {
   const double end = motion.end_time;
   const double step = motion.parameter(kContactTimeStep);

@@ -13,9 +13,9 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/report/pictures/colours.hpp"
 #include "viscontact/report/pictures/gnuplot.hpp"
@@ -25,20 +25,13 @@ namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields;
-  std::istringstream words(line);
-  for (std::string field; std::getline(words, field, ',');) fields.push_back(field);
-  return fields;
-}
-
 /// Reads the chosen columns of a sweep's file, row by row.
 class SweepRows {
  public:
   explicit SweepRows(const std::filesystem::path& path) : path_(path), file_(path) {
     std::string line;
     while (std::getline(file_, line) && line.starts_with("#")) continue;
-    names_ = fields_of(line);
+    names_ = csv_fields(line);
   }
 
   /// The indices of a column and of the key by which it is divided, if any.
@@ -60,7 +53,7 @@ class SweepRows {
     do
       if (!std::getline(file_, line)) return false;
     while (line.find_first_not_of(" \t\r,") == std::string::npos);
-    fields_ = fields_of(line);
+    fields_ = csv_fields(line);
     return true;
   }
 

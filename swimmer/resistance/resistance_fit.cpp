@@ -24,6 +24,15 @@ std::array<double, kLubricationTerms> coefficients(double beta) {
               (42 * sum3)};
 }
 
+/// Adds what spheres k and k + 1 resist a change of their gap to the matrix of all spheres.
+void add_pair(Eigen::MatrixXd& matrix, std::size_t k, double resistance) {
+  const auto i = static_cast<Eigen::Index>(k);
+  matrix(i, i) += resistance;
+  matrix(i + 1, i + 1) += resistance;
+  matrix(i, i + 1) -= resistance;
+  matrix(i + 1, i) -= resistance;
+}
+
 }  // namespace
 
 double pair_lubrication(double a, double b, double gap, int terms) {
@@ -52,12 +61,7 @@ Eigen::MatrixXd lubrication_matrix(std::span<const double> radii, std::span<cons
   const auto spheres = static_cast<Eigen::Index>(radii.size());
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(spheres, spheres);
   for (std::size_t k = 0; k < gaps.size(); ++k) {
-    const double pair = pair_lubrication(radii[k], radii[k + 1], gaps[k], terms);
-    const auto i = static_cast<Eigen::Index>(k);
-    matrix(i, i) += pair;
-    matrix(i + 1, i + 1) += pair;
-    matrix(i, i + 1) -= pair;
-    matrix(i + 1, i) -= pair;
+    add_pair(matrix, k, pair_lubrication(radii[k], radii[k + 1], gaps[k], terms));
   }
   return matrix;
 }
@@ -162,13 +166,8 @@ ResistanceWithSlopes FittedResistance::operator()(std::span<const double> gaps) 
     Eigen::MatrixXd matrix =
         unit_length_ *
         (q * (differences.cwiseProduct(q.transpose() * slope * q)) * q.transpose()).eval();
-    const double pair =
-        pair_lubrication_slope(radii_[k], radii_[k + 1], gaps[k], lubrication_terms_);
-    const auto i = static_cast<Eigen::Index>(k);
-    matrix(i, i) += pair;
-    matrix(i + 1, i + 1) += pair;
-    matrix(i, i + 1) -= pair;
-    matrix(i + 1, i) -= pair;
+    add_pair(matrix, k,
+             pair_lubrication_slope(radii_[k], radii_[k + 1], gaps[k], lubrication_terms_));
     resistance.slopes.emplace_back(viscosity_ * matrix);
   }
   return resistance;

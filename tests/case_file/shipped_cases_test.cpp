@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <numbers>
 
+#include "tests/freefem_axi/tabulations.hpp"
 #include "viscontact/case_file/case_file.hpp"
-#include "viscontact/freefem_axi/motion_table_plan.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"

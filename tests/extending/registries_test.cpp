@@ -70,9 +70,10 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
           Found("particles/case/particles_case.cpp", "plane"),
           Found("particles/membranes/membrane_checks.cpp", "viscous_contact"),
           Found("particles/membranes/membrane_checks.cpp", "plane"),
-          Found("particles/case/start_checks.cpp", "viscous_contact"),
+          Found("particles/case/fluid_start_checks.cpp", "viscous_contact"),
           // obstacles in words
           Found("particles/case/start_checks.cpp", "plane"),
+          Found("particles/case/fluid_start_checks.cpp", "plane"),
           Found("particles/steps/step_report.cpp", "plane"),
           // a key in the head of a file of a sweep
           Found("sweep/sphere_study.cpp", "reference"),

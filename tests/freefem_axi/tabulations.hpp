@@ -25,6 +25,12 @@ inline Tabulation unit_tabulation(std::vector<double> gaps, double container_rad
   return tabulation;
 }
 
+/// The plan of the table of the approach.
+inline TablePlan force_table_plan(const Tabulation& tabulation) {
+  return motion_table_plan(tabulation, MotionGroup::kAlong,
+                           [](lubrication::MotionKind) { return std::filesystem::path(); });
+}
+
 /// SHA-256 of everything that the forces depend on.
 inline std::string tabulation_hash(const Tabulation& tabulation) {
   return force_table_plan(tabulation).hash;

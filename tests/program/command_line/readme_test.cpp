@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "tests/docs/document.hpp"
+#include "tests/freefem_axi/tabulations.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/system/process.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
-#include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 namespace viscontact {
 namespace {

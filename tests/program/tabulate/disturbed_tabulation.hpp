@@ -9,12 +9,12 @@
 #include <string>
 
 #include "tests/common/temporary_folder.hpp"
+#include "tests/freefem_axi/tabulations.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/sample_files.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
-#include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 namespace viscontact {
 
