@@ -30,8 +30,10 @@ namespace viscontact::particles {
 template <int D>
 class InteriorPoints {
  public:
-  /// `problem` must outlive this object; `w` are its row_mobilities().
-  InteriorPoints(const ConstraintProblem<D>& problem, const std::vector<double>& w);
+  /// All arguments must outlive this object; `w` are the row_mobilities() of the problem, `matrix` is
+  /// its symmetric matrix, which others may use between two solve().
+  InteriorPoints(const ConstraintProblem<D>& problem, const std::vector<double>& w,
+                 UnitMatrix<D>& matrix);
 
   /// Solves the problem until what is left of all its conditions is `accuracy` of what they are
   /// without impulses, in (0, 1), and returns the number of factorisations. Stops early where
@@ -96,7 +98,7 @@ class InteriorPoints {
 
   const ConstraintProblem<D>& problem_;
   const std::vector<double>& w_;
-  UnitMatrix<D, true> matrix_;
+  UnitMatrix<D>& matrix_;
   std::vector<Single> singles_;
   std::vector<Cones> cones_;
   std::vector<Motion<D>> y_, direction_, error_;  // error_: impulses that are missing

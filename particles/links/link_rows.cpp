@@ -16,9 +16,6 @@
 namespace viscontact::particles {
 namespace {
 
-// Newmark's beta. 1/4 is the least one that is stable for every stiffness.
-constexpr double kBeta = 0.25;
-
 /// Centre of the unit of a particle [L].
 Vector unit_centre(const Particles& p, std::int32_t particle) {
   const auto body = p.bodies.body_of(particle);
@@ -79,7 +76,7 @@ LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
 /// before)). In the first step, the change before is taken as 2 h rate - change in this step.
 void make_spring(LinkRow& row, double extension, double rate, double stiffness,
                  const LinkTimes& times) {
-  const double beta = times.is_first ? 2 * kBeta : kBeta;
+  const double beta = times.beta();
   row.extension = extension;
   row.stiffness = stiffness;
   row.value = extension / beta - times.h * rate;

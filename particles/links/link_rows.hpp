@@ -85,6 +85,10 @@ struct LinkTimes {
   /// of the step but at its beginning (a fluid with inertia); both 0 elsewhere.
   double rate_from = 0;
   double rate_to = 0;  ///< see rate_from
+
+  /// Newmark's beta for springs: 1/4 is the least one that is stable for every stiffness. The first
+  /// step has no step before it, whose share is its own.
+  double beta() const { return is_first ? 0.5 : 0.25; }
 };
 
 /// The equations of all links. Springs are integrated by Newmark's method with beta = 1/4 (Newmark

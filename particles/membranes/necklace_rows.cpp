@@ -56,7 +56,6 @@ LinkRow distance_row(const Membrane& membrane, const Particles& p, std::int32_t 
 /// viscosity acts on the change of the extension in the step.
 LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
                  const LinkTimes& times) {
-  constexpr double kBeta = 0.25;
   const auto n = membrane.lengths.size(), i = static_cast<std::size_t>(k);
   const double length = (membrane.lengths[(i + n - 1) % n] + membrane.lengths[i]) / 2;
   const Vector before = apart(membrane, p, k - 1, k), after = apart(membrane, p, k, k + 1);
@@ -70,7 +69,7 @@ LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
   double rate = 0;
   for (const auto& of_bead : row.parts)
     rate += dot(of_bead.direction, p.velocity(index_of(of_bead.particle)));
-  const double beta = times.is_first ? 2 * kBeta : kBeta;
+  const double beta = times.beta();
   const double elastic = times.kick * row.stiffness,
                viscous =
                    times.kick * membrane.bending_viscosity / (length * length * length * times.h);
