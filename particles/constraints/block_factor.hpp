@@ -18,11 +18,12 @@ namespace viscontact::particles {
 /// Factorises A = (L + D) (I + U) without exchange of rows between bodies, where A has blocks of
 /// K x K numbers (3: a disc, 6: a sphere) and two blocks off the diagonal for each pair of bodies
 /// that constraints connect. Dense blocks make it several times as fast as a factorisation of
-/// single numbers. Bodies are eliminated in the order of minimum degree (Amestoy, Davis & Duff
-/// 1996, "An approximate minimum degree ordering algorithm"). A symmetric A must be positive
-/// definite and becomes L L^T (Cholesky), in half of the time, because only its blocks on and below
-/// the diagonal are stored and computed.
-template <int K, bool kIsSymmetric = false>
+/// single numbers. Few bodies are eliminated in the order of minimum degree (AMD: Amestoy, Davis &
+/// Duff 1996, "An approximate minimum degree ordering algorithm"), many in that of nested dissection
+/// (METIS: Karypis & Kumar 1998, "A fast and high quality multilevel scheme for partitioning
+/// irregular graphs"). A symmetric A must be positive definite and becomes L L^T (Cholesky), in half
+/// of the time, because only its blocks on and below the diagonal are stored and computed.
+template <int K>
 class BlockFactor {
  public:
   using Block = std::array<double, static_cast<std::size_t>(K* K)>;  ///< row by row
@@ -32,8 +33,8 @@ class BlockFactor {
   using Edge = std::array<std::int32_t, 2>;
 
   /// Finds the order of elimination and the pattern of L for `bodies` bodies that `edges` connect;
-  /// an edge may occur several times.
-  void analyse(std::size_t bodies, std::span<const Edge> edges);
+  /// an edge may occur several times. `is_symmetric` says that A is symmetric.
+  void analyse(std::size_t bodies, std::span<const Edge> edges, bool is_symmetric);
 
   /// Number of bodies that analyse() was given.
   std::size_t bodies() const { return order_.size(); }
@@ -85,16 +86,17 @@ class BlockFactor {
   std::vector<std::int32_t> first_in_row_, next_in_row_;
   std::vector<std::size_t> next_entry_, entry_in_row_;
   mutable std::vector<Vec> permuted_;
+  bool is_symmetric_ = false;
   int sign_ = 1;
 };
 
-/// The sum of M/h, a block for each unit, and of products of rows of one block of constraints. It
-/// need not be symmetric; with `kIsSymmetric` it must be, and is factorised in half of the time.
-template <int D, bool kIsSymmetric = false>
+/// The sum of M/h, a block for each unit, and of products of rows of one block of constraints.
+template <int D>
 class UnitMatrix {
  public:
-  /// `problem` must outlive this object.
-  explicit UnitMatrix(const ConstraintProblem<D>& problem);
+  /// `problem` must outlive this object. A matrix that `is_symmetric` is factorised in half of the
+  /// time.
+  UnitMatrix(const ConstraintProblem<D>& problem, bool is_symmetric);
 
   void set_to_masses();  ///< sets the matrix to M/h
   /// Adds weight * row^T other, for two rows of constraint block `b`. To a symmetric matrix the
@@ -117,7 +119,8 @@ class UnitMatrix {
   static constexpr int kMotion = D + kTurns<D>;
 
   const ConstraintProblem<D>& problem_;
-  BlockFactor<kMotion, kIsSymmetric> factor_;
+  bool is_symmetric_;
+  BlockFactor<kMotion> factor_;
   // Number of the first edge of each block: one for each pair of its units, of which the first is
   // that of the earlier part.
   std::vector<std::size_t> first_edge_;

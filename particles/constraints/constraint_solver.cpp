@@ -57,7 +57,7 @@ class Iteration {
     }
     if (start_ == ConstraintStart::kSweeps) sweep_while_it_gains(max_iterations);
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return finish();
-    proximal_.emplace(problem_, w_);
+    proximal_.emplace(problem_, w_, matrix());
     proximal_->set_epsilon(epsilon_);
     while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant()) {
       take_proximal_step(max_iterations);
@@ -205,7 +205,7 @@ class Iteration {
     // In space, points near the boundary of a second-order cone lose digits.
     constexpr double kRough = 1e-3, kAccurate = D == 2 ? 1e-9 : 1e-6;
     constexpr int kMostIterations = 60;
-    if (!interior_) interior_.emplace(problem_, w_);
+    if (!interior_) interior_.emplace(problem_, w_, matrix());
     const int most = std::clamp(max_iterations - best_.result.iterations, 1, kMostIterations);
     best_.result.iterations += interior_->solve(problem_.is_rough ? kRough : kAccurate, most);
     problem_.impulses = interior_->impulses();
@@ -226,7 +226,7 @@ class Iteration {
     constexpr double kFirstEpsilonOfConvex = 1e-5;
     epsilon_ = kFirstEpsilonOfConvex;
     is_rising_ = true;
-    if (!proximal_) proximal_.emplace(problem_, w_);
+    if (!proximal_) proximal_.emplace(problem_, w_, matrix());
     proximal_->set_epsilon(epsilon_);
     while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant()) {
       take_convex_step(max_iterations);
@@ -302,6 +302,12 @@ class Iteration {
     update();
   }
 
+  /// The matrix of Newton's methods. It is analysed when it is needed first.
+  UnitMatrix<D>& matrix() {
+    if (!matrix_) matrix_.emplace(problem_, problem_.is_convex);
+    return *matrix_;
+  }
+
   /// Computes motions and residuals, and keeps the solution if it is the best so far.
   void update() {
     motions_ = motions<D>(problem_, problem_.impulses);
@@ -335,6 +341,7 @@ class Iteration {
   std::vector<double> w_;
   ContactSweeps<D> sweeps_;
   ConstraintStart start_;
+  std::optional<UnitMatrix<D>> matrix_;
   std::optional<InteriorPoints<D>> interior_;
   std::optional<ProximalStep<D>> proximal_;
   std::vector<double> values_;  // of the rows

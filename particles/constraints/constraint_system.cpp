@@ -361,7 +361,7 @@ std::vector<double> ConstraintSystem<D>::least_violations() const {
   constexpr double kEpsilon = 1e-6;
   constexpr int kSteps = 30;
   const auto w = row_mobilities(problem);
-  UnitMatrix<D> matrix(problem);
+  UnitMatrix<D> matrix(problem, true);
   auto y = motions<D>(problem, std::vector<double>(problem.rows.size(), 0.0));
   std::vector<double> violations(problem.blocks.size());
   for (int n = 0;; ++n) {

@@ -18,10 +18,11 @@ constexpr double kInside = 0.995;
 }  // namespace
 
 template <int D>
-InteriorPoints<D>::InteriorPoints(const ConstraintProblem<D>& problem, const std::vector<double>& w)
+InteriorPoints<D>::InteriorPoints(const ConstraintProblem<D>& problem, const std::vector<double>& w,
+                                  UnitMatrix<D>& matrix)
     : problem_(problem),
       w_(w),
-      matrix_(problem),
+      matrix_(matrix),
       y_(problem.units.size()),
       direction_(problem.units.size()),
       error_(problem.units.size()),

@@ -31,8 +31,10 @@ namespace viscontact::particles {
 template <int D>
 class InteriorPoints {
  public:
-  /// `problem` must outlive this object; `w` are its row_mobilities().
-  InteriorPoints(const ConstraintProblem<D>& problem, const std::vector<double>& w);
+  /// All arguments must outlive this object; `w` are the row_mobilities() of the problem, `matrix` is
+  /// its symmetric matrix, which others may use between two solve().
+  InteriorPoints(const ConstraintProblem<D>& problem, const std::vector<double>& w,
+                 UnitMatrix<D>& matrix);
 
   /// Solves the problem until the violations of its conditions are at most `accuracy`, in (0, 1),
   /// times those without impulses. Returns the number of factorisations. Stops early where rounding
@@ -97,7 +99,7 @@ class InteriorPoints {
 
   const ConstraintProblem<D>& problem_;
   const std::vector<double>& w_;
-  UnitMatrix<D, true> matrix_;
+  UnitMatrix<D>& matrix_;
   std::vector<Single> singles_;
   std::vector<Cones> cones_;
   std::vector<Motion<D>> y_, direction_, error_;  // error_: impulses that are missing

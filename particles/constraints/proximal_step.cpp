@@ -9,7 +9,8 @@
 namespace viscontact::particles {
 
 template <int D>
-ProximalStep<D>::ProximalStep(const ConstraintProblem<D>& problem, const std::vector<double>& w)
+ProximalStep<D>::ProximalStep(const ConstraintProblem<D>& problem, const std::vector<double>& w,
+                              UnitMatrix<D>& matrix)
     : problem_(problem),
       w_(w),
       rho_(problem.rows.size()),
@@ -19,7 +20,7 @@ ProximalStep<D>::ProximalStep(const ConstraintProblem<D>& problem, const std::ve
       branches_(problem.blocks.size()),
       direction_(problem.units.size(), Motion<D>{}),
       error_(problem.units.size()),
-      matrix_(problem) {}
+      matrix_(matrix) {}
 
 template <int D>
 void ProximalStep<D>::set_epsilon(double of_gaps, double of_slips) {

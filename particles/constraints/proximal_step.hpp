@@ -42,8 +42,11 @@ namespace viscontact::particles {
 template <int D>
 class ProximalStep {
  public:
-  /// `problem` must outlive this object; `w` are its row_mobilities(), W_rr.
-  ProximalStep(const ConstraintProblem<D>& problem, const std::vector<double>& w);
+  /// All arguments must outlive this object; `w` are the row_mobilities() of the problem, W_rr.
+  /// `matrix` is its matrix, which is symmetric only if the problem is convex, and which nobody else
+  /// changes from now on, because its factors are used again.
+  ProximalStep(const ConstraintProblem<D>& problem, const std::vector<double>& w,
+               UnitMatrix<D>& matrix);
 
   /// Sets the numbers epsilon of the gaps and bilateral rows, and of the slips, > 0. One of these
   /// functions must be called before solve().
@@ -108,7 +111,7 @@ class ProximalStep {
   std::vector<double> projected_;         // P^{k+1}
   std::vector<Branch> branches_, factored_;
   std::vector<Motion<D>> y_, direction_, error_;
-  UnitMatrix<D> matrix_;
+  UnitMatrix<D>& matrix_;
   bool has_factor_ = false, failed_ = false;
   int paths_ = 0;  // in the last solve()
 };

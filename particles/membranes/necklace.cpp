@@ -26,7 +26,7 @@ AreaMoments moments_of_polygon(const Eigen::VectorXd& necklace) {
   const Eigen::Vector2d mean(necklace.head(n).mean(), necklace.tail(n).mean());
   double area = 0, mx = 0, my = 0;
   AreaMoments moments{mean.x(), mean.y()};
-  // Sums over the triangles of the mean of the beads and two neighbours.
+  // Sums over the triangles that the mean of the beads makes with each pair of neighbours.
   for (Eigen::Index k = 0; k < n; ++k) {
     const Eigen::Vector2d a = bead(necklace, k) - mean, b = bead(necklace, k + 1) - mean;
     const double twice = cross(a, b);

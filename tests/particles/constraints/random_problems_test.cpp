@@ -128,7 +128,8 @@ TEST(InteriorPointsOfFriction, SolveRedundantProblemsInThePlane) {
     auto problem = random_constraints<2>(what, {}, seed);
     make_convex(problem, {}, seed);
     const auto w = row_mobilities<2>(problem);
-    InteriorPoints<2> interior(problem, w);
+    UnitMatrix<2> matrix(problem, true);
+    InteriorPoints<2> interior(problem, w, matrix);
     // The method is known for 10 to 40 iterations, whatever the problem is.
     EXPECT_LE(interior.solve(1e-8, 100), 40);
     // A residual bounds what is missing from a condition but for a factor below 10, as above.
@@ -154,7 +155,8 @@ TEST(InteriorPointsOfFriction, BeginWithTheImpulsesOfTheFilms) {
   }
   problem.is_convex = true;
   const auto w = row_mobilities<2>(problem);
-  InteriorPoints<2> interior(problem, w);
+  UnitMatrix<2> matrix(problem, true);
+  InteriorPoints<2> interior(problem, w, matrix);
   interior.solve(1e-9, 100);
   EXPECT_NEAR(interior.impulses()[0], 0, 1e-8);
   EXPECT_NEAR(interior.impulses()[1], -0.3, 1e-8);
