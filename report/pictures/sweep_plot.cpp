@@ -112,35 +112,53 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
   }
   constexpr std::array kColours = {kBlue,   kVermilion, kBluishGreen, kReddishPurple,
                                    kOrange, kSkyBlue,   kBlack};
+  std::vector<SweepRows::Place> others;
+  for (const auto& key : plot.others) others.push_back(rows.find(key));
   Panel panel{"",    plot.x, plot.columns.size() == 1 ? plot.columns[0] : "",
               false, false,  {kLegendBelow},
               {}};
-  for (std::size_t i = 0; i < places.size(); ++i)
-    panel.curves.push_back(
-        {plot.columns.size() == 1 ? "" : plot.columns[i],
-         fmt::format("linespoints pointtype 7 pointsize 0.4 linewidth 2 linecolor rgb '{}'",
-                     kColours[i % kColours.size()]),
-         {}});
   std::vector<Curve> bars;
-  for (std::size_t i = 0; i < errors.size(); ++i)
-    bars.push_back(
-        {"",
-         fmt::format("linespoints pointtype 2 pointsize 0.3 linewidth 1 linecolor rgb '{}'",
-                     kColours[i % kColours.size()]),
-         {}});
+  std::map<std::vector<double>, std::size_t> first_curves;  // of the values of the other keys
+  const auto first_curve_of_row = [&] {
+    std::vector<double> values;
+    std::string words;
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      values.push_back(rows.value(others[k]));
+      words += fmt::format("{}{} = {:.6g}", k == 0 ? "" : ", ", plot.others[k], values[k]);
+    }
+    const auto [found, is_new] = first_curves.insert({values, panel.curves.size()});
+    for (std::size_t i = 0; is_new && i < places.size(); ++i) {
+      const auto* colour = kColours[panel.curves.size() % kColours.size()];
+      const auto column = plot.columns.size() == 1 ? "" : plot.columns[i];
+      panel.curves.push_back(
+          {column + (column.empty() || words.empty() ? "" : ", ") + words,
+           fmt::format("linespoints pointtype 7 pointsize 0.4 linewidth 2 linecolor rgb '{}'",
+                       colour),
+           {}});
+      if (plot.is_of_means)
+        bars.push_back(
+            {"",
+             fmt::format("linespoints pointtype 2 pointsize 0.3 linewidth 1 linecolor rgb '{}'",
+                         colour),
+             {}});
+    }
+    return found->second;
+  };
   std::vector<double> xs, ys, lower_ends;
-  while (rows.next())
+  while (rows.next()) {
+    const auto first = first_curve_of_row();
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double at = rows.value(x), y = rows.value(places[i]);
-      panel.curves[i].points.emplace_back(at, y);
+      panel.curves[first + i].points.emplace_back(at, y);
       xs.push_back(at);
       ys.push_back(y);
       if (errors.empty()) continue;
       const double error = rows.value(errors[i]);
       lower_ends.push_back(y - error);
-      bars[i].points.insert(bars[i].points.end(),
-                            {{at, y - error}, {at, y + error}, {at, kNoValue}});
+      auto& points = bars[first + i].points;
+      points.insert(points.end(), {{at, y - error}, {at, y + error}, {at, kNoValue}});
     }
+  }
   check_has_value(path, ys, false);
   // The rows of random samples are not in the order of x.
   for (auto& curve : panel.curves)

@@ -17,6 +17,9 @@ struct SweepPlot {
   std::string x;                     ///< key of the horizontal axis
   std::string y;                     ///< key for a map of columns[0]; empty: lines over x
   std::vector<std::string> columns;  ///< at least one
+  /// The other keys of a grid that have several values. Lines over x are drawn for each combination
+  /// of these values. Without effect on a map.
+  std::vector<std::string> others{};
   /// Whether the file has the columns COLUMN.mean and COLUMN.standard_error in place of COLUMN.
   /// Lines then have bars of one standard error on both sides.
   bool is_of_means = false;

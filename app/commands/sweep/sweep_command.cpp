@@ -79,6 +79,9 @@ report::SweepPlot picture_of(const SweepOptions& o, const CaseStudy& s) {
     throw Error(ErrorKind::kWrongUsage,
                 "a map can be drawn of a grid only, not of random samples; leave out --y");
   if (picture.columns.empty()) picture.columns = s.columns;
+  if (points.samples == 0)
+    for (const auto& v : points.variations)
+      if (v.count > 1 && v.key != picture.x) picture.others.push_back(v.key);
   return picture;
 }
 
@@ -103,6 +106,15 @@ void check_columns(const report::SweepPlot& picture, const sweep::Study& study) 
               "least two values",
               axis));
   }
+  auto lines = static_cast<double>(picture.columns.size());
+  for (const auto& v : points.variations)
+    if (std::ranges::count(picture.others, v.key) > 0) lines *= static_cast<double>(v.count);
+  constexpr double kMostLines = 14;  // twice the colours; the legend would fill the picture
+  if (picture.y.empty() && lines > kMostLines)
+    throw Error(ErrorKind::kWrongUsage,
+                fmt::format("the plot would have {} lines over {}; at most {} are allowed, so draw "
+                            "a map with --y, or fewer columns",
+                            lines, picture.x, kMostLines));
   for (const auto& column : picture.columns) {
     const auto slash = column.find('/');
     check(column.substr(0, slash));

@@ -107,6 +107,22 @@ TEST_F(SweepCommand, PictureHasTheWidthAndLettersThatAreAskedFor) {
                  ErrorKind::kWrongUsage, HasSubstr("nan is not a number"));
 }
 
+TEST_F(SweepCommand, LinesOverOneKeyOfAGridAreOneForEachValueOfTheOther) {
+  auto options = kTwoRows;
+  options.insert(options.end(),
+                 {"--vary", "sphere.mass=1,2,3", "--plot", path("lines.svg"), "--x",
+                  "fluid.viscosity", "--column", "viscous_contact_exact.minimal_gap"});
+  expect_done(sweep(kVanishing, options));
+  const auto svg = read_file(path("lines.svg"));
+  EXPECT_THAT(svg, AllOf(HasSubstr(">sphere.mass = 1<"), HasSubstr(">sphere.mass = 2<"),
+                         HasSubstr(">sphere.mass = 3<"), HasSubstr("gnuplot_plot_3\""),
+                         ::testing::Not(HasSubstr("gnuplot_plot_4\""))));
+  for (auto& option : options)
+    if (option == "sphere.mass=1,2,3") option = "sphere.mass=1:2:15";
+  expect_refusal(sweep(kVanishing, options, "many.csv"), ErrorKind::kWrongUsage,
+                 HasSubstr("15 lines over fluid.viscosity; at most 14 are allowed"));
+}
+
 TEST_F(SweepCommand, ScriptOfAPictureDrawsIt) {
   auto options = kTwoRows;
   options.insert(options.end(), {"--plot", path("picture.gp")});
