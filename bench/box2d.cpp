@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
                                           {"--friction", "0"},
                                           {"--method", "fixed_point"},
                                           {"--dimension", "2"},
+                                          {"--sides", "walls"},
                                           {"--gamma-min", "-2"}};
   for (int i = 1; i < argc; i += 2) {
     if (!o.contains(argv[i]) || i + 1 == argc) {
@@ -68,6 +69,8 @@ int main(int argc, char** argv) {
   if (o["--dimension"] != "2" && o["--dimension"] != "3") return refuse("--dimension", "2 or 3");
   if (o["--method"] != "fixed_point" && o["--method"] != "convex")
     return refuse("--method", "fixed_point or convex");
+  if (o["--sides"] != "walls" && o["--sides"] != "periodic")
+    return refuse("--sides", "walls or periodic");
   const int count = std::stoi(o["--count"]);
   const int dimension = std::stoi(o["--dimension"]);
   auto setting = box(count, dimension);
@@ -75,6 +78,12 @@ int main(int argc, char** argv) {
                     std::stoi(o["--max-iterations"])};
   setting.laws.film.gamma_min = std::stod(o["--gamma-min"]);
   auto particles = particles_in_box(count, dimension);
+  if (o["--sides"] == "periodic") {
+    const double width = setting.planes[2].start.point[0];
+    setting.planes.resize(1);  // the floor
+    for (std::size_t d = 0; d + 1 < static_cast<std::size_t>(dimension); ++d)
+      particles.particles.cell.lengths[d] = width;
+  }
   if (const double friction = std::stod(o["--friction"]); friction > 0) {
     const bool is_convex = o["--method"] == "convex";
     setting.laws.friction =
@@ -85,7 +94,7 @@ int main(int argc, char** argv) {
   Simulation simulation(setting, std::move(particles), std::stoi(o["--threads"]));
   double shown = 0, all = 0, worst_overlap = 0;
   int steps = 0, iterations = 0, unconverged = 0, all_unconverged = 0, all_steps = 0;
-  double spent = 0, residual = 0, longest = 0;
+  double spent = 0, residual = 0, longest = 0, contact_iterations = 0;
   fmt::print(
       "t             CPU ms/step  longest  iterations  contacts  glued  residual  not converged  "
       "kinetic energy\n");
@@ -99,6 +108,7 @@ int main(int argc, char** argv) {
     ++steps;
     ++all_steps;
     iterations += report.iterations;
+    contact_iterations += static_cast<double>(report.contacts) * report.iterations;
     residual = std::max(residual, report.residual);
     unconverged += report.converged ? 0 : 1;
     all_unconverged += report.converged ? 0 : 1;
@@ -119,10 +129,10 @@ int main(int argc, char** argv) {
   getrusage(RUSAGE_SELF, &usage);
   fmt::print(
       "N = {}: {:.3f} ms CPU a step, {:.1f} ns a disc and step; {} of {} steps not converged; "
-      "largest overlap {:.1e} mean radii, at the end {:.1e}; "
+      "largest overlap {:.1e} mean radii, at the end {:.1e}; {:.1f} ns a contact and iteration; "
       "{:.0f} MiB, {:.0f} bytes a disc\n",
       count, 1e3 * all / all_steps, 1e9 * all / all_steps / count, all_unconverged, all_steps,
       worst_overlap, largest_overlap(setting, simulation.state()),
-      static_cast<double>(usage.ru_maxrss) / 1024,
+      1e9 * all / std::max(contact_iterations, 1.0), static_cast<double>(usage.ru_maxrss) / 1024,
       1024.0 * static_cast<double>(usage.ru_maxrss) / count);
 }
