@@ -87,6 +87,8 @@ std::vector<std::string> gnuplot_settings(const PlotPanel& panel) {
     for (std::size_t i = 0; i < panel.rows.size(); ++i)
       ticks += fmt::format("{}{} {}", i == 0 ? "" : ", ",
                            quoted_for_gnuplot(doubled_percent(panel.rows[i])), i + 1);
+    // Room for the names, in characters: the longest name of a model with one suffix,
+    // viscous_contact_regular_drag_brenner, has 36. Two more are a free choice.
     settings.push_back("set ytics (" + ticks + ")\nset lmargin 38");
   }
   return settings;

@@ -168,10 +168,13 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     of.impulses.assign(of.blocks.size(), 0.0);
   };
   keep_normal_rows(compression);
-  // Where several contacts share a body, only sums of their impulses are determined. What each of
-  // them takes, and with it what its solids give back, must not depend on their order; the solution
-  // of least impulses does not. Where spheres have friction, Newton's method may cycle. Sweeps then
-  // solve the blow, and its impulses may depend on the order.
+  // If several contacts share a body, only sums of their impulses are determined. The impulse of
+  // each contact, and with it what its solids give back, must not depend on the order of the
+  // contacts; with kLeastImpulses it does not. If spheres have friction, Newton's method in this
+  // start may cycle. The blow is then solved again with kSweeps, whose impulses may depend on the
+  // order. The limits are free choices: 200 iterations are as many as one proximal step may take,
+  // so that a cycle costs little; 10000 is far above the 3000 iterations without progress after
+  // which solve_constraints() gives up by itself (both in constraint_solver.cpp).
   const auto solve = [&](ConstraintProblem<D>& of) {
     const auto guess = of.impulses;
     const auto is_solved = [&](ConstraintStart start, int most_iterations) {
