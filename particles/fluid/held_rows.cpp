@@ -17,7 +17,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// True if a link must hold exactly after a step, that is if it is no spring.
+/// True if a link must hold exactly after a step: a hinge or an arm.
 bool is_exact(const LinkEquations& link) {
   return link.kind == LinkEquations::Kind::kHinge || link.kind == LinkEquations::Kind::kArm;
 }
