@@ -3,8 +3,7 @@
 // open with the friction found so far; it also finds which contacts take part. Then, if the law is
 // not yet satisfied, solve_constraints() finds the normal and tangential impulses of all these
 // contacts together, as for particles without a fluid. Numbers are in the units of the case:
-// impulses in [M L/T], gaps and slips in [L]. Errors are those of the mobility.
-// fluid_contacts.cpp
+// impulses in [M L/T], gaps and slips in [L]. Errors are those of the mobility. fluid_contacts.cpp
 // uses it. A change must end with the first part, so that gaps are exact for the friction found.
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
@@ -40,8 +39,7 @@ std::vector<std::size_t> walls_of(const BoxDomain& box) {
 
 /// Mean velocity of the wall that is obstacle number `wall`, at `point` [L], over the step from
 /// time `begin` to `end` [L/T]. Only the component along the wall is used. It is 0 on an open side,
-/// and on a side whose velocity is a
-/// parabola.
+/// and on a side whose velocity is a parabola.
 std::array<double, 2> velocity_of_wall(const Setting& setting, std::size_t wall,
                                        const Vector& point, double begin, double end) {
   const auto& boundary = setting.fluid->boundary;

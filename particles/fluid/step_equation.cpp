@@ -258,8 +258,8 @@ double StepEquation::theta_of_body(const RigidBody& body) const {
 }
 
 /// The drag per velocity of a sphere (Stokes), or the torque per angular velocity of a disc. A disc
-/// that translates has no drag in an unbounded Stokes flow (Stokes' paradox); 4 pi mu, of the
-/// right dimension, is taken in its place.
+/// that translates has no drag in an unbounded Stokes flow (Stokes' paradox); 4 pi mu, of the right
+/// dimension, is taken in its place.
 double StepEquation::stokes_drag(std::size_t k, std::size_t component) const {
   const double r = state_.particles.radii[k], mu = setting_.fluid->viscosity;
   constexpr double kPi = std::numbers::pi;
