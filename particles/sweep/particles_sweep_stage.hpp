@@ -23,7 +23,8 @@ namespace viscontact::particles {
 struct ParticlesSweepRequest {
   std::string output;  ///< file of the rows (CSV); the folders are in OUTPUT.runs/
   int jobs = 1;        ///< number of rows that are computed at once, >= 1
-  /// True: all files of a finished simulation are kept; false: only those that its row is made of.
+  /// False: of the files of a simulation that has not failed only the case, the result, run.json
+  /// and steps.csv are kept; true: all.
   bool keep_all = false;
   StartFluidSolver start_solver;  ///< used if the case has a fluid
   StopToken stop{};
