@@ -156,8 +156,8 @@ struct SecondOrderCone {
   }
   /// The unit of the product: product(unit, x) = x.
   static ConePoint unit(std::size_t) { return {1, 0, 0}; }
-  /// An estimate of r at the solution, where u.r = 0, for points u and r near it: 0 if u is further
-  /// inside the cone than r, else r itself.
+  /// An estimate of r at the solution, where u.r = 0, for points u and r near it: 0 if u is inside
+  /// the cone there, that is if its distance from the boundary exceeds the size of r; else r.
   static ConePoint without_open_part(const ConePoint& u, const ConePoint& r) {
     return u[0] - beside_axis(u) > r[0] + beside_axis(r) ? ConePoint{} : r;
   }
