@@ -152,7 +152,8 @@ int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_
   double allowed = std::numeric_limits<double>::infinity();
   for (const auto& block : rows.blocks) allowed = std::min(allowed, block.allowed);
   // Each round multiplies the error by about the ratio of the skew part to the symmetric part. The
-  // limit is a free choice.
+  // limit is kRoundsOfSkewPart of contact_problem.cpp, which solves the same problem without
+  // friction.
   constexpr int kRounds = 40;
   int iterations = 0;
   for (int round = 0; round < kRounds && iterations < most; ++round) {

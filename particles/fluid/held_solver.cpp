@@ -78,7 +78,7 @@ double HeldSolver::theta(Index r) const {
   const auto& row = rows_[static_cast<std::size_t>(r)];
   const double of_row = h_ * row.stiffness * matrix_(r, r);
   if (has_inertia_) {
-    // With this bound 1/theta is finite. It is as large as the relative error of the fluid solver's
+    // With this bound 1/theta is finite. It is at most the relative error of the fluid solver's
     // velocities (error_of_answers()), so that it changes a force by less than the error of the
     // force.
     constexpr double kLeast = 1e-9;
@@ -177,7 +177,7 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
   const Eigen::VectorXd parts = scale_.cwiseProduct(matrix_.cwiseAbs() * forces.cwiseAbs());
   double largest = 0;
   for (const Index r : fixed_) largest = std::max(largest, std::abs(scaled[r]) + parts[r]);
-  // Free choice: far above the relative error of the velocities, about 1e-9.
+  // Free choice, far above the relative error of the velocities, which is usually 1e-9.
   constexpr double kBroken = 1e-4;
   std::string names;
   for (const Index r : fixed_) {

@@ -181,7 +181,7 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
     wanted.segment(first_[m], first_[m + 1] - first_[m]).setConstant(speed);
     size = std::max(size, speed);
   }
-  // Free choice: Newton's method takes a few rounds or fails.
+  // The limit is a free choice.
   constexpr int kMostRounds = 30;
   // Newton's method is quadratic: after a change of this size the next one would be a rounding
   // error. Rounding errors of stiff membranes are larger; then changes no longer become smaller.
