@@ -209,6 +209,8 @@ void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
                  "the first six of `viscontact simulate --help`",
                  {},
                  "[\"inertial\", \"viscous_contact\"]"});
+  // The first and the last row are always written. The upper limit is a free choice within int: a
+  // file of 1e8 rows has about 12 GB.
   keys.optional("rows", count(motion.output_rows, 2, 100'000'000),
                 {"about how many rows a trajectory file has",
                  "[all](file-formats.md#fewer-rows)",

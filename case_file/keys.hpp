@@ -138,7 +138,8 @@ KeyTable describe_keys(std::string section, void (*declaration)(Keys&, Place&, M
   return table;
 }
 
-/// A whole number that may be greater than the largest int; up to 1e12 a double is exact.
+/// A whole number that may be greater than the largest int, such as a number of rows. The limit is
+/// a free choice, that of the points of a sweep (sweep/variation.cpp); doubles are exact to 9e15.
 inline constexpr Allowed kWholeNumber = {
     [](double v) { return v >= 1 && v <= 1e12 && v == std::floor(v); },
     "from 1 to 1e12 without a fraction"};

@@ -61,7 +61,8 @@ class PictureReader {
                 "the mesh and flow that FreeFEM wrote for a picture are incomplete");
   }
   static std::size_t size_from(std::istream& stream) {
-    // A larger number can only come from a damaged line; it would exhaust the memory.
+    // A larger number can only come from a damaged line; it would exhaust the memory. The limit is
+    // a free choice, far above the number of nodes for which FreeFEM could solve.
     constexpr std::size_t kLargest = 100'000'000;
     std::size_t size = 0;
     if (!(stream >> size) || size > kLargest) fail();

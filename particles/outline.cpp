@@ -1,6 +1,7 @@
-// Distances to circles, ellipses and plates, and where circles meet, by the triangle of both
-// centres and a point where they meet (outline.hpp). Lengths are in the unit of the case. Nothing
-// is checked or thrown. A change must keep distances exact to rounding errors.
+// Computes the distances to circles, ellipses and plates, and the points at which circles meet
+// (outline.hpp). The spine of a plate is the line between the centres of its round ends, and that
+// of a circle its centre. Lengths are in the unit of the case. Nothing is checked or thrown. A
+// change must keep distances exact to rounding errors.
 #include "viscontact/particles/outline.hpp"
 
 #include <algorithm>
@@ -15,15 +16,16 @@ using Point = std::array<double, 2>;
 
 /// Distance of the point (x, y), x >= 0 and y >= 0, from an ellipse with the semi-axes a >= b along
 /// the axes; < 0 inside. The nearest point of the ellipse is (a^2 x/(s + a^2), b^2 y/(s + b^2))
-/// with the largest root s of (a x/(s + a^2))^2 + (b y/(s + b^2))^2 = 1. In units of b^2 the left
-/// side is convex and falls for s > -1, so that Newton's method from the left of the root increases
-/// to it.
+/// with the largest root s of (a x/(s + a^2))^2 + (b y/(s + b^2))^2 = 1. In the code s is in units
+/// of b^2. For s > -1 the left side falls and is convex, so that Newton's method, started to the
+/// left of the root, approaches it from the left and never passes it.
 double distance_to_ellipse(double a, double b, double x, double y) {
   const double square = (a / b) * (a / b);
   const double u = x / a, v = y / b;
   double near_x = 0, near_y = b;
   if (v > 0) {
     double s = std::max(v - 1, square * (u - 1));  // where one of the two terms alone is 1
+    // Newton's method ends by itself when s no longer grows. The bound of 100 is a free choice.
     for (int n = 0; n < 100; ++n) {
       const double p = square * u / (s + square), q = v / (s + 1);
       const double value = p * p + q * q - 1;
@@ -46,8 +48,9 @@ double distance_to_ellipse(double a, double b, double x, double y) {
   return u * u + v * v < 1 ? -distance : distance;
 }
 
-/// The least value of a function on the outline, which has at most two local minima: first at
-/// evenly spaced parameters, then around the best of them by ternary search.
+/// The least value of a function on the outline, where the function has at most two local minima.
+/// The function is computed at evenly spaced parameters, of which 128 is a free choice, and then
+/// ternary search finds the minimum around the best of them.
 template <class Function>
 double least_on(const Outline& outline, const Function& function) {
   constexpr int kSamples = 128;
@@ -92,8 +95,9 @@ double side_of(const std::array<Point, 2>& line, const Point& x) {
          (line[1][1] - line[0][1]) * (x[0] - line[0][0]);
 }
 
-/// The places where two spines may touch: of each end of the first one, then of the second one,
-/// the end and the nearest point of the other spine.
+/// The four places where two plates may touch. Each one belongs to an end of a spine, first to the
+/// two of the first spine, then to those of the second: it is this end and the nearest point of the
+/// other spine.
 std::array<SpinePoints, 4> places_of_ends(const Outline& first, const Outline& second) {
   const auto one = first.spine(), other = second.spine();
   const bool cross = side_of(one, other[0]) * side_of(one, other[1]) < 0 &&
@@ -138,7 +142,7 @@ SpinePoints nearest_on_spines(const Outline& first, const Outline& second) {
 }
 
 SpineContacts::SpineContacts(const Outline& first, const Outline& second) {
-  constexpr double kApart = 0.1;  // of the smaller end radius
+  constexpr double kApart = 0.1;  // free choice, as a share of the smaller end radius (outline.hpp)
   const auto places = places_of_ends(first, second);
   const auto nearest = nearest_of(places, [](std::size_t) { return true; });
   places_ = {static_cast<int>(nearest)};
@@ -251,7 +255,8 @@ Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<con
 }
 
 std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::size_t other) {
-  // Both discs compute the points from the same one of them.
+  // The formulas begin at the disc with the smaller number, whichever of both is asked about, so
+  // that both discs get the same points to the last bit.
   const std::size_t i = std::min(k, other), j = std::max(k, other);
   const Vector x = particles.position(i), apart = particles.position(j) - x;
   const double d = norm(apart), a = particles.radii[i], b = particles.radii[j];

@@ -1,7 +1,7 @@
 // Finds the trajectory files of a folder, compares them and writes the comparison. Numbers are in
 // the units of the trajectories. A folder without trajectories is an Error(kBadInput). A change
-// must keep the order of the files: the models of the comparison have it, and if `inertial` failed,
-// the first file is the reference.
+// must keep the order of the files, because the comparison lists models in this order, and because
+// the first file becomes the reference if the usual reference model has failed.
 #include "viscontact/pipeline/compare_stage.hpp"
 
 #include <fmt/format.h>

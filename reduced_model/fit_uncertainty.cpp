@@ -1,6 +1,10 @@
-// Random draws of the coefficients of a fit, the bound from the misfit, and the file
-// uncertainty.json (fit_uncertainty.hpp). Numbers are in the units of the case. If all draws were
-// left out, the error is Error(kNotConverged). The draws of the fixed seed must stay.
+// Computes how the errors of a fit of the lubrication force change the gap between the sphere and
+// the wall during its motion, and writes and reads uncertainty.json (fit_uncertainty.hpp). One
+// interval comes from random draws of the fit's coefficients, the other from a bound of the fit's
+// relative error, the misfit. Numbers are in the units of the case, the misfit is from 0 to 1. A
+// draw is left out if its drag is not positive or the motion is impossible with it; if all draws
+// were left out, the error is Error(kNotConverged). A change must keep the seed and the order of
+// the random numbers, so that the same case gives the same file.
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 
 #include <fmt/format.h>
@@ -17,8 +21,9 @@
 namespace viscontact::reduced_model {
 namespace {
 
-/// A matrix L with L L^T = covariance, which may be singular. It is made from the eigenvectors of
-/// the correlations, because the coefficients differ in size by many powers of ten.
+/// A matrix L with L L^T = covariance; the covariance may be singular. L is computed from the
+/// eigenvectors of the matrix of correlations, because the coefficients differ in size by many
+/// powers of ten.
 Eigen::MatrixXd root_of(const std::vector<std::vector<double>>& covariance) {
   const auto size = static_cast<Eigen::Index>(covariance.size());
   Eigen::MatrixXd matrix(size, size);
@@ -46,8 +51,8 @@ std::array<double, 2> middle_of(std::vector<double>& values) {
   return {at(0.025), at(0.975)};
 }
 
-/// The times at which gaps are computed. The first is that of the smallest gap, at which the
-/// impulse of the force is least.
+/// The times at which gaps are computed [T]: first that of the smallest gap, at which the impulse
+/// of the external force since time 0 is least, then `times` equidistant ones up to the end.
 std::vector<double> instants_of(const Motion& motion, std::size_t times) {
   auto ends = motion.external_force.jumps();
   std::erase_if(ends, [&](double t) { return t > motion.end_time; });

@@ -87,6 +87,8 @@ std::vector<std::string> gnuplot_settings(const PlotPanel& panel) {
     for (std::size_t i = 0; i < panel.rows.size(); ++i)
       ticks += fmt::format("{}{} {}", i == 0 ? "" : ", ",
                            quoted_for_gnuplot(doubled_percent(panel.rows[i])), i + 1);
+    // Room for names of 38 characters, a free choice: viscous_contact_regular_drag_brenner, the
+    // longest name of a model with one suffix, has 36.
     settings.push_back("set ytics (" + ticks + ")\nset lmargin 38");
   }
   return settings;

@@ -1,10 +1,12 @@
-// The models `smooth` and `rough`: CVODE integrates the motion (physics.md (4.8), (4.9)) from one
-// change of the solid contact to the next: the sphere touches the roughness, its slip ends,
-// friction no longer prevents slip, or the sphere is lifted off. x is along the plane, z away from
-// it, y the axis of rotation; u, V are the velocities of sphere and plane along x, w is the angular
-// velocity. s is ln(q/r) with the gap q and the radius r. Numbers are in any consistent units. A
-// start above the fit is an Error(kBadInput), a step that CVODE gives up an Error(kNotConverged). A
-// change must keep the slip exactly 0 while the sphere rolls. Used by rolling/case/ and job/.
+// The models `smooth` and `rough` of a sphere that moves along a plane in a viscous fluid
+// (physics.md (4.8), (4.9)). CVODE integrates the motion from one change of the solid contact to
+// the next: the sphere touches the roughness, its slip ends, friction no longer prevents slip, or
+// the sphere is lifted off. x is along the plane, z away from it, and y is the axis of rotation; u
+// and V are the velocities of sphere and plane along x, and w is the angular velocity. s is ln(q/r)
+// with the gap q and the radius r. Slip is the velocity of the lowest point relative to the plane,
+// u - V - r w. Numbers are in any consistent units. A start at a gap above those of the fit is an
+// Error(kBadInput), a step that CVODE cannot make an Error(kNotConverged). rolling/case/ and
+// rolling/job/ use it. A change must keep the slip exactly 0 while the sphere rolls.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -193,8 +195,8 @@ void RollingEquation::derivative(std::span<const double> y, std::span<double> f)
   f[kAngle] = y[kTurn];
 }
 
-/// All entries of the Jacobian, by columns, but the derivative of the gap's rate by the gap, which
-/// is set to 0 here.
+/// All entries of the Jacobian, column by column. The derivative of the rate of s by s is set to 0
+/// here: gap_equation_ computes it.
 void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) const {
   std::ranges::fill(j, 0.0);
   const auto at = [&](std::size_t row, std::size_t column) -> double& {

@@ -1,7 +1,8 @@
-// Closed loops of polynomials through a given shape, and the displacement and energy of these loops
-// as functions of their coefficients, for the optimal stroke (optimal_stroke.hpp). Lengths, masses
-// and times are in the units of the swimmer's fit. A change must keep that gradients are those of
-// the sums to round-off. Used by optimal_stroke.hpp.
+// The shape of a swimmer is the list of its arms, the distances between the centres of neighbouring
+// spheres. This file has closed loops in the space of shapes, which are polynomials, and their
+// displacement and energy as functions of the coefficients. optimal_stroke.hpp uses it to find the
+// loop of least energy. Lengths, masses and times are in the units of the swimmer's fit. A change
+// must keep the gradients equal to the derivatives of the quadrature sums, to round-off.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +15,7 @@ namespace viscontact::swimmer {
 /// The arms x(s) = through + s (1 - s) sum_j c_j P_j(2 s - 1), s from 0 to 1, with Legendre's
 /// polynomials P_j. c_j is column j of `coefficients` [L]. The loop may have a corner at `through`.
 struct PolynomialLoop {
-  Eigen::VectorXd through;       ///< [L]
+  Eigen::VectorXd through;       ///< the shape at which the loop begins and ends [L]
   Eigen::MatrixXd coefficients;  ///< [L], a row for each arm, at least one column
 };
 
@@ -27,16 +28,17 @@ struct LoopBasis {
 /// The first `count` > 0 functions of the basis at `s` from 0 to 1.
 LoopBasis loop_basis(double s, Eigen::Index count);
 
-/// The loop as a stroke of one leg.
+/// The loop as a stroke of one leg, run once in `period` [T] > 0 at a constant rate of s.
 Stroke stroke_of(const PolynomialLoop& loop, double period);
 
 /// The loop with `count` polynomials, more than it has, and the same shape.
 PolynomialLoop with_more_polynomials(const PolynomialLoop& loop, Eigen::Index count);
 
-/// Energy and displacement of a loop that is run in a unit of time, with their gradients by the
-/// coefficients in the order of PolynomialLoop::coefficients, column by column.
+/// Energy and displacement of a loop, with their gradients by the coefficients in the order of
+/// PolynomialLoop::coefficients, column by column. The loop is run once at a constant rate of s.
 struct LoopSums {
-  double energy = 0;                ///< [M L^2/T], energy times period
+  /// Energy times period [M L^2/T], which is the same for all periods.
+  double energy = 0;
   double displacement = 0;          ///< [L]
   Eigen::VectorXd energy_gradient,  ///< [M L/T], with the same factor as `energy`
       displacement_gradient;        ///< [1]
@@ -48,7 +50,8 @@ class LoopFunctional {
   /// For loops with `polynomials` polynomials of each arm. `swimmer` must outlive the object.
   LoopFunctional(const Swimmer& swimmer, Eigen::Index polynomials);
 
-  /// True if the table contains the loop at all points of the quadrature.
+  /// True if the table of the swimmer's fit contains the shapes of the loop at all points of the
+  /// quadrature.
   bool contains(const PolynomialLoop& loop) const;
 
   /// The displacement alone [L]. Throws Error(kBadInput) if the table does not contain the loop.
@@ -57,7 +60,9 @@ class LoopFunctional {
   /// Throws Error(kBadInput) if the table does not contain the loop.
   LoopSums operator()(const PolynomialLoop& loop) const;
 
-  /// The Hessian of integral dx/ds' G0 dx/ds for a constant G0, the scale of the coefficients.
+  /// The Hessian, by the coefficients, of the integral of (dx/ds)^T G0 dx/ds over s for the
+  /// constant matrix G0 = `metric` [M/T]. The search for the optimal stroke scales the coefficients
+  /// by it.
   Eigen::MatrixXd constant_metric_hessian(const Eigen::MatrixXd& metric) const;
 
  private:
@@ -66,7 +71,8 @@ class LoopFunctional {
   Eigen::MatrixXd values_, slopes_;  ///< a column for each point
 };
 
-/// The polynomials that are nearest to a given loop `shape(s)` through shape(0).
+/// The loop through shape(0) that approximates the given loop `shape(s)`, s from 0 to 1, best in
+/// the sense of least squares, with `polynomials` > 0 polynomials of each arm.
 PolynomialLoop project_loop(const std::function<Eigen::VectorXd(double s)>& shape,
                             Eigen::Index polynomials);
 

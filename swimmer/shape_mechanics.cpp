@@ -1,6 +1,7 @@
-// Solves the balance of forces of a swimmer at one shape; the symbols are those of
-// shape_mechanics.hpp. Lengths, masses and times are in the units of the fit. A shape outside the
-// table is an Error(kBadInput). A change must keep that the total force vanishes.
+// Solves the balance of forces of a swimmer, a line of spheres, at one shape. The symbols are those
+// of shape_mechanics.hpp. Lengths, masses and times are in the units of the fit. A shape outside
+// the table is an Error(kBadInput). swim.cpp and the search for the optimal stroke depend on it. A
+// change must keep that the total force on the fluid is 0.
 #include "viscontact/swimmer/shape_mechanics.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +46,8 @@ bool Swimmer::contains(const Eigen::VectorXd& arms) const {
 ShapeMechanics Swimmer::at(const Eigen::VectorXd& arms, bool with_slopes) const {
   for (Index k = 0; k < arms.size(); ++k) {
     const auto [from, to] = arm_interval(k);
-    // The gaps decide, as in the table, because a gap plus two radii is rounded.
+    // The shape is in the table if its gaps are, as contains() tests. The arms are tested only to
+    // find the one at fault: they have rounding errors, because an arm is a gap plus two radii.
     if (!contains(arms) && !(arms[k] >= from && arms[k] <= to))
       throw Error(ErrorKind::kBadInput,
                   fmt::format("arm x{} is {:.9g}; the table has arms from {:.9g} to {:.9g}", k + 1,

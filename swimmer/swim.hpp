@@ -1,6 +1,8 @@
-// What a stroke does: displacement, energy, positions, forces and power, and how exact they are.
-// Lengths, masses and times are in the units of the fit and of the stroke. The commands `swimmer`
-// and `sweep` use it. A change may alter sums by rounding errors only.
+// What a stroke of a swimmer, a line of spheres, does: its displacement, energy, positions, forces
+// and power, and estimates of their errors. The arms are the distances x_k between the centres of
+// neighbouring spheres, and a stroke is a closed path of the arms. Lengths, masses and times are in
+// the units of the fit and of the stroke. The commands `swimmer` and `sweep` use it. A change may
+// alter the sums over a period by rounding errors only.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,9 +35,9 @@ struct SwimSums {
 };
 
 /// Integrates one period of a stroke by Gauss-Legendre quadrature on each leg; the number of points
-/// is doubled until the sums change by less than 1e-12 of themselves (the displacement: of the
-/// length of the path of the arms). Throws Error(kBadInput) if the stroke leaves the table, and
-/// Error(kNotConverged) if the sums do not converge.
+/// is doubled until energies change by less than 1e-12 of themselves, and the displacement by less
+/// than 1e-12 of the length of the path of the arms. Throws Error(kBadInput) if the stroke leaves
+/// the table, and Error(kNotConverged) if the sums do not converge.
 SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke);
 
 /// The swimmer at about `intervals` + 1 times, or more: each leg has times at its beginning, at its
@@ -48,11 +50,14 @@ struct SwimErrors {
   double energy = 0;        ///< [M L^2/T^2]
 };
 
-/// The errors of the sums of a stroke: for each fit of lower degree the change of the sums, plus
-/// twice the root mean square of their changes by the errors of the table (fit/fit_resistance.hpp
-/// makes both kinds of fits). For the optimal stroke, `multiplier` is OptimalStroke::multiplier
-/// over the period, and the error of the energy is that of an optimum that has the asked
-/// displacement in the changed fit; for any other stroke `multiplier` is 0.
+/// Estimates the errors of the sums of a stroke by computing the sums with other fits, which
+/// fit/fit_resistance.hpp makes. An error is the sum of two parts: the changes of the sum with the
+/// fits `lower_degrees` of lower degree, added up, and twice the root mean square of its changes
+/// with `table_errors`, fits of tables that differ by the table's errors.
+///
+/// For the optimal stroke, `multiplier` is OptimalStroke::multiplier over the period [M L/T^2]: it
+/// corrects the energy, because the displacement changes with the fit, too, whereas that of the
+/// optimum is prescribed. For any other stroke `multiplier` is 0.
 SwimErrors swim_errors(const SwimSums& sums, const Stroke& stroke,
                        const std::vector<ResistanceFit>& lower_degrees,
                        const std::vector<ResistanceFit>& table_errors, double multiplier = 0);

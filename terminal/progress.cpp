@@ -1,6 +1,6 @@
-// Progress line and coloured messages, made with ANSI escape sequences (progress.hpp). Times are in
-// seconds. No failure is reported: a message that cannot be written is lost. A change must keep
-// that a terminal with TERM=dumb and a file get no escape sequences.
+// Writes the progress line and coloured messages to standard error, with ANSI escape sequences
+// (progress.hpp). Times are in seconds. No failure is reported: a message that cannot be written is
+// lost. A change must keep that a file, or a terminal with TERM=dumb, gets no escape sequences.
 #include "viscontact/terminal/progress.hpp"
 
 #include <fmt/format.h>
@@ -53,7 +53,8 @@ bool ProgressTimer::is_due() {
 }
 
 std::string time_left(double seconds, double done) {
-  // From these remaining times on, minutes and hours are easier to read [s].
+  // Free choices [s]: no estimate in the first two seconds; minutes from 90 s and hours from 90 min
+  // on, because they are then easier to read.
   constexpr double kTooShort = 2, kInMinutes = 90, kInHours = 5400;
   if (seconds < kTooShort || !(done > 0)) return "";
   const double left = seconds * std::max(0.0, 1 / done - 1);

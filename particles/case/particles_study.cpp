@@ -98,6 +98,8 @@ ParticlesSweep::ParticlesSweep(const std::filesystem::path& case_path, sweep::Po
                 "random samples need a varied key, which gives their range");
   check_varied_keys(points_);
   sweep::refuse_doubles(points_.keys(), "the key");
+  // The limit of the points of a grid (sweep/variation.cpp), a free choice. Without it the product
+  // of points and draws could exceed 64 bits.
   constexpr std::uint64_t kMostRows = 1000000000000;
   if (points_.draws > kMostRows / points_.count())
     throw Error(ErrorKind::kWrongUsage, fmt::format("{} points with {} draws are more than {} rows",

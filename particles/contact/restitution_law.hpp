@@ -1,7 +1,8 @@
-// Restitution of solids that touch through a film, docs/physics.md (5.15) (Poisson's law: what the
-// solids give back is a share of the impulse that they took). Impulses and gamma [M L/T] are in the
-// units of the case. impacts/ and fluid/ apply the law to each blow; nothing is checked or thrown.
-// A change must not let a blow create energy. Used by contact_laws.hpp.
+// Restitution of solids that touch through a film, docs/physics.md (5.15) (Poisson's law: the
+// impulse that the solids give back is a share of the impulse that they took). gamma <= 0 is minus
+// the impulse that the film has absorbed; the solids touch when it reaches gamma_min. Impulses and
+// gamma [M L/T] are in the units of the case. contact_laws.hpp has the law, and impacts/ and fluid/
+// apply it to each blow; nothing is checked or thrown. A change must not let a blow create energy.
 #pragma once
 
 #include <algorithm>
@@ -34,10 +35,10 @@ struct RestitutionLaw {
     return gamma_c + coefficient * solid_impulse;
   }
 
-  /// gamma after a blow [M L/T], within [`gamma_min`, 0]: gamma_c + e_d s - p' for the impulse `p`
-  /// = p' of the restitution phase and `lowest` = gamma_c + e_d s. Both arguments may contain the
-  /// impulse of the compression. The result is 0 if it is 0 within the rounding error of this
-  /// difference, because the film has then given back all. `gamma` is that before the blow.
+  /// gamma after a blow [M L/T], within [`gamma_min`, 0]: `lowest` - `p`, with the impulse `p` = p'
+  /// of the restitution and `lowest` = gamma_c + e_d s. The impulse of the compression may have
+  /// been added to both. If the difference is 0 within its rounding error, the result is exactly 0,
+  /// because the film has then given back all. `gamma` is the value before the blow.
   static double gamma_after(double lowest, double p, double gamma_min, double gamma) {
     const double left = lowest - p;
     const double rounding =

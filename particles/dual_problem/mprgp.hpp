@@ -89,7 +89,8 @@ class Mprgp {
     if (restart_) start_directions();
     before_ = problem_.z;
     ++steps_between_same_;
-    // Where contacts contradict each other, the objective falls almost without end.
+    // If contacts contradict each other, the objective falls almost without end. The bound is a
+    // free choice.
     constexpr double kEndless = 1e12;
     const double length = slope_ / curvature_;
     if (!(length < kEndless)) return go_to_bound();

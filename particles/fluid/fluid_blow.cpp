@@ -1,6 +1,9 @@
-// Solves a blow in a fluid, that is all hits of solids in one step (fluid_motion.hpp), in two
-// phases: compression and restitution. Numbers are in the units of the case. Errors are those of
-// the mobility. A change must keep that the work of a blow is not positive.
+// Solves the blow of a step in a fluid: all contacts that are hit in the step, in two phases,
+// compression and restitution (fluid_motion.hpp, docs/physics.md (6.11)). gamma <= 0 is minus the
+// impulse that the film of a contact has absorbed, and the load is the impulse of the forces of the
+// step that a contact bears if particles are at rest. Numbers are in the units of the case: gaps in
+// [L], rates in [L/T], impulses in [M L/T]. Errors are those of the mobility. fluid_simulation.cpp
+// uses it. A change must keep that the work of a blow is not positive.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,8 +14,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// The part of the rate of a gap that the velocities of the particles do not contain [L/T]: that of
-/// an obstacle that moves, or of an image in a sheared cell.
+/// The rate of a gap while the particles rest [L/T]: that by the motion of an obstacle, or of an
+/// image relative to its particle in a sheared cell.
 double drift_of(const Contact<2>& contact, const BlowStep& step, double h) {
   const auto& p = step.state.particles;
   if (contact.is_stop()) return 0;
@@ -27,8 +30,9 @@ double drift_of(const Contact<2>& contact, const BlowStep& step, double h) {
   return (gap_at(step.end) - gap_at(step.state.time)) / h;
 }
 
-/// One blow, from its hits to its displacements. solve() may be called once. Each function needs
-/// what those before it in solve() have found of `parts_`.
+/// One blow, from its hits to its displacements. solve() may be called once. It calls the other
+/// functions in an order that must not be changed, because each one uses members of `parts_` that
+/// those before it have set.
 class Blow {
  public:
   /// All arguments must outlive the object.
@@ -45,14 +49,15 @@ class Blow {
 
  private:
   // A contact in the course of the blow. e_d is the coefficient of restitution of the solids [1].
+  // Impulses are in [M L/T].
   struct Part {
-    double drift = 0;        // as drift_of()
+    double drift = 0;        // drift_of() [L/T]
     double start = 0;        // gap at the beginning of the step, >= 0 [L]
-    double pull = 0;         // rate of the gap by the loads, for solids at rest [L/T]
+    double pull = 0;         // rate of the gap that forces cause within the step from rest [L/T]
     bool is_closed = false;  // at the beginning of the step
     bool is_hit = false;     // its gap closes by an approach, not by a load
     double late = 0;         // time of the hit over the length of the step, 0 to 1
-    double load = 0;         // impulse of the loads of the step
+    double load = 0;         // take_load()
     double compressed = 0;   // impulse at the end of the compression, with the load
     double solid = 0;        // impulse s of the hit that the solids take, >= 0
     double left = 0;         // gamma at the end of the compression, <= 0
@@ -101,13 +106,13 @@ class Blow {
   int iterations_ = 0;  // of all problems
 };
 
-/// Finds which contacts are hit. Returns whether there are any.
+/// Finds which contacts are hit, and when. Returns true if there are any.
 bool Blow::find_hits() {
   const auto free = conditions_.free_velocities;
   const double h = conditions_.h;
   const double touching = conditions_.solver.tolerance * conditions_.mean_radius;
-  // An approach that moves the particles by less than a thousandth of `touching` in the step, or is
-  // within rounding errors, hits nothing.
+  // An approach counts as a hit only if it closes the gap in the step by more than a thousandth of
+  // the tolerance `touching`, a free choice, and if its velocity exceeds rounding errors.
   constexpr double kUnseen = 1e-3, kRounding = 1e-12;
   const double unseen = std::max(kUnseen * touching / h,
                                  kRounding * std::max(fastest(free, conditions_.layout),
@@ -128,7 +133,8 @@ bool Blow::find_hits() {
     if (approaches(c)) approaching.push_back(c);
   }
   if (approaching.empty()) return false;
-  // The velocity of a driven particle is given, and not an effect of loads.
+  // Driven particles count as at rest here, because their velocity is prescribed, and not an effect
+  // of forces.
   const auto of_free = [&](std::span<const double> velocities) {
     std::vector<double> result(velocities.begin(), velocities.end());
     for (const auto& [particle, motion] : step_.setting.given_motions)
@@ -146,7 +152,10 @@ bool Blow::find_hits() {
   for (const auto c : approaching) {
     auto& part = parts_[c];
     const auto& of = pair(c);
-    constexpr double kUnderLoad = 5;  // as in impacts/: slower blows would keep a packing shaking
+    // A contact that bore a load is hit only if it approached faster than five times what the
+    // forces of a step cause, as in impacts/: otherwise small rebounds would keep a packing
+    // shaking.
+    constexpr double kUnderLoad = 5;
     const bool bore_load = of.impulse != 0 || of.gamma < 0;
     if (part.is_closed && bore_load && !(rate(c, step_.before) < kUnderLoad * part.pull)) continue;
     part.is_hit = any = true;
@@ -155,9 +164,9 @@ bool Blow::find_hits() {
   return any;
 }
 
-/// The contacts over the time `kick` in which impulses act, with impulses that are not scaled. Hit
-/// contacts are closed. The gaps of the others are stretched, so that they close at the same
-/// velocity as in the step.
+/// The problem of the contacts over the time `kick` for which forces act on velocities. Impulses
+/// are those of this time. The gaps of hit contacts are 0 at its beginning. Those of the others are
+/// multiplied by kick/h, so that they close at the same velocity as in the step.
 StepContacts Blow::problem() const {
   const double kick = step_.kick;
   StepContacts problem;
@@ -171,8 +180,8 @@ StepContacts Blow::problem() const {
   return problem;
 }
 
-/// Finds the impulses of the loads of a step on contacts that are closed or hit: those that would
-/// keep particles at rest at their places.
+/// Finds the loads of the contacts that are closed or hit: the impulses that would keep the
+/// particles at rest under the forces of the step.
 void Blow::take_load() {
   auto load = problem();
   std::vector<Contact<2>> contacts;
@@ -196,9 +205,9 @@ void Blow::take_load() {
     parts_[numbers[i]].load = load.contacts[i].impulse;
 }
 
-/// Shares the impulses of the compression between films and solids. Returns whether solids give
-/// back more than the load of a step; otherwise the blow is left to the problem without
-/// restitution, because the flight would be shorter than two steps.
+/// Divides the impulses of the compression between films and solids. Returns true if the solids of
+/// a contact give back more than its load. Otherwise the solution of the step without restitution
+/// remains, because the particles would fly for less than two steps.
 bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
   bool any = false;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
@@ -208,7 +217,8 @@ bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
     const double by_load = std::clamp(gamma - part.load, lowest, 0.0);
     part.solid = RestitutionLaw::solid_impulse(part.compressed - part.load, by_load - lowest);
     part.left = std::clamp(gamma - part.compressed, lowest, 0.0);
-    // Contacts that the blow closes in the rest of the step are not closed yet.
+    // A contact that is neither hit nor closed may close after the blow, in the rest of the step.
+    // Its solids do not rebound yet.
     const bool gives_back = !compressed[c].is_stop() &&
                             laws_.restitution.coefficient * part.solid > std::max(part.load, 0.0);
     if (gives_back && (part.is_hit || part.is_closed))
@@ -219,9 +229,10 @@ bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
   return any;
 }
 
-/// Work of the impulses at the mean of the velocities before and after. Films in blows of several
-/// contacts could make it positive; then the impulses go back towards those of the compression,
-/// whose work is negative, until it is not.
+/// Keeps a blow from adding energy. The work of the impulses is that at the mean of the rates of
+/// the gaps before and after the blow. Films in a blow of several contacts could make it positive.
+/// The impulses are then moved towards those of the compression, whose work is negative, until the
+/// work is not positive.
 void Blow::restrain(const StepContacts& compressed, StepContacts& restored) const {
   const auto work = [&](double share) {
     double sum = 0;
@@ -253,8 +264,9 @@ void Blow::restrain(const StepContacts& compressed, StepContacts& restored) cons
   }
 }
 
-/// Finds the displacements: with the velocities of the loads until the time of the hit, and with
-/// those after the blow in the rest of the step.
+/// Finds the displacements of the step, FluidBlow::moved. Until the time of its hit a contact acts
+/// with its load alone, and in the rest of the step with the impulse of the blow. A contact that is
+/// not hit changes at the time of the first hit.
 void Blow::move(FluidBlow& blow) {
   const auto& layout = conditions_.layout;
   double first = 1;
@@ -272,7 +284,8 @@ void Blow::move(FluidBlow& blow) {
   ++iterations_;
   for (std::size_t i = 0; i < blow.moved.size(); ++i)
     blow.moved[i] += conditions_.free_velocities[i];
-  // Hits at different times may leave gaps that overlap, or that a film must close.
+  // Because hits have different times, some particles may now overlap, or a gap may be open
+  // although its film still pulls. The displacements are then changed until no gap is off.
   StepContacts gaps;
   gaps.contacts = ordinary_.contacts;
   const double allowed = conditions_.solver.tolerance * conditions_.mean_radius / 2;
@@ -293,7 +306,7 @@ void Blow::move(FluidBlow& blow) {
   blow.moved = std::move(gaps.velocities);
 }
 
-/// Finds what the films take up, and lists the rebounds.
+/// Sets FluidBlow::absorbed, what the films absorb, and FluidBlow::rebounds.
 void Blow::book(FluidBlow& blow) const {
   constexpr double kAtRest = 1e-9;  // of the approach: rounding errors of the fluid's answers
   for (std::size_t c = 0; c < parts_.size(); ++c) {

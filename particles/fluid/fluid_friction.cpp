@@ -1,9 +1,10 @@
-// Solves Coulomb's law of contacts in a fluid (fluid_contacts.hpp) in rounds. Each round keeps the
-// gaps open with the friction that was found so far, by solve_listed(), which also finds the pairs
-// that take part. Then solve_constraints() finds normal and tangential impulses of all contacts
-// that take part together, as for particles without a fluid. Numbers are in the units of the case.
-// Errors are those of the mobility. A change must end with gaps that are exact for the friction
-// found.
+// Solves Coulomb's law of contacts in a fluid (docs/physics.md (6.14), fluid_contacts.hpp) in
+// rounds. A round has two parts. First solve_listed() finds the normal impulses that keep the gaps
+// open with the friction found so far; it also finds which contacts take part. Then, if the law is
+// not yet satisfied, solve_constraints() finds the normal and tangential impulses of all these
+// contacts together, as for particles without a fluid. Numbers are in the units of the case:
+// impulses in [M L/T], gaps and slips in [L]. Errors are those of the mobility. fluid_contacts.cpp
+// uses it. A change must end with the first part, so that gaps are exact for the friction found.
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -22,11 +23,13 @@ namespace {
 
 using Eigen::Index;
 
-/// The problem of all contacts together is solved to this share of what is allowed, because its
-/// velocities are sums of rounded answers of the fluid.
+/// The problem of all contacts together is solved to this share of the allowed residuals, a free
+/// choice. The rest is left for errors of its velocities, which are sums of rounded velocities of
+/// the fluid solver.
 constexpr double kShareOfAllowed = 0.1;
 
-/// The sides of a box that are walls, as numbers of SideVelocities, in the order of obstacles.
+/// The sides of a box that are walls, as indices of SideVelocities, in the order in which the walls
+/// are obstacles.
 std::vector<std::size_t> walls_of(const BoxDomain& box) {
   std::vector<std::size_t> sides;
   for (std::size_t d = 0; d < 2; ++d)
@@ -34,8 +37,9 @@ std::vector<std::size_t> walls_of(const BoxDomain& box) {
   return sides;
 }
 
-/// Mean velocity, over the step, of the wall that is obstacle number `wall`, at `point` [L/T]. Only
-/// its part along the wall matters; that of a parabola and of an open side is 0.
+/// Mean velocity of the wall that is obstacle number `wall`, at `point` [L], over the step from
+/// time `begin` to `end` [L/T]. Only the component along the wall is used. It is 0 on an open side,
+/// and on a side whose velocity is a parabola.
 std::array<double, 2> velocity_of_wall(const Setting& setting, std::size_t wall,
                                        const Vector& point, double begin, double end) {
   const auto& boundary = setting.fluid->boundary;
@@ -57,7 +61,7 @@ double residual_of_friction(double p_t, double bound, double slip, double w) {
   return w * std::abs(p_t - std::clamp(p_t - slip / w, -bound, bound));
 }
 
-/// The residual that is allowed for the friction of a contact with its `allowed` set [L].
+/// The residual that is allowed for the friction of a contact [L]; needs Contact::allowed.
 double allowed_for(const ContactFrictionInFluid& friction, const Contact<2>& contact,
                    const ContactConditions& conditions) {
   const double largest = conditions.solver.tolerance * conditions.mean_radius / 2;
@@ -65,21 +69,23 @@ double allowed_for(const ContactFrictionInFluid& friction, const Contact<2>& con
   return std::min(largest, contact.allowed * std::max(1.0, friction.w / contact.w));
 }
 
-/// The rows of all contacts that take part: y = q + W p are their gaps and slips after the step for
-/// the impulses p.
+/// The rows of all contacts that take part, for each contact a gap and, with friction, a slip. For
+/// the impulses p they are q + W p after the step, with the matrix W of matrix_of().
 struct CoupledRows {
-  std::vector<double> q;                            ///< [L]
-  std::vector<double> p;                            ///< [M L/T]
+  std::vector<double> q;                            ///< gaps and slips without contact [L]
+  std::vector<double> p;                            ///< normal and tangential impulses [M L/T]
   std::vector<const std::vector<double>*> answers;  ///< velocities by a unit force of each row
   std::vector<ConstraintBlock> blocks;              ///< one for each contact
 };
 
-/// The modes of a symmetric W with a positive diagonal that is known up to a relative error: those
-/// that impulses move, and those that they do not.
+/// The eigenvectors of a symmetric matrix W that is known up to a relative error, with its rows and
+/// columns scaled to the diagonal 1, which must be positive before. They are divided into those
+/// that impulses move, and those whose eigenvalue is 0 within the error.
 struct MovedDirections {
-  Eigen::MatrixXd root;  ///< L with W = L L^T but for the error
-  /// Each column has the weights of a sum of the rows, each row divided by the root of W_rr. No
-  /// impulse changes such a sum by more than the error of W explains.
+  Eigen::MatrixXd root;  ///< a matrix L with W = L L^T within the error
+  /// The eigenvectors that impulses do not move, as columns. With the entries of a column as
+  /// weights, no impulse changes the weighted sum of the rows, each divided by (W_rr)^(1/2), by
+  /// more than the error of W explains.
   Eigen::MatrixXd unmoved;
   Eigen::VectorXd scales;  ///< roots of W_rr
 
@@ -94,9 +100,9 @@ struct MovedDirections {
     root = scales.asDiagonal() * modes.eigenvectors() * roots.asDiagonal();
   }
 
-  /// Removes from the offsets the sums that no impulse changes, if they are so small that the error
-  /// `rounding` of the offsets explains them [L]. Otherwise the impulses would grow in vain,
-  /// because they cannot change these sums.
+  /// Removes from the offsets, the gaps and slips without contact [L], those weighted sums that no
+  /// impulse changes, if the error `rounding` of the offsets [L] explains them. Without this the
+  /// impulses would grow without end, because they cannot change these sums.
   Eigen::VectorXd consistent(const Eigen::VectorXd& offsets, double rounding) const {
     Eigen::VectorXd scaled = offsets.cwiseQuotient(scales);
     for (Index m = 0; m < unmoved.cols(); ++m) {
@@ -109,8 +115,9 @@ struct MovedDirections {
   }
 };
 
-/// Adds the rows to a problem in which each column of `root` is one degree of freedom that an
-/// impulse 1 moves by 1. Three of them make a unit.
+/// Adds the rows to a problem of solve_constraints() whose matrix is W = root root^T. Each column
+/// of `root` is a degree of freedom, which a unit impulse moves by a unit length. Three of them are
+/// the degrees of freedom of one RigidUnit, of which only the numbers are used.
 void add_rows(const Eigen::MatrixXd& root, std::span<const double> offsets,
               std::span<const double> guesses, ConstraintProblem<2>& problem) {
   constexpr Index kOfUnit = 3;
@@ -132,11 +139,11 @@ void add_rows(const Eigen::MatrixXd& root, std::span<const double> offsets,
   }
 }
 
-/// Improves the impulses of the rows with the matrix W of the relative error `error`, in `most`
-/// iterations; offsets have the error `rounding` [L]. The skew part of W, which is not 0 in a fluid
-/// with inertia, acts as an offset. With `gives_loads` the friction is bounded by mu_s times the
-/// load that the solids carry in the guesses, (5.17), instead of the load in the solution. Returns
-/// the number of iterations.
+/// Improves the impulses rows.p in at most about `most` iterations, and returns the number of
+/// iterations. W has the relative error `error`, and offsets have the error `rounding` [L]. In a
+/// fluid with inertia W is not symmetric: its skew part times the impulses of the round before is
+/// added to the offsets. With `gives_loads` the friction is bounded by mu_s times the load that the
+/// solids carry in the first guess, (5.17), instead of the load in the solution.
 int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_loads, int most,
             CoupledRows& rows) {
   const Eigen::MatrixXd symmetric = (w + w.transpose()) / 2, skew = w - symmetric;
@@ -144,8 +151,9 @@ int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_
   const auto n = std::ssize(rows.q);
   double allowed = std::numeric_limits<double>::infinity();
   for (const auto& block : rows.blocks) allowed = std::min(allowed, block.allowed);
-  // Each round divides the error of the skew part by about the ratio of both parts; as many as
-  // ContactProblem needs.
+  // Each round multiplies the error by about the ratio of the skew part to the symmetric part. The
+  // limit is kRoundsOfSkewPart of contact_problem.cpp, which solves the same problem without
+  // friction.
   constexpr int kRounds = 40;
   int iterations = 0;
   for (int round = 0; round < kRounds && iterations < most; ++round) {
@@ -170,7 +178,8 @@ int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_
   return iterations;
 }
 
-/// The friction of a step, with the answers of the mobility so far.
+/// Solves the friction of a step. It keeps the velocities that unit forces of contacts cause, so
+/// that the fluid solver computes each of them once.
 class FrictionSolver {
  public:
   FrictionSolver(StepContacts& step, double mu_s, const Mobility& mobility,
@@ -183,7 +192,8 @@ class FrictionSolver {
         of_slips_(step.frictions.size()) {}
 
   void solve() {
-    // One round is enough unless other pairs join, which takes a few more in a packing.
+    // One round is enough unless further contacts take part after it. A packing then takes a few
+    // more; the limit is a free choice.
     constexpr int kMostRounds = 30;
     double least = std::numeric_limits<double>::infinity();
     auto best = impulses();
@@ -198,8 +208,8 @@ class FrictionSolver {
       if (step_.iterations >= conditions_.solver.max_iterations) break;
       solve_together(false);
     }
-    // As without a fluid, the loads on solids in the best round now bound the friction, (5.17),
-    // instead of the loads of the solution.
+    // The rounds have not converged. As without a fluid, the loads on the solids in the best round
+    // now bound the friction, (5.17), instead of the loads in the solution: this problem is convex.
     take(best);
     solve_together(true);
     solve_gaps(true);
@@ -212,8 +222,9 @@ class FrictionSolver {
     return step_.contacts[friction.contact];
   }
 
-  /// The gaps with the present friction. Normal impulses that are a solution may be kept, because
-  /// those of redundant contacts are not unique, and friction is bounded by them.
+  /// Finds the normal impulses that keep the gaps open with the present friction. With
+  /// `keeps_solution`, impulses that already do so are not changed: those of redundant contacts are
+  /// not unique, and others would give friction another bound.
   void solve_gaps(bool keeps_solution) {
     std::vector<double> loads(conditions_.free_velocities.size());
     bool is_any = false;
@@ -250,8 +261,8 @@ class FrictionSolver {
       step_.frictions[f].impulse = found.second[f];
   }
 
-  /// The largest residual of the law over what is allowed. Asks for the tangential mobility of the
-  /// contacts for which it is needed.
+  /// The largest residual of Coulomb's law, divided by the allowed one; <= 1: the law holds. Asks
+  /// the fluid solver for the tangential mobility w of contacts that need it.
   double excess_of_coulomb() {
     double excess = 0;
     for (std::size_t f = 0; f < step_.frictions.size(); ++f) {
@@ -269,7 +280,7 @@ class FrictionSolver {
           friction.slip(contact, step_.velocities.data(), conditions_.h, conditions_.layout);
       const double aim = friction.impulse - slip / friction.w;
       if (std::abs(aim) > mu_s_ * carried) friction.slides = aim > 0 ? 1 : -1;
-      // Half of it is left for the difference between this problem and the final velocities.
+      // The other half is left for the difference between this problem and the final velocities.
       const double allowed = allowed_for(friction, contact, conditions_) / 2;
       const double residual =
           residual_of_friction(friction.impulse, mu_s_ * carried, slip, friction.w);
@@ -288,7 +299,7 @@ class FrictionSolver {
       ++step_.iterations;
       friction.w =
           friction.slip_rate(contact_of(friction), of_slips_[f].data(), conditions_.layout);
-      // A place that a hinge holds has no friction.
+      // If a hinge holds the point of contact, no force moves it, and it has no friction.
       if (!(friction.w > conditions_.least_w)) friction.w = 0;
     }
     return of_slips_[f];
@@ -331,7 +342,7 @@ class FrictionSolver {
       contacts.push_back(c);
       frictions.push_back(number);
     }
-    // Velocities with contact are sums of answers of the fluid, whose error is that of W.
+    // The relative error of W is that of the fluid solver's velocities, of which W is made.
     const double error =
         std::max(std::numeric_limits<double>::epsilon(), conditions_.velocity_error);
     const double rounding = rounding_error_of_gaps(conditions_);
@@ -345,7 +356,8 @@ class FrictionSolver {
     }
   }
 
-  /// W of the rows: column by column the answers to their unit forces.
+  /// The matrix W of the rows [T/M]: column c has the rates of all gaps and slips by a unit force
+  /// of row c.
   Eigen::MatrixXd matrix_of(const CoupledRows& rows, std::span<const std::size_t> contacts,
                             std::span<const std::size_t> frictions) const {
     const auto n = std::ssize(rows.q);
@@ -436,7 +448,7 @@ void take_residuals_of_friction(const StepContacts& step, double mu_s,
                                 const ContactConditions& conditions, StepResiduals& residuals) {
   for (const auto& friction : step.frictions) {
     const auto& contact = step.contacts[friction.contact];
-    // Without an answer, or where a hinge holds the place, there is no friction.
+    // w is 0 if the mobility was not needed, or if a hinge holds the point: there is no friction.
     if (!(contact.w > 0 && friction.w > 0)) continue;
     const double slip = friction.slip(contact, velocities.data(), conditions.h, conditions.layout);
     residuals.take(

@@ -1,7 +1,10 @@
-// Time stepping of particles in a fluid (fluid_simulation.hpp): velocities without contact, contact
-// impulses, velocities with them, gamma, positions. Units are those of the case; errors are those
-// of step(). Restarts must give the same bits, so a step may depend on nothing but the setting and
-// the state.
+// Computes a step of particles in a fluid (fluid_simulation.hpp has the formulas and the symbols):
+// velocities without contact, contact impulses, and velocities with them. fluid_acceptance.cpp then
+// changes gamma and the positions. Links are hinges, springs and arms between particles; bodies are
+// rigid bodies of several particles. Units are those of the case: velocities in [L/T, 1/T], forces
+// in [M L/T^2, M L^2/T^2]. Errors are those of step(). A change must keep that a continued run
+// gives the same bits as one without a break; therefore a step may depend on nothing but the
+// setting and the state.
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
 
 #include <fmt/format.h>
@@ -30,12 +33,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Links are held to this part of the tolerance of lengths, so that their errors do not add up. Each
-// change multiplies the error by about the angle by which a body or an arm turns in the step, so
-// that few changes are needed unless this angle is about a radian.
+// Links hold up to this share of the tolerance of lengths, so that their errors do not add up over
+// the steps. They are corrected repeatedly: each correction multiplies the error by about the angle
+// [rad] by which a body or an arm turns in the step, so that few are needed unless this angle is
+// about 1. Both numbers are free choices.
 constexpr double kOfTolerance = 1e-3;
 constexpr int kMostChanges = 20;
 
+/// The largest absolute value; infinity if a number is NaN, so that comparisons see it.
 double largest_of(std::span<const double> numbers) {
   double largest = 0;
   for (const double x : numbers)
@@ -66,7 +71,7 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
       pool_(1),
       obstacles_(obstacles_of(setting_)) {
   auto& p = state_.particles;
-  // The run before may have had no fluid.
+  // A restart file of a run without a fluid has no velocities of the step before.
   if (state_.earlier_velocities.empty()) state_.earlier_step = 0;
   auto& film = setting_.laws.film;
   film.shape = p.dimension == 1 ? FilmShape::kSpheres : FilmShape::kDiscs;
@@ -104,8 +109,9 @@ State FluidSimulation::state_to_save() {
   return state;
 }
 
-/// Lets the solver keep the flow at the start, in which free particles have their velocities at
-/// time 0 and, in a Stokes flow, those that it gives them.
+/// At the start of a run with inertia of the fluid, lets the solver keep the first flow. If
+/// fluid.start is rest, the fluid is at rest, and particles have the velocities of the case.
+/// Otherwise it is the Stokes flow at time 0, and free particles have the velocities of this flow.
 void FluidSimulation::begin_flow(double h) {
   if (!setting_.fluid->has_inertia() || has_flow_) return;
   const StepEquation equation(setting_, state_, h, state_.time + h);
@@ -128,7 +134,7 @@ void FluidSimulation::begin_flow(double h) {
   has_flow_ = true;
 }
 
-/// U^+ of all particles for the velocities `flow` = U without contact.
+/// U^+ of all particles, without contact, for the velocities `flow` = U.
 std::vector<double> FluidSimulation::free_velocities(const StepEquation& equation,
                                                      std::span<const double> flow, double h,
                                                      const HeldMotion* held) {
@@ -149,7 +155,8 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
     return free;
   auto now = equation.right_side();
   if (held != nullptr) {
-    // The momentum of a body turns with it.
+    // The velocities of the step before are made those of a rigid motion at the present places of
+    // the members, because the body has turned since then.
     held->make_rigid(earlier);
     add(held_->forces_of_step(), now);
   }
@@ -162,8 +169,9 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
                                         : solver_->velocities(difference, false);
     for (std::size_t i = 0; i < changed.size(); ++i) changed[i] += added[i];
   }
-  // The forces of links turn with the links. Therefore the earlier velocities get the directions
-  // that the links have now, and only the change of the answer of the fluid is extrapolated.
+  // Links have turned since the step before. Therefore the earlier velocities are first changed
+  // until the links hold with their present directions; the difference is then only the change of
+  // the fluid's resistance, which is to be extrapolated.
   if (held_ != nullptr) held_->hold_velocities(earlier);
   const double share = h / (2 * state_.earlier_step);
   for (std::size_t i = 0; i < free.size(); ++i) {
@@ -181,9 +189,10 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
       free, h, layout_, setting_.solver, mean_radius_, error_of_answers(fluid), kick_length(h) / h};
   conditions.is_symmetric = !fluid.has_inertia() || fluid.coupling == Coupling::kSplitting;
   if (!setting_.links.hinges.empty()) {
-    // A particle resists with its mass over the step and with a drag of about the viscosity, or
-    // some 1e5 times as much in the narrowest gap of a mesh. What a hinge holds moves by errors
-    // only.
+    // If a hinge holds a gap, the mobility w of the gap should be 0, but consists of errors;
+    // least_w must lie between these and the least true mobility. A particle resists a force with
+    // its mass over the step and with a drag of about the viscosity, or some 1e5 times the
+    // viscosity in the narrowest gap that a mesh resolves. Both factors are free choices.
     constexpr double kShare = 1e-9, kErrors = 10;
     double heaviest = 0;
     const auto& p = state_.particles;
@@ -196,8 +205,9 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
   return conditions;
 }
 
-/// The time for which the forces of a step of length h act on its velocities [T]. In a fluid with
-/// inertia forces act in the step that ends at x^n, and the step from there moves the particles.
+/// The time for which the forces of a step of length h act on its velocities [T]. It is h, but in a
+/// fluid with inertia the length of the step before: forces change the velocities in the step that
+/// ends at x^n, and particles move with these velocities in the step that begins there.
 double FluidSimulation::kick_length(double h) const {
   const auto& fluid = *setting_.fluid;
   const bool is_of_flow = fluid.has_inertia() && fluid.coupling != Coupling::kSplitting;
@@ -229,7 +239,8 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
   };
   const auto& fluid = *setting_.fluid;
   const auto is_ellipse = [&](std::int32_t k) { return k >= 0 && fluid.is_ellipse(index_of(k)); };
-  // Ellipses make no contact (check_ellipses()), and an arm gives the distance of its particles.
+  // Contacts are not computed for ellipses (check_ellipses()), nor for two particles with an arm,
+  // because the arm prescribes their distance.
   const auto is_left_out = [&](const Pair& pair) {
     return (!is_movable(pair.first) && !is_movable(pair.second)) || is_ellipse(pair.first) ||
            is_ellipse(pair.second) || std::ranges::any_of(setting_.links.arms, [&](const Arm& arm) {
@@ -258,18 +269,20 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
     const BlowStep step{setting_, state_, obstacles_, next, kick_length(h), before, loaded};
     auto blow = solve_blow(contacts, step, mobility, conditions);
     if (!blow) return blow;
-    // Solids may leave each other faster than the particles were without contact.
+    // Solids may rebound faster than the particles were without contact. If they then reach
+    // particles whose contacts were not listed, the contacts are listed up to a larger gap.
     const double needed = reach_of(state_, fluid, blow->velocities, conditions);
     if (needed <= contacts.reach) return blow;
     conditions.least_reach = 2 * needed;
   }
 }
 
-/// Changes velocities until hinges and arms, and the springs of particles that accelerate, hold
-/// after the step, in which bodies turn by finite angles; `holds` says whether they do within the
-/// tolerance. Returns the forces in the rows that this takes beside those of the last
-/// velocities(..., true) of the solver. Throws Error(kNotConverged) if a length or place would be
-/// off by more than a mean radius.
+/// Changes velocities until hinges and arms, and the springs of particles that accelerate, hold at
+/// the end of the step. The rows hold them to first order only, because bodies and links turn by
+/// finite angles. Sets `holds` to whether they hold within the tolerance. Returns the forces in the
+/// rows that the change needs, in addition to those of the last velocities(..., true) of the
+/// solver. Throws Error(kNotConverged) if a length or place would be off by more than a mean
+/// radius.
 std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equation,
                                                      const HeldMotion& held,
                                                      std::span<const double> flow,
@@ -277,7 +290,7 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
                                                      bool& holds) const {
   const auto of_flow = held_->row_forces();
   auto forces = of_flow;
-  // The extrapolated velocities have these forces as well.
+  // Adds the forces in the rows that belong to the extrapolation, the difference of U^+ and U.
   auto extrapolated = velocities;
   for (std::size_t i = 0; i < flow.size(); ++i) extrapolated[i] -= flow[i];
   add(held_->row_forces_for(extrapolated), forces);
@@ -303,9 +316,9 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
   return forces;
 }
 
-/// Changes velocities until bodies are rigid, and hinges and arms hold, after their finite turns,
-/// and adds the forces of this to those in the rows. Springs keep their forces. Returns by how much
-/// rows are off then [L].
+/// Changes velocities until bodies are rigid and hinges and arms hold at the end of the step, in
+/// which they turn by finite angles. Adds the forces that this needs to `row_forces`; springs keep
+/// their forces. Returns the largest error of a row that is left [L].
 double FluidSimulation::hold_turned(const HeldMotion& held, double h,
                                     std::vector<double>& velocities,
                                     std::vector<double>& row_forces) const {
@@ -321,10 +334,12 @@ double FluidSimulation::hold_turned(const HeldMotion& held, double h,
   }
 }
 
-/// Solves the contacts of a step again until bodies are rigid, and hinges and arms hold, after the
-/// finite turns of the motion with contacts, which differ from those without. Changes the
-/// velocities without contact, and adds the forces of this to those in the rows. Sets
-/// Motion::links_hold. Does nothing in a step in which solids rebound.
+/// Makes bodies rigid, and hinges and arms hold, at the end of the step with contacts. Contacts
+/// change the angles by which bodies and links turn, so that the forces in the rows change, too;
+/// and these change the velocities without contact, for which the contacts are solved again. This
+/// is repeated until the changes are small. Changes Motion::free, linear and contact, adds the
+/// forces to `row_forces`, and sets Motion::links_hold. Does nothing in a step in which solids
+/// rebound.
 void FluidSimulation::hold_with_contacts(const StepEquation& equation, const HeldMotion& held,
                                          double h, double next, Motion& motion,
                                          std::vector<double>& row_forces) {
@@ -347,7 +362,7 @@ void FluidSimulation::hold_with_contacts(const StepEquation& equation, const Hel
       motion.free[i] += by;
       contact.velocities[i] += by;
     }
-    // Contacts whose gaps changed by less than this hold as they are.
+    // If gaps changed by less than `allowed`, the contacts need not be solved again.
     motion.links_hold = off <= tolerated_length() && h * change <= allowed;
     if (h * change <= allowed) return;
     const int iterations = contact.iterations;
@@ -357,9 +372,10 @@ void FluidSimulation::hold_with_contacts(const StepEquation& equation, const Hel
   }
 }
 
-/// Changes the velocities at the end of a step, after which particles have moved with `moved`,
-/// until hinges and arms hold at that time: a velocity across a link that is left would change its
-/// sign in each step. Only accelerating particles change. Returns the mean forces in the rows.
+/// Changes the velocities `at_end` at the end of a step, in which particles moved with `moved`,
+/// until they agree with the hinges and arms at that time. Without this a part of the velocity that
+/// the link forbids would remain, and change its sign in each step. Only the velocities of
+/// particles that accelerate change. Returns the forces in the rows, as means over the step.
 std::vector<double> FluidSimulation::hold_at_end(const StepEquation& equation,
                                                  const HeldMotion& held,
                                                  std::span<const double> moved,
@@ -377,13 +393,13 @@ std::vector<double> FluidSimulation::hold_at_end(const StepEquation& equation,
 /// Sets the velocities that a fluid with inertia keeps, and extrapolates them to the end of the
 /// step.
 void FluidSimulation::keep_and_extrapolate(const StepEquation& equation, Motion& motion) const {
-  // The splitting changes the velocities of the particles, and not those of the fluid.
+  // With coupling = splitting, contacts change the velocities of the particles, but not the flow.
   motion.kept = motion.flow;
   if (setting_.fluid->coupling == Coupling::kSplitting)
     for (std::size_t i = 0; i < motion.kept.size(); ++i)
       motion.kept[i] += motion.after[i] - motion.free[i];
-  // The fluid may have started with a jump of its velocity, so that the first change of the
-  // velocity says nothing about the next one.
+  // The change of the velocities in the first step is not extrapolated, because the velocity of the
+  // fluid may jump at the start.
   const double share = state_.steps > 1 ? 2 * equation.share_of_change() : 0;
   motion.at_end = motion.kept;
   for (std::size_t i = 0; i < motion.at_end.size(); ++i) {
@@ -395,7 +411,8 @@ void FluidSimulation::keep_and_extrapolate(const StepEquation& equation, Motion&
   }
 }
 
-/// Computes a step of length h that ends at `next`.
+/// Computes a step of length h that ends at the time `next` [T], without changing the state. With
+/// `is_estimated` it also estimates errors by a second mesh.
 FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_estimated) {
   const auto begin = Clock::now();
   const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
@@ -404,7 +421,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   std::vector<double> forces;
   std::optional<HeldMotion> held;
   std::vector<double> further_row_forces;
-  // An impact changes the inertia of its particles, and with it the problem.
+  // A contact with an impulse sets theta = 1 for its particles, which changes their M/(theta h) and
+  // with it the problem. The step is then solved again.
   for (int iterations = 0;;) {
     if (held_ != nullptr) {
       held.emplace(setting_.links, state_.particles, times_of_links(equation, h, next),
@@ -431,7 +449,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   const auto& loads = motion.blow ? motion.blow->loads : motion.contact.loads;
   motion.after = motion.blow ? motion.blow->velocities : motion.contact.velocities;
   if (largest_of(loads) > 0 && !is_split) {
-    // The flow, and the forces of the fluid, are those with the contact forces.
+    // The fluid is solved again with the contact forces, because the flow and the forces of the
+    // fluid that are reported contain their effect.
     const auto before = motion.flow;
     add(loads, forces);
     motion.flow = solver_->velocities(forces, true);
@@ -510,7 +529,8 @@ void FluidSimulation::report_inertia(Motion& motion) const {
   }
 }
 
-/// Asks for the flow on two meshes under the same forces, with those of contacts.
+/// Estimates errors from the flow on two meshes under the same forces, which include those of
+/// contacts.
 void FluidSimulation::estimate(const StepEquation& equation, std::span<const double> forces,
                                const HeldMotion* held, Motion& motion) {
   std::function<std::vector<double>()> link_forces;
@@ -530,7 +550,8 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
 }
 
 /// Throws Error(kNotConverged) if an ellipse is closer to a wall, a plane or another particle than
-/// the threshold gap: contacts of ellipses are not computed. The motions of both may not be given.
+/// the threshold gap, because contacts of ellipses are not computed. It is no error if both are
+/// driven, that is if their motions are prescribed.
 void FluidSimulation::check_ellipses() const {
   const auto& fluid = *setting_.fluid;
   if (fluid.semi_axes.empty()) return;

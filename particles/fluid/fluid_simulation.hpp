@@ -1,8 +1,8 @@
 // Simulates rigid particles in a fluid with viscous contact, docs/physics.md (6.1) to (6.5)
 // (Lefebvre 2007, "Fluid-particle simulations with FreeFem++"; Lefebvre 2009, "Numerical simulation
-// of gluey particles"). Lengths, masses and times are in any consistent units. particles/run uses
-// it. A continued run must give the same bits as one without a break. Used by fluid_motion.hpp and
-// run/.
+// of gluey particles"). Lengths, masses and times are in any consistent units. fluid_motion.hpp and
+// particles/run/ use it. A change must keep that a run which was interrupted and continued gives
+// the same bits as a run without a break.
 #pragma once
 
 #include <memory>
@@ -39,18 +39,22 @@ struct ForceErrors {
 /// - coupling = constrained: the impulses are forces in the problem of the fluid;
 /// - coupling = splitting: the velocities of the fluid are projected in the norm of the masses.
 ///
-/// Away from contact a step is of second order. With S^n g the velocities at x^n under forces and
-/// inertia g (step_equation.hpp), and F^{n-1} the forces on the fluid in the step before, a step is
+/// Away from contact a step is of second order. S^n g are the velocities that the fluid gives the
+/// particles at x^n under the forces g. M are the masses, and theta, from 1/2 to 1, says how
+/// implicit the step is (both in step_equation.hpp); g^n contains M/(theta h) u^n, with the
+/// velocity u^n at the time t^n. F^{n-1} are the forces on the fluid in the step before, and h^n =
+/// h. A step is
 ///
 ///     U = S^n g^n,   U^+ = U + (h^n/(2 h^{n-1})) (S^n g* - U^{n-1}),   x^{n+1} = x^n + h U^+,
 ///     g* = F^{n-1} + M/(theta h) U^{n-1},
 ///
-/// in which the second term is the change of the velocities because places change in half a step.
-/// Without inertia and with a constant force g* = g^n, so that this is the formula of Adams and
-/// Bashforth; it remains of second order where a force jumps. Links between particles with mass are
-/// those in the middle of the step, and U^{n-1} is projected on their directions (6.7). A particle
-/// that was in contact in the step before moves with U, of first order, and so do all where a given
-/// motion jumps.
+/// in which the second term of U^+ estimates by how much the velocities change in half a step
+/// because the particles move. Without inertia and with a constant force g* = g^n, so that this is
+/// the formula of Adams and Bashforth; it remains of second order where a force jumps. Links act
+/// where the particles are in the middle of the step if a particle has mass, and U^{n-1} is
+/// replaced by the nearest velocities that the links allow (6.7). A particle that was in contact in
+/// the step before moves with U, which is of first order; all particles do in a step in which a
+/// given motion jumps.
 ///
 /// In a fluid with inertia (docs/physics.md (6.9)) the solver has the masses, and U^n is the
 /// velocity at the time t^n of x^n. Away from contact the particles move with
@@ -58,11 +62,12 @@ struct ForceErrors {
 ///     U^+ = U^n + (h^n/(2 h^{n-1})) (U^n - U^{n-1}).
 ///
 /// The first step computes U^1 at x^0, and moves the particles by (U^0 + U^1)/2. The second step
-/// computes U^1 again at x^1, so that impulses of contacts in the first step change no memory.
+/// computes U^1 again, at x^1, and with it the impulses of the contacts. Therefore films do not
+/// remember the impulses of the first step: each film must absorb them once only.
 class FluidSimulation {
  public:
-  /// `setting.fluid` must be there. `state` is what read_restart returned, or a state of which only
-  /// the particles are set.
+  /// `setting.fluid` must have a value. `state` is what read_restart returned, or a state of which
+  /// only the particles are set.
   FluidSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
 
   /// Computes one step of length h, shorter if `end` [T] is nearer; see Simulation::step. In the
@@ -107,7 +112,7 @@ class FluidSimulation {
 
   /// Number of unknowns of the last mesh; 0 if the solver does not say.
   std::size_t unknowns() const { return solver_->unknowns(); }
-  /// The largest resident memory of the solver so far [MiB]; 0 if it is no process of its own.
+  /// The largest resident memory of the solver so far [MiB]; 0 if it runs in this process.
   double solver_peak_memory_mebibytes() const { return solver_->peak_memory_mebibytes(); }
 
  private:

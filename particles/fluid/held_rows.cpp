@@ -1,5 +1,8 @@
-// Makes the rows, linear conditions on velocities, of rigid bodies and links in a fluid. Units are
-// those of the case; nothing is thrown. A change must keep bodies exactly rigid.
+// Computes the rows, linear conditions on the velocities of particles in a fluid, that make bodies
+// rigid and hold links: hinges, arms, springs and torsion springs (held_rows.hpp). A unit is a
+// rigid body, or a particle without a body. Units are those of the case: velocities in [L/T, 1/T],
+// forces in [M L/T^2, M L^2/T^2]. Nothing is checked or thrown. fluid_simulation.cpp uses it. A
+// change must keep bodies exactly rigid, and the order of the rows: bodies first, then links.
 #include "viscontact/particles/fluid/held_rows.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +17,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// Whether a link holds exactly after a step, whatever force it needs.
+/// True if a link must hold exactly after a step: a hinge or an arm.
 bool is_exact(const LinkEquations& link) {
   return link.kind == LinkEquations::Kind::kHinge || link.kind == LinkEquations::Kind::kArm;
 }
@@ -49,14 +52,16 @@ double HeldMotion::link_time(std::int32_t particle) const {
   return link_times_.empty() ? -1 : link_times_[index_of(particle)];
 }
 
-/// The time of the rows of a link of which an end accelerates, else -1.
+/// The time in the step at which a link acts [T], the latest of those of its particles; -1 if none
+/// of them accelerates.
 double HeldMotion::link_time(const LinkEquations& link) const {
   double latest = -1;
   for (const auto& part : link.parts()) latest = std::max(latest, link_time(part.particle));
   return latest;
 }
 
-/// Turns the rows of links to where their units are at the time of the link.
+/// Gives the rows of each link the directions that they have when its units have moved, with the
+/// velocities at the beginning of the step, until the time link_time() of the link.
 void HeldMotion::turn_rows() {
   if (link_times_.empty()) return;
   std::vector<double> velocities(particles_.count() * layout_.components);
@@ -75,7 +80,8 @@ void HeldMotion::turn_rows() {
   }
 }
 
-/// The rows that give each member the rigid motion of the first one.
+/// Adds the rows of a rigid body, three for each member but the first: the member has the
+/// velocities of the rigid motion of the first one.
 void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
                                std::vector<HeldRow>& rows) const {
   const auto first = body.members.front();
@@ -89,7 +95,7 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
       row.name = fmt::format("body {}", number);
       row.accelerates = link_time(first) >= 0;
       row.entries = {{layout_.at(member, d), 1}, {layout_.at(first, d), -1}};
-      // velocity of the member minus that of the rigid motion of the first one
+      // The turn of the body moves the place of the member about that of the first member.
       if (d < 2) {
         row.entries.emplace_back(layout_.at(first, 2), d == 0 ? apart[1] : -apart[0]);
         row.image_rate = of_images[m][d] - of_images[0][d];
@@ -115,9 +121,11 @@ void HeldMotion::add_entries(const LinkPart& part, HeldRow& row) const {
 
 std::vector<HeldRow> HeldMotion::rows() const { return rows_of(in_rows_); }
 
-/// The rate of a hinge or an arm in the velocities. In the velocities of a step the rate also
-/// removes the residual of the equation. In velocities at its beginning it is the rate at that
-/// time, because a correction of places must not enter the momentum of the fluid.
+/// The rate that the row of a hinge or an arm prescribes [L/T]. Without inertia of the fluid the
+/// velocities are those of the whole step, and the rate also removes the error that the length or
+/// place has at its beginning. In a fluid with inertia (rate_to > rate_from) the velocities are
+/// those at the beginning of the step, and the rate is that of the arm alone, because a correction
+/// of places must not change the momentum of the fluid.
 double HeldMotion::rate_of(const LinkEquations& link, const LinkRow& row) const {
   if (!(times_.rate_to > times_.rate_from)) return -row.value / times_.h;
   if (link.kind != LinkEquations::Kind::kArm) return 0;
@@ -209,7 +217,7 @@ std::vector<double> HeldMotion::missing(std::span<const double> velocities,
   return changes;
 }
 
-/// The sum of a row for these velocities, with that of the images.
+/// The sum of a row for these velocities, which contains the velocities of images [L/T, 1/T].
 double HeldMotion::sum_of(const LinkRow& row, std::span<const double> velocities) const {
   double sum = 0;
   for (const auto& part : row.parts) sum += value_of(part, motion_of(part, velocities));
@@ -220,7 +228,8 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
                                             std::span<const double> mobility,
                                             const std::vector<char>& is_stiff,
                                             std::span<double> at_end) const {
-  // Rounding must not carry the time beyond a corner of the length.
+  // The rate at the end of the step is taken slightly earlier, because the length of an arm may
+  // have a corner there, and rounding errors of the time must not lead beyond it.
   const double end = times_.end - 1e-9 * times_.h;
   std::vector<LinkEquations> turned;
   std::vector<double> rates(body_rows_, 0.0);
@@ -255,13 +264,15 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
           coefficient * std::sqrt(mobility[component]);
       right[c] -= coefficient * at_end[component];
     }
-    // Lengths and angles are made comparable.
+    // Rows are scaled to the norm 1, so that those of lengths and of angles have the same size.
     if (const double norm = matrix.row(c).norm(); norm > 0) {
       matrix.row(c) /= norm;
       right[c] /= norm;
     }
   }
-  // Of all changes the least one, weighted by W^-1; redundant rows get the least forces.
+  // The change of the velocities is the smallest one, with each component divided by the root of
+  // its mobility W. Redundant rows get the smallest forces; a row counts as redundant if the others
+  // give it up to 1e-10, a free choice far above rounding errors.
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor;
   constexpr double kRank = 1e-10;
   factor.setThreshold(kRank);
@@ -273,8 +284,8 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
   const Eigen::VectorXd of_chosen = factor.solve(change);
   for (Eigen::Index c = 0; c < n; ++c) {
     const auto& row = rows[chosen[static_cast<std::size_t>(c)]];
-    // Without a mass that accelerates, nothing keeps an impulse: what changes these velocities at
-    // the end of the step is no part of its mean force.
+    // A force is reported only if a mass of the row accelerates. Without mass the change of these
+    // velocities takes no impulse, and is no part of the mean force of the step.
     if (!row.accelerates) continue;
     double square = 0;
     for (const auto& [component, coefficient] : row.entries)
@@ -330,7 +341,7 @@ void HeldMotion::keep_torques(std::span<const double> velocities, std::span<cons
   }
 }
 
-/// The place of arm `k` in the equations.
+/// The index of arm number `k` in equations_.
 std::size_t HeldMotion::arm(std::size_t k) const {
   const auto found = std::ranges::find_if(equations_, [&](const LinkEquations& link) {
     return link.kind == LinkEquations::Kind::kArm && link.number == k;

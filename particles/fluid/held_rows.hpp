@@ -1,6 +1,8 @@
-// The conditions that rigid bodies and links put on the velocities of particles in a fluid, and how
-// bodies move, docs/physics.md (6.7). Lengths, masses and times are in the units of the case.
-// fluid_simulation.cpp uses it; nothing is thrown.
+// The conditions that rigid bodies and links (hinges, arms and springs) put on the velocities of
+// particles in a fluid, and how bodies move, docs/physics.md (6.7). Each condition is a row of
+// held_solver.hpp. A unit is a rigid body, or a particle without a body. Lengths, masses and times
+// are in the units of the case. fluid_simulation.cpp uses it; nothing is checked or thrown. A
+// change must keep the order of the rows, bodies first, and bodies exactly rigid.
 #pragma once
 
 #include <cstddef>
@@ -15,13 +17,13 @@ namespace viscontact::particles {
 
 /// The rows of one step from the present places of the particles, and the motion of their units.
 ///
-/// A link of which a unit accelerates, that is has a mass and no given motion, has its rows at the
-/// places that the units reach in half the step with their velocities before it. The forces of
-/// links then turn with their units like their mean over the step, so that a mass that circles on a
-/// link neither gains nor loses energy up to the second order of the step (the implicit midpoint
-/// rule; Hairer, Lubich & Wanner 2006, section VII.1). In a step with theta = 1, after which
-/// velocities may have jumped, the rows are where the particles are, which keeps the angular
-/// momentum. So are those of particles without mass, because FluidSimulation extrapolates how their
+/// A unit accelerates if it has a mass and no given motion. The rows of a link with such a unit are
+/// those at the places that its units reach at about half the step with their velocities before it.
+/// A force of a link then has its mean direction in the step, so that a mass that circles on a link
+/// neither gains nor loses energy up to the second order of the step (the implicit midpoint rule;
+/// Hairer, Lubich & Wanner 2006, section VII.1). In a step with theta = 1 (step_equation.hpp), in
+/// which velocities may jump, the rows are those at the present places, which keeps the angular
+/// momentum. So are the rows of units without mass, because FluidSimulation extrapolates how their
 /// forces turn.
 class HeldMotion {
  public:
@@ -68,8 +70,8 @@ class HeldMotion {
   void keep_torques(std::span<const double> velocities, std::span<const double> of_fluid,
                     std::span<double> forces) const;
 
-  /// Velocity of the centre and angular velocity of a body: the means over the images of its
-  /// members at their places in the body, whose offsets cancel in the first.
+  /// Velocity of the centre of a body and its angular velocity: means over its members. In a
+  /// periodic cell the velocities are those of the images that lie at their places in the body.
   UnitMotion motion_of_body(std::size_t body, std::span<const double> velocities) const;
 
   /// Rate at which the length of arm `k` grows with these velocities, by its row [L/T].

@@ -1,5 +1,10 @@
-// Forces that keep linear conditions on the velocities of particles in a fluid (held_solver.hpp),
-// in the units of the case. Conditions that contradict each other are an Error(kNotConverged).
+// Finds the forces that keep linear conditions on the velocities of particles in a fluid
+// (held_solver.hpp). With the mobility S of the fluid (velocities per force), the velocities v and
+// the rows A of the conditions, the sums of the rows are A v, and forces l of the rows add A S A^T
+// l to them. Lengths, masses and times are in the units of the case: sums in [L/T, 1/T], forces in
+// [M L/T^2, M L^2/T^2]. Conditions that contradict each other are an Error(kNotConverged).
+// fluid_simulation.cpp uses it. A change must keep that redundant rows get the smallest forces, and
+// that soft and stiff springs do not spoil each other's digits.
 #include "viscontact/particles/fluid/held_solver.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +21,8 @@ using Eigen::Index;
 
 namespace {
 
-// Numbers smaller than this times the errors of the solver's answers count as zero.
+// Numbers smaller than this times the errors of the fluid solver's velocities count as zero. The
+// factor is a free choice.
 constexpr double kAboveErrors = 10;
 
 }  // namespace
@@ -29,7 +35,7 @@ void HeldSolver::hold(std::vector<HeldRow> rows, double h) {
   h_ = h;
 }
 
-/// A v.
+/// The sums of the rows, A v, for these velocities.
 Eigen::VectorXd HeldSolver::sums(std::span<const double> velocities) const {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
   for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -72,7 +78,9 @@ double HeldSolver::theta(Index r) const {
   const auto& row = rows_[static_cast<std::size_t>(r)];
   const double of_row = h_ * row.stiffness * matrix_(r, r);
   if (has_inertia_) {
-    // Keeps 1/theta finite, and changes a force by less than its error.
+    // With this bound 1/theta is finite. It is at most the relative error of the fluid solver's
+    // velocities (error_of_answers()), so that it changes a force by less than the error of the
+    // force.
     constexpr double kLeast = 1e-9;
     const double z = of_row * of_row;
     return std::isfinite(z) ? std::max(kLeast, 2 * z / (2 + z)) : 2;
@@ -81,7 +89,8 @@ double HeldSolver::theta(Index r) const {
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
-/// What the sums of the rows without stiffness lack of their rates; for a spring, minus its sum.
+/// For each row without stiffness, its prescribed rate minus its sum with these velocities; for
+/// each spring, minus its sum.
 Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
   Eigen::VectorXd missing = -sums(velocities);
   for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -89,19 +98,20 @@ Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
   return missing;
 }
 
-/// Decomposes matrix_, which place() has made.
+/// Computes the factors of A S A^T (matrix_): first those of the rows without stiffness (fixed_),
+/// then, with these rows eliminated, those of the springs.
 void HeldSolver::factorise() {
   fixed_.clear();
   springs_.clear();
   for (Index r = 0; r < matrix_.rows(); ++r)
     (rows_[static_cast<std::size_t>(r)].stiffness > 0 ? springs_ : fixed_).push_back(r);
-  // Rows of lengths and of angles are made comparable. A row of driven particles alone has no
-  // mobility.
+  // Rows are divided by the root of their mobility, so that those of lengths and of angles have the
+  // same size. A row whose particles are all driven has the mobility 0.
   scale_ = matrix_.diagonal().unaryExpr([](double x) { return x > 0 ? 1 / std::sqrt(x) : 1; });
   const Eigen::MatrixXd scaled = scale_.asDiagonal() * matrix_ * scale_.asDiagonal();
   fixed_matrix_ = scaled(fixed_, fixed_);
-  // Redundant rows make the matrix singular, up to the errors of the answers, and get the least
-  // forces.
+  // Redundant rows make the matrix singular, up to the errors of the fluid solver's velocities. The
+  // decomposition then gives the forces with the least sum of squares.
   const double noise = kAboveErrors * relative_error_;
   factor_.setThreshold(noise);
   if (!fixed_.empty()) factor_.compute(fixed_matrix_);
@@ -109,8 +119,9 @@ void HeldSolver::factorise() {
   if (springs_.empty()) return;
   spring_responses_ = solve_fixed(scaled(fixed_, springs_));
   spring_matrix_ = scaled(springs_, springs_) - coupling_ * spring_responses_;
-  // Where the other rows leave no motion, the matrix has only errors of the answers, which a stiff
-  // spring must not take for a mobility.
+  // If the other rows allow a spring no motion, its mobility should be 0, but consists of errors.
+  // Eigenvalues as small as these errors are set to 0, because a stiff spring would take them for a
+  // mobility.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
       (spring_matrix_ + spring_matrix_.transpose()) / 2);
   const Eigen::VectorXd kept =
@@ -120,7 +131,8 @@ void HeldSolver::factorise() {
   spring_matrix_ = projection * spring_matrix_ * projection;
 }
 
-/// The scaled forces of the rows without stiffness that add each column to their scaled sums.
+/// The scaled forces of the rows without stiffness whose effect on the scaled sums of these rows is
+/// `right`, column by column. One step of iterative refinement follows.
 Eigen::MatrixXd HeldSolver::solve_fixed(const Eigen::MatrixXd& right) const {
   if (fixed_.empty()) return right;
   Eigen::MatrixXd forces = factor_.solve(right);
@@ -128,8 +140,9 @@ Eigen::MatrixXd HeldSolver::solve_fixed(const Eigen::MatrixXd& right) const {
   return forces;
 }
 
-/// The forces of the rows that add `right` to their sums; of a spring, the sum and compliance times
-/// force is `right`. Without springs, their forces are 0.
+/// The forces of the rows that add `right` to the sums of the rows without stiffness. For a spring,
+/// what they add plus the compliance 1/(theta h stiffness) times its force is `right`. If
+/// `with_springs` is false, springs have the force 0.
 Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_springs) const {
   const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
   Eigen::VectorXd of_fixed = solve_fixed(scaled(fixed_));
@@ -142,7 +155,7 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
       const double k = rows_[static_cast<std::size_t>(r)].stiffness;
       matrix.diagonal()[static_cast<Index>(i)] += scale_[r] * scale_[r] / (k * theta(r) * h_);
     }
-    // Soft and stiff springs are made comparable.
+    // Rows are scaled to the diagonal 1, so that soft and stiff springs have the same size.
     const Eigen::VectorXd own = matrix.diagonal().cwiseSqrt().cwiseInverse();
     matrix = own.asDiagonal() * matrix * own.asDiagonal();
     const Eigen::VectorXd of_springs =
@@ -154,14 +167,17 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
   return scale_.cwiseProduct(forces);
 }
 
-/// Throws an error if the forces do not add `right` to the sums of the rows without stiffness.
+/// Throws Error(kNotConverged), which names rows, if the forces do not add `right` to the sums of
+/// the rows without stiffness.
 void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const {
   const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
   const Eigen::VectorXd added = scale_.cwiseProduct(matrix_ * forces);
-  // What the forces of all rows add may cancel, up to the errors of the answers.
+  // The effects of the rows' forces may cancel each other. Errors are then relative to the sum of
+  // their absolute values.
   const Eigen::VectorXd parts = scale_.cwiseProduct(matrix_.cwiseAbs() * forces.cwiseAbs());
   double largest = 0;
   for (const Index r : fixed_) largest = std::max(largest, std::abs(scaled[r]) + parts[r]);
+  // Free choice, far above the relative error of the velocities, which is usually 1e-9.
   constexpr double kBroken = 1e-4;
   std::string names;
   for (const Index r : fixed_) {
@@ -181,7 +197,8 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
 std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool driving) {
   auto velocities = solver_->velocities(forces, driving);
   if (rows_.empty()) return velocities;
-  // What the rows, with the compliance of springs, must add up to.
+  // The prescribed sums of the rows, in which the sum of a spring contains its compliance times its
+  // force.
   Eigen::VectorXd given = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
   if (driving)
     for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -200,7 +217,8 @@ std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool 
   row_forces_.assign(of_rows.begin(), of_rows.end());
   std::vector<double> all(forces.begin(), forces.end());
   add_row_forces(all, of_rows);
-  // The flow, of which quantities are asked, is that with these forces.
+  // The fluid solver is asked again with these forces, because quantities() and flow() are those of
+  // its last solution.
   auto held = solver_->velocities(all, true);
   add_responses(held, solve(missing(held), false));
   return held;
@@ -258,10 +276,11 @@ SecondMesh HeldSolver::vary_mesh() {
   return solver_->vary_mesh();
 }
 
-/// Corrects forces of the rows that were computed with the mobility of the placement, for a mesh or
-/// a penalty that differs from it. Each correction multiplies what is missing by about the relative
-/// difference of both mobilities, which is an error of discretisation. `right` is what the rows,
-/// with their compliance, must add up to under `forces`.
+/// Corrects `of_rows`, forces of the rows that were computed with the mobility of place(), for the
+/// other mesh or penalty that the fluid solver has after vary_mesh() or vary_penalty(). Each
+/// correction multiplies the error of the sums by about the relative difference of both mobilities,
+/// which is small; two corrections are a free choice. `right` are the prescribed sums, in which
+/// those of springs contain compliance times force.
 void HeldSolver::correct(const Eigen::VectorXd& right, std::span<const double> forces,
                          Eigen::VectorXd& of_rows) {
   constexpr int kCorrections = 2;

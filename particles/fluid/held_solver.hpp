@@ -1,5 +1,6 @@
 // A fluid whose particles are held by rigid bodies, hinges, springs and arms, docs/physics.md
-// (6.7). Lengths, masses and times are in the units of the case. fluid_simulation.cpp uses it.
+// (6.7). Lengths, masses and times are in the units of the case. fluid_simulation.cpp uses it. A
+// change must keep that redundant rows are no error, and those that contradict each other are.
 #pragma once
 
 #include <Eigen/QR>

@@ -1,5 +1,8 @@
-// Forces, inertia and given motions of a step. Numbers are in the units of the case. Nothing is
-// thrown. A change must keep the order of the step in time.
+// Computes the terms of the equation of motion of a step (step_equation.hpp, which defines the
+// symbols): forces, inertia, theta, and given motions. A component is a direction or the rotation
+// of a particle. Numbers are in the units of the case. Nothing is checked or thrown.
+// fluid_simulation.cpp depends on it. A change must keep the second order in time away from
+// contact.
 #include "viscontact/particles/fluid/step_equation.hpp"
 
 #include <algorithm>
@@ -16,8 +19,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// Mass or moment of inertia of each component. The members of a body share its mass, and the part
-/// of its moment of inertia that does not come from their masses at their places.
+/// Mass [M] or moment of inertia [M L^2] of each component. The mass of a rigid body is divided
+/// among its members. The moment of inertia of the body, less that of these masses at the places of
+/// the members, is divided evenly among the members.
 std::vector<double> masses_of(const Particles& p, const Fluid& fluid, const MotionLayout& layout) {
   std::vector<double> masses(p.count() * layout.components);
   for (std::size_t k = 0; k < p.count(); ++k) {
@@ -48,7 +52,7 @@ std::vector<double> mean_forces(const Setting& setting, const Particles& p,
                                 double from, double to) {
   std::vector<double> forces(p.count() * layout.components);
   for (std::size_t k = 0; k < p.count(); ++k) {
-    // Buoyancy: gravity acts on the fluid as well, and its pressure carries the fluid's weight.
+    // Buoyancy: the pressure that carries the weight of the fluid also acts on the particle.
     const double displaced =
         setting.fluid->density * setting.fluid->size_of(p.dimension, k, p.radii[k]);
     for (std::size_t d = 0; d < layout.directions(); ++d)
@@ -106,8 +110,10 @@ StepEquation::Window StepEquation::window(const Setting& setting, const State& s
   const double now = state.time;
   if (!setting.fluid->has_inertia() || state.steps == 0) return {now, now, next};
   const double from = now - state.earlier_step / 2;
-  // The difference of first order from t^0 to t^1 begins the sums of those of second order, which
-  // have three halves of the impulse of this step.
+  // The backward difference from t^0 to t^1 is of first order. In the sum of the differences over
+  // all steps those of second order that follow give it the weight 3/2. Its forces are therefore
+  // means over the first 3/2 steps, from t^0 on, so that the forces of all steps together have the
+  // whole impulse.
   return {state.steps == 1 ? now - state.earlier_step : from, from, now + h / 2};
 }
 
@@ -130,7 +136,7 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
       in_contact_[index_of(pair.second)] = 1;
       if (pair.first >= 0) in_contact_[index_of(pair.first)] = 1;
     }
-  // A hinge that rests at a stop. Its angle is exact up to the tolerance of a gap.
+  // A hinge that rests at a stop is in contact. Steps keep the stop as exactly as gaps.
   const double touching = setting.solver.tolerance * mean_radius(state.particles);
   for (const auto& stop : contacts_of_stops(setting.links, state.particles))
     if (stop.gap <= touching) in_contact_[index_of(stop.second)] = 1;
@@ -161,8 +167,9 @@ void StepEquation::add_inertia() {
     if (!(masses_[i] > 0) || is_driven(static_cast<std::int32_t>(k))) continue;
     link_times_.resize(state_.particles.count(), -1);
     const double theta = thetas_[i];
-    // Impulses of links at the time (1 - theta) h keep the angular momentum, and drag needs them in
-    // the middle of the step. The difference is weighed by 2 (1 - theta), which is 1 without drag.
+    // The angular momentum is kept if links act at the time (1 - theta) h of the step, but drag
+    // needs them at h/2. The time is the mean of both with the weights 2 (1 - theta), which is 1
+    // without drag, and 2 theta - 1 (docs/physics.md (6.7)).
     const bool may_jump = in_contact_[k] != 0 || !(state_.earlier_step > 0);
     link_times_[k] = may_jump ? 0 : (0.5 - (2 * theta - 1) * (1 - theta)) * h_;
   }
@@ -191,7 +198,7 @@ void StepEquation::find_companions() {
     unite(arm.first, arm.second,
           has_kink(arm, state_.time - state_.earlier_step, state_.time + h_));
   for (const auto& spring : setting_.links.springs) {
-    // The oscillation of a stiff spring is too fast for the step, which must damp it.
+    // If the oscillation of a spring is too fast for the step, h^2 k > m, the step must damp it.
     const auto mass_of = [&](std::int32_t k) {
       const auto body = p.bodies.body_of(k);
       if (is_driven(k)) return std::numeric_limits<double>::infinity();
@@ -229,9 +236,10 @@ double StepEquation::earlier_drag(std::size_t k, std::size_t component) const {
   return speed > 0 ? std::sqrt(force / speed) : 0;
 }
 
-/// The theta of all components of a body, which moves as one. Its drag over its mass is the power
-/// of the drag in the step before over twice the kinetic energy, which lies between those of its
-/// slowest and its stiffest motion, whatever forces its members exert on each other.
+/// The theta of all components of a rigid body. Its rate of damping is estimated by the power of
+/// the drag in the step before over twice the kinetic energy [1/T]. This quotient lies between the
+/// rates of the least and of the most damped motion of the body, and does not depend on the forces
+/// between its members.
 double StepEquation::theta_of_body(const RigidBody& body) const {
   if (!(body.mass > 0) || in_contact_[index_of(body.members.front())] != 0) return 1;
   const auto &u = state_.earlier_velocities, &f = state_.earlier_forces;
@@ -249,8 +257,9 @@ double StepEquation::theta_of_body(const RigidBody& body) const {
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
-/// Stokes' drag of a sphere, or that of a disc that turns. A disc that moves has no Stokes drag;
-/// the factor of the torque takes its place.
+/// The drag per velocity of a sphere (Stokes), or the torque per angular velocity of a disc. A disc
+/// that translates has no drag in an unbounded Stokes flow (Stokes' paradox); 4 pi mu, of the right
+/// dimension, is taken in its place.
 double StepEquation::stokes_drag(std::size_t k, std::size_t component) const {
   const double r = state_.particles.radii[k], mu = setting_.fluid->viscosity;
   constexpr double kPi = std::numbers::pi;
@@ -362,9 +371,9 @@ std::vector<double> StepEquation::velocities_of_work(std::span<const double> flo
     const double before = velocity(k, i % layout_.components);
     const double accelerating = masses_[i] / h_ * (at_end[i] - before);
     const double all = accelerating + drag[i];
-    // Where drag and acceleration nearly balance, several links may exert forces that cancel, of
-    // which no share is meaningful. The bound keeps their powers finite; its value changes only
-    // what such links report.
+    // If drag and acceleration nearly cancel, `all` is nearly 0, although the links of the particle
+    // may exert large forces that cancel each other. The share then means nothing. The bound, a
+    // free choice, keeps the powers of such links finite; it changes nothing but what they report.
     constexpr double kLargestShare = 10;
     const double share =
         all != 0 ? std::clamp(accelerating / all, -kLargestShare, kLargestShare) : 0;

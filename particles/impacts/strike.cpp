@@ -1,6 +1,8 @@
-// Solves the blows of a step, each in its two phases (impacts.hpp). Lengths, masses and times are
-// in the units of the case. A blow that is not solved is reported, not thrown. A change must keep
-// the momentum to rounding errors, and must not let the energy grow. Used by impacts.cpp.
+// Solves a blow between solids, all contacts of touching particles that are hit at one time, in two
+// phases: compression and restitution (impacts.hpp, docs/physics.md (5.15)). The film of a contact
+// has absorbed the impulse -gamma >= 0. Lengths, masses and times are in the units of the case:
+// impulses and gamma in [M L/T]. A blow that is not solved is reported, not thrown. impacts.cpp
+// uses it. A change must keep the momentum to rounding errors, and must not let the energy grow.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +18,8 @@
 
 namespace viscontact::particles {
 
-/// Vector from the centre of its body to a member at time `t` of the step [L]; 0 without a body.
+/// Vector from the centre of its rigid body to particle k at the time `t` after the beginning of
+/// the step [T], 0 to h; 0 if it has no body [L].
 template <int D>
 Vector Impacts<D>::offset_at(std::int32_t k, double t) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
@@ -25,9 +28,10 @@ Vector Impacts<D>::offset_at(std::int32_t k, double t) const {
   return offset + displacement_at({}, (t / step_.h) * free_bodies_[index_of(body)].turn, offset, D);
 }
 
-/// The velocity of a member of a body at the time `t` of the step, minus that of its flight on a
-/// parabola. With e_d = 1 a blow keeps the energy only if its impulse depends on the velocity of
-/// the point at which it acts.
+/// What turning adds to the velocity of particle k of a rigid body at the time `t` of the step
+/// [L/T]: its velocity in the body minus that of the parabola by which flights are computed. Blows
+/// need the true velocity of the point at which they act, because otherwise a blow with e_d = 1
+/// would not keep the energy.
 template <int D>
 Vector Impacts<D>::turning_velocity(std::int32_t k, double t) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
@@ -40,8 +44,9 @@ Vector Impacts<D>::turning_velocity(std::int32_t k, double t) const {
   return mean + turns - free_velocity(k) + (t - step_.h / 2) * (pull - acceleration(k));
 }
 
-/// The contacts of a blow as constraints on the changes of h times the velocities. A unit is a
-/// rigid body, or a particle without a body; `unit_of` gets the number of a particle of each unit.
+/// The contacts of a blow at `time` as a problem of constraints whose unknowns are the changes of
+/// the velocities times the length h of the step [L]. A unit is a rigid body, or a particle without
+/// a body; one particle of each unit is appended to `unit_of`.
 template <int D>
 ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double time,
                                             std::vector<std::int32_t>& unit_of) {
@@ -57,8 +62,9 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       unit_of.push_back(k);
       if (body < 0) {
         const std::array<double, 3> still{};
-        // The moments on particles that do not turn are rounding errors. A mobility of the right
-        // dimension keeps the turns that follow from them small in every system of units.
+        // If particles do not turn, the moments on them are 0 but for rounding errors. The problem
+        // needs a mobility for turning nevertheless; with one of the right dimension the turns that
+        // follow are small in every system of units.
         const double r = p.radii[index_of(k)], moves = step_.mobilities[index_of(k)];
         const double turns =
             step_.turns.empty() ? moves / (r * r) : step_.turn_mobilities[index_of(k)];
@@ -101,7 +107,8 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
   return problem;
 }
 
-/// Adds the change of h times the motion of the unit of `particle` at `time`.
+/// Changes the motion of the unit of `particle` from `time` on. `change` is the change of its
+/// velocity and angular velocity times h.
 template <int D>
 void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, double time) {
   const auto& p = state_.particles;
@@ -138,11 +145,13 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
   step.late_momentum = step.late_momentum + (time / step_.h) * momentum;
 }
 
-/// The two phases of a blow, (5.15), and what follows from it.
+/// Solves a blow in its two phases, (5.15), changes the motions of its particles, and finds their
+/// next blows.
 template <int D>
 void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
-  // Residuals divided by the speed of the approach: the tolerance of the solver, near the rounding
-  // errors of a double, and the largest residual with which a blow still counts as solved.
+  // Bounds of residuals over the speed of the approach. The solver tries to reach the first one,
+  // which is near the rounding errors of a double; a blow counts as solved up to the second one,
+  // a free choice.
   constexpr double kExact = 1e-13, kSolved = 1e-8;
   const auto& laws = step_.laws;
   std::vector<std::int32_t> unit_of;
@@ -152,7 +161,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     fastest = std::max(fastest, -hit.approach);
     fastest_slip = std::max({fastest_slip, -hit.approach, norm(hit.relative)});
   }
-  // Compression. Friction acts in the whole blow and is decided at its end.
+  // Compression, without friction: the problem of the whole blow below has the friction.
   auto compression = problem;
   for (auto& block : compression.blocks) {
     block.rows = 1;
@@ -168,10 +177,13 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     of.impulses.assign(of.blocks.size(), 0.0);
   };
   keep_normal_rows(compression);
-  // Where several contacts share a body, only sums of their impulses are determined. What each of
-  // them takes, and with it what its solids give back, must not depend on their order; the solution
-  // of least impulses does not. Where spheres have friction, Newton's method may cycle. Sweeps then
-  // solve the blow, and its impulses may depend on the order.
+  // If several contacts share a body, only sums of their impulses are determined. The impulse of
+  // each contact, and with it what its solids give back, must not depend on the order of the
+  // contacts; with kLeastImpulses it does not. If spheres have friction, Newton's method in this
+  // start may cycle. The blow is then solved again with kSweeps, whose impulses may depend on the
+  // order. The limits are free choices: 200 iterations are as many as one proximal step may take,
+  // so that a cycle costs little; 10000 is far above the 3000 iterations without progress after
+  // which solve_constraints() gives up by itself (both in constraint_solver.cpp).
   const auto solve = [&](ConstraintProblem<D>& of) {
     const auto guess = of.impulses;
     const auto is_solved = [&](ConstraintStart start, int most_iterations) {
@@ -184,8 +196,9 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     converged_ = is_solved(ConstraintStart::kSweeps, 10000) && converged_;
   };
   solve(compression);
-  // The film takes what it can, the solids the rest. All are impulses [M L/T]: what the film can
-  // take, p, s, gamma_c, and gamma_c + e_d s (restitution_law.hpp).
+  // The film absorbs what it can, and the solids take the rest. In the order of the members, in
+  // [M L/T]: what the film can absorb, gamma - gamma_min; and p, s, gamma_c and gamma_c + e_d s of
+  // restitution_law.hpp.
   struct Phases {
     double capacity, compressed, solid, gamma, lowest;
   };
@@ -202,7 +215,8 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     solids_touch = solids_touch || phase.solid > 0;
     phases.push_back(phase);
   }
-  // A film that takes the whole blow is left to the projection.
+  // If films absorb the whole blow, nothing rebounds, and the projection of the step treats the
+  // contacts.
   if (!solids_touch) return;
   // The whole blow: compression and restitution together.
   const double e = laws.restitution.coefficient;
@@ -214,8 +228,9 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     block.allowed_slip = kExact * step_.h * fastest_slip;
     const bool rubs = laws.friction && phase.solid > 0;
     block.friction = rubs ? laws.friction->coefficient : 0;
-    // Friction grows with the impulse beyond `capacity`. It is such that the solids carry (1 + e_d)
-    // s at the expected impulse of the whole blow.
+    // Friction is bounded by the coefficient times the impulse beyond `capacity`. With this
+    // capacity that is (1 + e_d) s, the impulse of the solids, at the expected impulse of the whole
+    // blow.
     block.capacity = phase.compressed + std::max(phase.lowest, 0.0) - (1 + e) * phase.solid;
     problem.impulses[block.row] = block.lowest;
   }
@@ -226,9 +241,9 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
   }
   solve(problem);
   auto changes = motions<D>(problem, problem.impulses);
-  // Work of the impulses at the mean of the velocities before and after. Friction and films in
-  // blows of several contacts could make it positive; then all impulses go back towards those of
-  // the compression, whose work is negative, until it is not.
+  // The work of the impulses is that at the mean of the velocities before and after the blow.
+  // Friction and films in a blow of several contacts could make it positive. All impulses are then
+  // moved towards those of the compression, whose work is negative, until it is not positive.
   const auto work = [&](const std::vector<double>& impulses) {
     const auto y = motions<D>(problem, impulses);
     double sum = 0;
@@ -262,7 +277,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     const auto& phase = phases[c];
     const auto& block = problem.blocks[c];
     before_.push_back({hits[c].pair, of, state_.memories.of(of.memory)});
-    // The film has taken up the difference of both values of gamma.
+    // gamma after the blow. The film has absorbed the difference of gamma before and after it.
     const double gamma = laws.restitution.gamma_after(block.lowest, problem.impulses[block.row],
                                                       of.gamma - phase.capacity, of.gamma);
     const double impulse = std::exchange(of.impulse, of.gamma - gamma);
@@ -275,7 +290,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
                            std::abs(after) <= kExact * fastest ? 0 : after});
     ++hits_of_[hits[c].pair];
   }
-  // Finds the next blows of all pairs of the changed particles anew.
+  // Finds the next blows of all pairs with a particle whose motion has changed.
   std::vector<std::int32_t> changed;
   for (const auto k : unit_of) {
     const auto body = state_.particles.bodies.body_of(k);

@@ -1,5 +1,8 @@
-// Writes the frames of a simulation as VTK files (vtk.hpp). Numbers are in the units of the case;
-// nothing is thrown. A change must keep this layout in step with vtk_reader.cpp, which reads it.
+// Writes the frames of a simulation as VTK files (vtk.hpp): particles are points, contacts are
+// cells. Numbers are in the units of the case: radius and gap [L], velocity [L/T], angle [rad],
+// angular velocity [1/T], mass [M], gamma [M L/T], forces [M L/T^2]. Nothing is checked or thrown.
+// A change must agree with vtk_reader.cpp, which reads these files, and keep the names of the
+// arrays, by which users find them in ParaView.
 #include "viscontact/particles/io/vtk.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +18,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// Adds a vector to a list of numbers. On an axis the vector is along z.
+/// Adds the three components of a vector to a list. In a case on an axis the vector is along z.
 void append(std::vector<double>& values, const Vector& x, int dimension) {
   if (dimension == 1)
     values.insert(values.end(), {0, 0, x[0]});
@@ -38,7 +41,7 @@ struct ContactCells {
         if ((contact.first < 0) == wall) add(particles, contact);
   }
 
-  /// The shown memory with this place in ShownMemory, of all cells.
+  /// The number at index `place` of ShownMemory (pair_memory.hpp), of all cells in their order.
   std::vector<double> memory(std::size_t place) const {
     std::vector<double> values;
     for (const auto& numbers : shown) values.push_back(std::span(numbers)[place]);

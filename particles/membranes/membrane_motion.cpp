@@ -1,5 +1,6 @@
 // Newton's method for a step of membranes (membrane_motion.hpp), in the units of the case. A step
-// that it cannot solve is an Error(kNotConverged).
+// that it cannot solve is an Error(kNotConverged). A change must keep lengths and areas exact after
+// a step, and the matrix the derivative of the equations, so that the method stays quadratic.
 #include "viscontact/particles/membranes/membrane_motion.hpp"
 
 #include <Eigen/LU>
@@ -135,8 +136,9 @@ Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const 
   return columns;
 }
 
-/// The matrix of Newton's method for step(). The unknowns are positions, tensions divided by
-/// `unit`, and pressures divided by `unit` over the norm of their column in area_columns().
+/// The matrix of Newton's method for step(), in which unknowns are scaled so that its entries have
+/// similar sizes. The unknowns are the positions [L]; the tensions, divided by `unit` [M L/T^2];
+/// and the pressures times the norm of their column of area_columns(), divided by `unit`.
 Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
                                        const Eigen::VectorXd& positions,
                                        const MembraneMotion& motion, double unit) const {
@@ -179,6 +181,7 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
     wanted.segment(first_[m], first_[m + 1] - first_[m]).setConstant(speed);
     size = std::max(size, speed);
   }
+  // The limit is a free choice.
   constexpr int kMostRounds = 30;
   // Newton's method is quadratic: after a change of this size the next one would be a rounding
   // error. Rounding errors of stiff membranes are larger; then changes no longer become smaller.
@@ -224,8 +227,9 @@ MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const F
   begin();
   bool is_solved = solve_step(from, time, loaded, positions, motion);
   if (!is_solved) {
-    // A stiff membrane may be too far from its equilibrium. Solutions of shorter steps then lead to
-    // it.
+    // Newton's method may fail if a stiff membrane is far from its equilibrium. Then steps of the
+    // lengths time/2^12, time/2^11, ..., time are solved, each with the solution of the one before
+    // as its first guess. The number 12 is a free choice.
     begin();
     is_solved = true;
     for (int halvings = 12; halvings >= 0 && is_solved; --halvings)

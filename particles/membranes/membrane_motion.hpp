@@ -1,8 +1,11 @@
-// The motion of membranes in a Stokes flow whose answer to forces on the beads is known,
-// docs/physics.md (8.4) to (8.6). Only sources of this folder and tests include it, because users
-// of the library need no Eigen. Lengths, masses and times are in the units of the case. An array of
-// all beads has x of the beads of the first membrane, of the second one and so on, and then all y
-// in the same order. membrane_simulation.cpp uses it.
+// The motion of membranes in a Stokes flow, docs/physics.md (8.4) to (8.6). A membrane is a closed
+// curve through particles, its beads. The fluid is given by the velocities of the beads that follow
+// from forces on them (FluidAnswer). Lengths, masses and times are in the units of the case; masses
+// and forces are per unit length of the third dimension. An array of all beads has x of the beads
+// of the first membrane, of the second one and so on, and then all y in the same order.
+// membrane_simulation.cpp uses it. Only sources of this folder and tests may include this header,
+// because users of the library need no Eigen. A change must keep lengths and areas exact after each
+// step, and the second order in time.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,16 +28,17 @@ struct FluidAnswer {
 struct MembraneMotion {
   Eigen::VectorXd forces;      ///< sum of bending, tension and loads [M L/T^2]
   Eigen::VectorXd velocities;  ///< [L/T]
-  Eigen::VectorXd tension;     ///< T of step(), one number for each length [M L/T^2]
-  // Of step():
+  /// T of step() [M L/T^2], one number for each bead: it keeps the length between this bead and the
+  /// next one. Only step() sets this array and the two that follow.
+  Eigen::VectorXd tension;
   Eigen::VectorXd pressure;     ///< q of step(), one number for each membrane [M/T^2]
-  Eigen::VectorXd flow_forces;  ///< P f and the loads: `forces` without the pressure [M L/T^2]
+  Eigen::VectorXd flow_forces;  ///< P f + loads of step(): `forces` without the pressure [M L/T^2]
 };
 
-/// The changes of a step under loads, a column for each load.
+/// How the result of a step changes under small loads: a column for each load.
 struct LoadResponse {
-  Eigen::MatrixXd positions;  ///< changes of z [L]
-  Eigen::MatrixXd forces;     ///< changes of P f, without the loads [M L/T^2]
+  Eigen::MatrixXd positions;  ///< changes of the positions z of step() [L]
+  Eigen::MatrixXd forces;  ///< changes of P f of step(), which do not contain the loads [M L/T^2]
 };
 
 /// All membranes of a case.
@@ -63,8 +67,8 @@ class Membranes {
   /// Puts the numbers of one membrane into those of all.
   void put(std::size_t m, const Eigen::VectorXd& own, Eigen::VectorXd& all) const;
 
-  /// The motion at these positions: bending is that of the positions, and the tension keeps all
-  /// lengths at this moment.
+  /// The motion at one moment: bending forces are those at `positions`, and the tensions are such
+  /// that no length changes at these velocities.
   MembraneMotion motion_at(const Eigen::VectorXd& positions, const FluidAnswer& answer) const;
 
   /// Solves a step that is implicit in bending and lengths: positions z, forces f and the
@@ -73,16 +77,19 @@ class Membranes {
   ///     (z - from)/time = flow + mobility (loads + P f),
   ///     f = -grad E(z) - G(z)^T T,   lengths(z) kept,
   ///
-  /// where E is the bending energy, G the derivative of the lengths and T the tensions. P f = f - q
-  /// a is f without the pressure q inside that f balances: a is the derivative of the area, and a.P
-  /// f = 0 for each membrane. The function then moves z as little as makes lengths and areas exact.
-  /// `positions` is a first guess, and z afterwards. Throws Error(kNotConverged) if Newton's method
-  /// fails.
+  /// where E is the bending energy and T the tensions. lengths(z) are |dx/ds| halfway between beads
+  /// (MembraneCurve::speeds), and G is their derivative. The pressure q inside a membrane exerts
+  /// the force q a, where a is the derivative of the area inside. It makes no flow, because the
+  /// fluid is incompressible, and is therefore left out: P f = f - q a, with q such that a.(P f) =
+  /// 0 for each membrane. After Newton's method the function changes z by the smallest
+  /// displacements with which lengths and areas are exact. `positions` is a first guess, and z
+  /// afterwards. Throws Error(kNotConverged) if Newton's method fails.
   MembraneMotion step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                       const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const;
 
-  /// How such a step changes if loads move the beads by `moves` [L] while forces f and tensions are
-  /// held: a column for each load. `motion` is what step() returned with these positions.
+  /// The linear response of step() to small loads, one column for each load. A column of `moves`
+  /// [L] has the displacements that the load alone would cause; the response also has the bending
+  /// forces and tensions that oppose them. `motion` is what step() returned with these positions.
   LoadResponse response(double time, const FluidAnswer& answer, const MembraneMotion& motion,
                         const Eigen::VectorXd& positions, const Eigen::MatrixXd& moves) const;
 

@@ -1,6 +1,7 @@
-// Time stepping of membranes (membrane_simulation.hpp). Lengths, masses and times are in the units
-// of the case. Errors are those of that header. A run that is restarted must give the same bits, so
-// that a step may depend on nothing but the setting and the state.
+// Time stepping of membranes and rigid discs in a fluid (membrane_simulation.hpp). Lengths, masses
+// and times are in the units of the case. Errors are those of that header. A change must keep that
+// a run which is continued from a restart file gives the same bits as one without a break;
+// therefore a step may depend on nothing but the setting and the state.
 #include "viscontact/particles/membranes/membrane_simulation.hpp"
 
 #include <Eigen/Core>
@@ -35,8 +36,9 @@ class MembraneSimulation::Implementation {
   const FluidSolver& solver() const { return *solver_; }
 
  private:
-  // Arrays of this class have x of all beads, y of all beads, and then x, y and the turn of each
-  // disc that is no bead.
+  // Arrays of this class, of places [L, rad], velocities [L/T, 1/T] or forces [M L/T^2, M L^2/T^2],
+  // have first x of all beads, then y of all beads, and then x, y and the angle of each disc, that
+  // is each particle that is no bead.
   Eigen::Index bead_components() const { return 2 * membranes_.beads(); }
   Eigen::VectorXd places(std::span<const double> positions,
                          const Eigen::VectorXd* near = nullptr) const;
@@ -203,7 +205,8 @@ void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, do
   solver_->place(bodies);
 }
 
-/// The answer of the fluid for all beads and discs at these places.
+/// The answer of the fluid, flow and mobility, for beads and discs at `places`, with the walls and
+/// driven discs as they move between the times `from` and `to` [T].
 FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& places, double from,
                                                     double to) {
   place(places, from, to);
@@ -225,7 +228,8 @@ FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& place
   return answer;
 }
 
-/// The answer to forces on the beads, with these loads on the discs.
+/// The part of the answer that concerns the beads: velocities without forces on them, but with
+/// these loads on the discs, and the mobility of the beads.
 FluidAnswer MembraneSimulation::Implementation::answer_to_beads(
     const FluidAnswer& answer, const Eigen::VectorXd& loads) const {
   const auto b = bead_components(), d = answer.flow.size() - b;
@@ -244,7 +248,8 @@ Eigen::VectorXd MembraneSimulation::Implementation::velocities_of_all(
   return velocities;
 }
 
-/// How places at the end of a step change per load: a symmetric matrix [L/(M L/T^2)].
+/// How the places at the end of a step change per load on beads and discs: a symmetric matrix
+/// [T^2/M, and 1/L or 1/L^2 times this for turns and torques].
 Eigen::MatrixXd MembraneSimulation::Implementation::response(
     double time, const FluidAnswer& answer, const MembraneMotion& motion,
     const Eigen::VectorXd& positions) const {
@@ -260,8 +265,9 @@ Eigen::MatrixXd MembraneSimulation::Implementation::response(
   return (response + response.transpose()) / 2;
 }
 
-/// Places of the discs at the end of a step: by the backward difference or, for driven discs, by
-/// the integral of their velocity. Angles follow by the trapezoidal rule.
+/// Places of the discs at the end of a step of length h from `now`. Those of free discs are `from`
+/// + `time` times their velocities, the backward difference of second order; those of driven discs
+/// are the integral of their velocity. Angles are integrated by the trapezoidal rule.
 Eigen::VectorXd MembraneSimulation::Implementation::moved_discs(const Eigen::VectorXd& now,
                                                                 const Eigen::VectorXd& from,
                                                                 double time,
@@ -280,9 +286,9 @@ Eigen::VectorXd MembraneSimulation::Implementation::moved_discs(const Eigen::Vec
   return moved;
 }
 
-/// Solves the contacts of a step of length h that ends at `next`, except those between beads of one
-/// membrane. `free` are the velocities without contacts, and `response()` is the change of
-/// displacements per load.
+/// Solves the contacts of a step of length h that ends at time `next` [T], except those between
+/// beads of one membrane. `free` are the velocities without contacts, and `response()` is the
+/// matrix of the displacements per load.
 StepContacts MembraneSimulation::Implementation::solve_contacts_of(
     const Eigen::VectorXd& free, double h, double next,
     const std::function<Eigen::MatrixXd()>& response, StepReport& report) {
@@ -303,6 +309,7 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
     return (is_driven(pair.first) && is_driven(pair.second)) ||
            (pair.first >= 0 && setting_.fluid->are_of_one_membrane(pair.first, pair.second));
   };
+  // Relative error of the fluid's velocities, as error_of_answers() in fluid/fluid_motion.hpp.
   constexpr double kErrorOfAnswers = 1e-9;
   const double radius = mean_radius(state_.particles);
   const ContactConditions conditions{velocities,      h,      MotionLayout{kComponents},
@@ -321,7 +328,7 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
   return contacts;
 }
 
-/// Stores the impulses of the contacts in the pairs, and updates what is remembered of them.
+/// Stores the impulses of the contacts in the state, and updates what films and solids remember.
 void MembraneSimulation::Implementation::remember(StepContacts contacts, double h,
                                                   StepReport& report) {
   state_.pairs = std::move(contacts.pairs);

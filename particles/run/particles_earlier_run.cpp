@@ -1,7 +1,8 @@
-// Finds out by the provenance of restart.bin whether an earlier run has the inputs and the version
-// of this call, and reads its state and record. Times [T] are in the unit of the case. A folder
-// that cannot be continued is no error but a message; a restart file of the user that does not fit
-// is an Error(kBadInput). A change must keep that runs of other inputs are never continued.
+// Decides whether the run in a folder can be continued, and reads its state and record. It can if
+// restart.bin records the same inputs and the same version of Viscontact as this call has. Times
+// [T] are in the unit of the case, angles in [rad]. If the run cannot be continued, a message says
+// so, and the run starts anew; if a restart file that the user names does not fit the case, it is
+// an Error(kBadInput). A change must keep that a run with other inputs is never continued.
 #include "viscontact/particles/run/particles_earlier_run.hpp"
 
 #include <fmt/format.h>
@@ -134,10 +135,12 @@ void take_over_bodies(State& state, const ParticlesCase& c, const fs::path& rest
         fmt::format("has the forces of other hinges, springs or arms than {}", c.path.string()));
 }
 
-/// Throws Error(kBadInput) if a hinge of the state is beyond its stop: an earlier run had another
-/// stop there, and the first step would turn what the hinge holds back at once.
+/// Throws Error(kBadInput) if a hinge of the state is turned beyond its stop. The earlier run then
+/// had another stop, and the first step would turn the hinge back to the new one in an instant.
 void check_stops(const State& state, const ParticlesCase& c, const fs::path& restart) {
-  // Steps keep a stop to the tolerance of lengths, here at the distance of a mean radius.
+  // A step may leave a hinge beyond its stop by solver.tolerance, which is relative to the mean
+  // radius, so that it is also an angle at this distance from the hinge. Ten times it, and 1e-3,
+  // are free choices.
   constexpr double kBeyond = 1e-3;  // [rad]
   const double allowed = std::max(kBeyond, 10 * c.setting.solver.tolerance);
   for (const auto& stop : stop_equations(c.setting.links, state.particles))

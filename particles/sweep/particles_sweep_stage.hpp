@@ -1,7 +1,9 @@
-// The stages of sweeps of particles. Each row is a run with a folder of its own. Either this
-// process computes all rows, or each task of a job on a cluster computes some of them and
-// gather_sweep writes the tables. `sweep` calls it. Numbers are in the units of the case. A change
-// must keep finished runs.
+// The stages of sweeps of particles: simulations of one case with varied numbers. Each row of the
+// table is the result of one simulation, which has a folder of its own. Either this process
+// computes all rows, or each task of a job on a cluster computes some of them and gather_sweep()
+// writes the tables. The command `sweep` calls these functions. Numbers are in the units of the
+// case. A change must not delete the result of a finished simulation, because a later call reads it
+// instead of computing the row again.
 #pragma once
 
 #include <cstddef>
@@ -19,9 +21,11 @@ namespace viscontact::particles {
 
 /// The options of a sweep of particles.
 struct ParticlesSweepRequest {
-  std::string output;             ///< file of the rows
-  int jobs = 1;                   ///< number of rows at once
-  bool keep_all = false;          ///< true: the files of finished runs are kept
+  std::string output;  ///< file of the rows (CSV); the folders are in OUTPUT.runs/
+  int jobs = 1;        ///< number of rows that are computed at once, >= 1
+  /// False: of the files of a simulation that has not failed only the case, the result, run.json
+  /// and steps.csv are kept; true: all.
+  bool keep_all = false;
   StartFluidSolver start_solver;  ///< used if the case has a fluid
   StopToken stop{};
 };

@@ -1,12 +1,19 @@
-// The axes of the plots: ranges, ticks and numbers. uPlot refuses ranges below 1e-16, and its
-// logarithmic axes have whole decades only. Therefore uPlot gets the logarithm of a value, or the
-// value divided by the size of the axis, and this file places and labels the ticks. The second part
-// of the file has the curves: their values, their points and their samples in the legend.
-// report/page.cpp writes axes and curves. This file and those that report/CMakeLists.txt lists
-// after it are one script, so each may use the names of all.
+// The axes of the plots of a page: ranges, ticks and numbers; and the curves: their values, their
+// points and their samples in the legend. uPlot, the library that draws the plots, refuses ranges
+// below 1e-16, and its logarithmic axes have whole decades only. Therefore uPlot gets inner values:
+// the decimal logarithm of a value, or the value divided by a power of ten of the size of the axis;
+// this file places and labels the ticks. Outer values are those of the files, in the units that the
+// labels say. Nothing is thrown: a missing value is null, and has no point. report/page.cpp writes
+// axes and curves as JSON, and a change must agree with its json_of(). This file and those that
+// report/CMakeLists.txt lists after it are one script, so each may use the names of all.
 
 const kBlank = '\u2013';  // is shown in place of a missing number
 
+/**
+ * An axis as page.cpp describes it: label, logarithmic, and low, high (outer; null: from `values`,
+ * with a margin of 4 %, a free choice). The result has the functions from outer to inner values and
+ * back, and the full range of inner values.
+ */
 function axisOf(described, values) {
   const finite = values.filter(v => Number.isFinite(v) && (!described.logarithmic || v > 0));
   let low = Infinity, high = -Infinity;

@@ -91,6 +91,7 @@ void read_grid(const case_file::TomlSection& section, std::string_view key, Swim
                   "has {} tables; it must have {}, one for each arm, or be one table for all arms",
                   tables.size(), arms);
   for (std::size_t k = 0; k < arms; ++k) c.gaps.push_back(read_arm_gaps(tables[k], radii, k));
+  // Free choice: at the 2 to 17 s that a row of data/tables/three_spheres.csv took, days.
   constexpr double kMostRows = 100000;
   section.require(rows_of(c) <= kMostRows, key,
                   "makes a table of {} rows; at most {} are allowed, so take a smaller count",

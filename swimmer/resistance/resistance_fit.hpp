@@ -1,9 +1,11 @@
 // A fit of the resistance matrix R of spheres on a line as a function of the gaps between them
-// (physics.md, section 7), the lubrication between neighbours that it contains, and R at any gaps
-// from it. Lengths, masses and times are in the units of the table. swimmer/fit/fit_resistance.hpp
-// makes it, and the mechanics of the swimmer evaluates it. A change must keep the keys of the file,
-// which other programs may read, the formula of the lubrication, because files contain only the
-// rest, and R symmetric and positive definite.
+// (physics.md, section 7), the formula of the lubrication between neighbours that is a part of R,
+// and the evaluation of R. Lengths, masses and times are in the units of the table.
+// swimmer/fit/fit_resistance.hpp makes a fit, and the mechanics of the swimmer evaluates it. A
+// change must keep
+// - the keys of the file, which other programs may read;
+// - the formula of the lubrication, because files of fits contain only the rest of R;
+// - R symmetric and positive definite.
 #pragma once
 
 #include <Eigen/Core>
@@ -63,9 +65,11 @@ struct ResistanceFit {
   /// S at all combinations of nodes [1]; the last gap changes fastest.
   std::vector<Eigen::MatrixXd> logarithms;
   /// Largest |R_ij fitted / R_ij - 1| of the table's rows, >= 0. It is round-off, because the
-  /// polynomials interpolate. A small entry counts as in ResistanceRow::relative_error_estimates.
+  /// polynomials interpolate. The error of an entry below 1e-3 sqrt(R_ii R_jj) is relative to this
+  /// value instead, as in ResistanceRow::relative_error_estimates.
   double largest_relative_residual = 0;
-  /// That error of a row that is predicted from the rows that differ from it in one gap only, >= 0.
+  /// Relative errors with which the fit would predict a row if the row were left out of it, >= 0.
+  /// A row is predicted from the rows that differ from it in one gap only.
   double largest_left_one_out_error = 0,        ///< the largest
       rms_left_one_out_error = 0;               ///< the root mean square
   std::string table_sha256;                     ///< checksum of the table file; may be empty

@@ -35,7 +35,8 @@ void check_gaps(const JsonFields& json, const ResistanceFit& fit) {
                                   fit.gaps.size(), fit.radii.size() - 1));
 }
 
-/// The matrices by their entries on and above the diagonal.
+/// Writes or reads the key `logarithms`: of each matrix of ResistanceFit::logarithms the entries on
+/// and above the diagonal, because the matrices are symmetric.
 void logarithms(JsonFields& json, ResistanceFit& fit) {
   const std::size_t spheres = fit.radii.size();
   std::vector<std::vector<double>> all;

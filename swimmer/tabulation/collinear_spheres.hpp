@@ -1,6 +1,8 @@
 // Rigid spheres on a line in a viscous fluid: the inputs of a table of their resistance matrices,
-// and the solution of one row by FreeFEM (physics.md, section 7). The commands `tabulate` and
-// `swimmer` use it. Lengths, masses and times are in any consistent units.
+// and the solution of one row by FreeFEM (physics.md, section 7). R [M/T] gives the forces on the
+// spheres by their velocities along the line. Lengths, masses and times are in any consistent
+// units. The commands `tabulate` and `swimmer` use it. A change must keep the words of
+// surroundings_in_words(), because lubrication/scaling.hpp finds the lengths in them.
 #pragma once
 
 #include <optional>
@@ -22,10 +24,12 @@ struct Tube {
 
 /// The inputs of a table of resistance matrices R.
 struct CollinearSpheres {
-  double viscosity = 0;          ///< mu [M/(L T)], > 0
-  std::vector<double> radii;     ///< along the line [L], 2 to 10 of them, > 0
-  std::optional<Tube> tube{};    ///< nothing: unbounded fluid
-  double relative_accuracy = 0;  ///< largest error estimate asked of an entry of R [1], in (0, 1)
+  double viscosity = 0;        ///< mu [M/(L T)], > 0
+  std::vector<double> radii;   ///< along the line [L], 2 to 10 of them, > 0
+  std::optional<Tube> tube{};  ///< nothing: unbounded fluid
+  /// Meshes are refined until the estimated relative error of each entry of R is at most this [1],
+  /// in (0, 1).
+  double relative_accuracy = 0;
 };
 
 /// "unbounded", "tube of radius 3", or "closed cylinder, radius 3, height 40".
@@ -37,8 +41,9 @@ ResistanceRow solve_resistance(const freefem_axi::FreeFem& freefem, const Collin
                                const std::vector<double>& gaps);
 
 /// The table of all combinations of the gaps grid[k] between spheres k and k + 1 [L], > 0 and
-/// rising. A row's point is its gaps. If the row of spheres is its own mirror image, with equal
-/// grids, only one of each two mirrored rows is computed, and the other one is its reflection.
+/// rising. The point of a row (TablePlan) is the list of its gaps. If the line of spheres is its
+/// own mirror image and the grids are equal, only one of each two mirrored rows of the table is
+/// computed, and the other one is its reflection.
 freefem_axi::TablePlan resistance_table_plan(const CollinearSpheres& spheres,
                                              const std::vector<std::vector<double>>& grid);
 

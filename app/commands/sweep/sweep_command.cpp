@@ -200,6 +200,7 @@ void add_sweep(CLI::App& app) {
             "sphere.mass, motion.external_force[0].value; several --vary make a grid")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  // The limit is kMostPoints of sweep/variation.cpp.
   add_value(*command, "--samples", o->samples, "N",
             "number of random points in the ranges, in place of the grid")
       ->check(CLI::Range(1.0, 1e12));

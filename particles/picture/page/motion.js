@@ -1,9 +1,13 @@
 // Reads the motion of particles from the page, and gives positions, obstacles and contacts at any
-// time. particles/picture/particles_page.cpp writes the settings and the blocks of numbers; their
-// layout must be changed there and here together. This file and those that
-// particles/picture/CMakeLists.txt lists after it are one script, so each may use the names of all.
+// time. Lengths and times are in the units of the case, angles in radians. A frame is the state at
+// one of the times `times`; frames, particles and coordinates have numbers from 0. The page was
+// written by particles/picture/particles_page.cpp and page_data.cpp: settings as JSON, arrays as
+// blocks of base64. Nothing is checked; a change of their layout must be made there and here. This
+// file and those that particles/picture/CMakeLists.txt lists after it are one script, so each may
+// use the names of all.
 
-const number = x => String(Number(x.toPrecision(4))).replace('-', '\u2212');  // for readers
+// The text of a number with four digits.
+const number = x => String(Number(x.toPrecision(4))).replace('-', '\u2212');
 const text = id => document.getElementById(id).textContent;
 function bytes(id) {
   const binary = atob(text(id)), array = new Uint8Array(binary.length);
@@ -13,28 +17,32 @@ function bytes(id) {
 const motion = JSON.parse(text('motion'));
 const dim = motion.dimension, flat = dim === 2;
 const style = motion.style;  // SceneStyle of particles/picture/scene.hpp
-// Corner with the smallest coordinates and lengths of the cell; a length is 0 where the motion has no
-// period.
+// The corner of the periodic cell with the smallest coordinates, and the lengths of the cell; a
+// length is 0 if the motion is not periodic in this direction.
 const [cellX, cellY, cellZ, periodX, periodY, periodZ] = motion.cell;
 const radii = new Float32Array(bytes('radii')), times = new Float64Array(bytes('times'));
 // The ids of the particles in the files. Without this block, the id of particle k is k.
 const ids = document.getElementById('ids') ? new Int32Array(bytes('ids')) : null;
+// Positions as written: frame by frame, particle by particle, motion.dimension numbers each. A
+// coordinate is motion.low + motion.step * number (writtenPlace()).
 const written = motion.bytes === 2 ? new Uint16Array(bytes('positions'))
                                    : new Float32Array(bytes('positions'));
 const planeNumbers = new Float32Array(bytes('planes'));
 const optional = (id, Kind) => (document.getElementById(id) ? new Kind(bytes(id)) : null);
 const writtenAngles = optional('angles', Float32Array);
-// Unit quaternions (w, x, y, z) of spheres, and the numbers of the rigid bodies of all particles (-1:
-// none).
+// Unit quaternions (w, x, y, z) of spheres, and for each particle the number of its rigid body, or
+// -1 if it has none.
 const writtenOrientations = optional('orientations', Float32Array);
 const bodies = optional('bodies', Int32Array);
-// The frame in which each particle is there first, if some are poured in later.
+// For each particle the first frame that has it, if sources pour in particles during the motion.
 const firstFrames = optional('firstFrames', Int32Array);
 // Two semi-axes of each particle, the first one along its angle, if there are ellipses.
 const semiAxes = optional('semiAxes', Float32Array);
-// 1 for each plate with round ends: its semi-axes are half of its length and the radius of its ends.
+// 1 for each plate with round ends: its semi-axes are half of its length and the radius of its
+// ends.
 const plates = optional('plates', Int8Array);
-// Of each pair: x + 3 y + 9 z, where the second particle is shifted by x, y and z periods.
+// For each pair x + 3 y + 9 z, if the contact is with the image of the second particle that is
+// shifted by x, y and z periods, each -1, 0 or 1.
 const images = optional('images', Int8Array);
 const pairs = new Int32Array(bytes('pairs')), offsets = new Uint32Array(bytes('offsets'));
 const contactBytes = new Uint8Array(bytes('contacts'));
@@ -127,10 +135,12 @@ function setOrientations(frame, next, share) {
 }
 
 /**
- * Decodes the contacts of a frame. The bytes of a contact are the index of its pair minus that of
- * the contact before (seven bits in each byte, low ones first), the level 0 to 255 of the impulse
- * that its film has taken, if there is friction its share of Coulomb's bound, and, if there are
- * forces, the share of the largest one.
+ * Decodes the contacts of a frame into `lines`. The bytes of a contact are, in this order:
+ * - the index of its pair minus that of the contact before, seven bits in each byte, the lowest
+ *   first; the highest bit of a byte says that another byte follows;
+ * - the impulse that its film has absorbed, from 0 to 255 for the largest possible one;
+ * - in a motion with friction, the friction as lines.friction has it;
+ * - in a motion with forces, the normal force, from 0 to 255 for the largest one.
  */
 function readContacts(frame) {
   if (lines.frame === frame) return;

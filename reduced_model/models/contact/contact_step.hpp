@@ -1,9 +1,11 @@
-// One time step of viscous contact (physics.md (4.5) to (4.7)), which all contact models with a
-// time step share. m is the mass, u the velocity, D the gap minus that at contact, gamma minus the
-// impulse that the film has absorbed, f the external force, Gamma_res the primitive of the resolved
-// resistance. Lengths, masses and times are in any consistent units. Rolling uses it, too, and
-// nothing is thrown. A change must keep the balance m u + Gamma_res(D) + gamma = int f to round-off
-// while no solid carries load.
+// One time step of viscous contact of a sphere (physics.md (4.5) to (4.7)). m is the mass, u the
+// velocity, D the gap less the gap at which contact begins, and f the external force. The film in
+// the contact absorbs the impulse -gamma >= 0 when the sphere lands, and gives it back before the
+// sphere is released. Gamma_res(D) is the primitive of the resistance that the model resolves, so
+// that its difference is the impulse of the drag. Lengths, masses and times are in any consistent
+// units. All contact models with a time step, and rolling/, use it. Nothing is checked or thrown. A
+// change must keep m u + Gamma_res(D) + gamma - int f dt constant to round-off as long as no solid
+// carries load.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +16,7 @@ namespace viscontact::reduced_model {
 struct ContactState {
   double gap = 0;       ///< D [L]; 0 in contact
   double velocity = 0;  ///< u [L/T]
-  double gamma = 0;     ///< of the film [M L/T], gamma_min <= gamma <= 0; D gamma = 0
+  double gamma = 0;     ///< of the film [M L/T], gamma_min <= gamma <= 0; 0 if D > 0
 };
 
 /// The constants of all steps of one length.
@@ -34,14 +36,14 @@ struct ContactSetting {
 struct ContactStep {
   /// The state at the end of the step.
   ContactState state;
-  /// From the film that gamma stands for: gamma^n - gamma^{n+1}; < 0 while the film pulls.
+  /// From the film: gamma^n - gamma^{n+1}; < 0 while the film pulls.
   double film = 0;
   double drag = 0;   ///< from the resolved drag
   double solid = 0;  ///< from the solid contact, >= 0
 };
 
-/// The resolved drag of problem (P), viscous contact alone, which is 0. It shows the functions that
-/// contact_step() needs of a drag.
+/// The drag in problem (P) of viscous_contact.hpp, where none is resolved. A type `Drag` of
+/// contact_step() needs the functions of this one.
 struct NoDrag {
   /// False: there is no resolved drag.
   static constexpr bool kResolved = false;
@@ -77,8 +79,8 @@ template <class Drag>
 ContactStep contact_step(const ContactState& state, double push, const ContactSetting& setting,
                          const Drag& drag) {
   const double momentum = setting.mass * state.velocity + push;
-  // Impulse that the drag took in the step. It is computed from the momentum and not as a
-  // difference of two values of Gamma_res, whose rounding would be that of a gap.
+  // Impulse of the drag in the step. It is the change of the momentum, because a difference of two
+  // values of Gamma_res would contain the rounding errors of both gaps.
   const auto drag_impulse_of_step = [&](double velocity, double before) {
     return Drag::kResolved ? setting.mass * velocity - before : 0.0;
   };

@@ -1,8 +1,8 @@
 // Viscous contact without a time step, from event to event (physics.md (4.4), (4.6)). q is the gap,
-// u the velocity, m the mass, f_ext the external force, gamma minus the impulse that the film has
-// absorbed. Lengths, masses and times are in any consistent units. models.cpp lists the model, and
-// studies and tests compare the models with a time step with it. A change of results must raise
-// kModelsRevision.
+// u the velocity, m the mass and f_ext the external force; -gamma >= 0 is the impulse that the film
+// has absorbed, and the solids touch at gamma = gamma_min. Lengths, masses and times are in any
+// consistent units. models.cpp lists the model; studies and tests use it as the reference for the
+// models with a time step. A change of results must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
@@ -13,16 +13,17 @@ namespace viscontact::reduced_model {
 /// and the index 0 for values at the last event (landing, release, or contact of the solids):
 ///
 ///     free:        q = q_0 + (t - t_0) u_0 + (S - S_0 - (t - t_0) I_0)/m,  u = u_0 + (I - I_0)/m,
-///                  until q = 0 in a fall; then gamma = m u-, u = 0;
+///                  until q = 0 in a fall; then gamma = m times the velocity before, u = 0;
 ///     in contact:  q = u = 0,  gamma = max(gamma_0 + I - I_0, gamma_min),
 ///                  until gamma = 0 under a pull.
 ///
 /// Between two changes of sign of f_ext, velocity and gamma are monotone and q has at most one
 /// extremum, so that no event is missed. The times of events are found by bisection, to round-off.
-/// A force with sinusoids that changes its sign twice within 1/32 of a period can escape
-/// ExternalForce::sign_changes(). The rows are at the multiples of viscous_contact.time_step, at
-/// the jumps of the force, and at the events, where a row has the state after the event. Throws
-/// Error(kBadInput) if the fit's resistance has no positive coefficient k of 1/q.
+/// If a force with sinusoids changes its sign twice within 1/32 of a period, both changes can be
+/// missed (ExternalForce::sign_changes()). The rows are at the multiples of
+/// viscous_contact.time_step, at the jumps of the force, and at the events, where a row has the
+/// state after the event. Throws Error(kBadInput) if the fit's resistance has no positive
+/// coefficient k of 1/q.
 Trajectory simulate_viscous_contact_exact(const Motion& motion,
                                           const lubrication::LubricationForce& force);
 
