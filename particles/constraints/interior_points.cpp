@@ -374,15 +374,17 @@ void InteriorPoints<D>::start(double size) {
 
 template <int D>
 int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
-  // Below kNear of the size, an iteration gains much unless rounding errors are what is left, and
-  // only there a second solution, which removes rounding errors, is worth its time.
+  // Below kNear of the size, an iteration gains much unless rounding errors are what is left.
   constexpr double kNear = 1e-6, kSlow = 0.5;
+  // A second solution, which removes rounding errors, is worth its time in the last iterations only.
+  constexpr double kLast = 1e3, kLargestLast = 1e-3;
   set_parts();
   // The least impulses, and the motions with these. They are the solution where nothing else moves.
   std::ranges::fill(impulses_, 0.0);
   for (const auto& part : singles_) impulses_[part.row] = part.base;
   y_ = motions(problem_, impulses_);
   const double size = largest_value();
+  const double twice_below = std::min(kLargestLast, kLast * accuracy) * size;
   start(size);
   int iterations = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -397,7 +399,7 @@ int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
     if (left <= accuracy * size || is_at_end || iterations == max_iterations || !factorise()) break;
     find_direction(1);
     set_corrector(gap_, std::min(1.0, length_to_boundary()));
-    find_direction(left > kNear * size ? 1 : 2);
+    find_direction(left > twice_below ? 1 : 2);
     move(kInside * length_to_boundary());
   }
   return iterations;
