@@ -55,7 +55,7 @@ report::SweepPlot picture_of(const SweepOptions& o, const CaseStudy& s) {
     return std::ranges::find(columns, column.substr(0, slash)) != columns.end() &&
            (slash == std::string::npos || points.is_varied(column.substr(slash + 1)));
   };
-  report::SweepPlot picture{o.x, o.y, o.columns, points.draws > 0};
+  report::SweepPlot picture{o.x, o.y, o.columns, {}, points.draws > 0};
   for (auto* axis : {&picture.x, &picture.y})
     if (*axis == "motion.mass") *axis = "sphere.mass";
   if (picture.x.empty() && picture.y.empty()) {
