@@ -220,14 +220,16 @@ py::object columns_of(const SwumStroke& stroke) {
   return as_columns(columns, about);
 }
 
-/// The table that the case names, or that in `path`. Throws Error(kBadInput) if the latter was made
+/// The table that the case names, or that in `given`. Throws Error(kBadInput) if the latter was made
 /// from other spheres, arms or walls, and Error(kWrongUsage) if there are both or none.
-swimmer::ResistanceTable table_of(const swimmer::SwimmerCase& c, const fs::path& path) {
-  if (path.empty() == !c.table_file)
+swimmer::ResistanceTable table_of(const swimmer::SwimmerCase& c,
+                                  const std::optional<fs::path>& given) {
+  if (given.has_value() == c.table_file.has_value())
     throw Error(ErrorKind::kWrongUsage,
                 fmt::format("{} {} swimmer.table; give a table there or as an argument",
                             c.path.string(), c.table_file ? "has" : "lacks"));
   if (c.table_file) return c.table;
+  const auto& path = *given;
   auto table = swimmer::read_resistance_table(path);
   const auto plan = swimmer::case_table(c, path).plan;
   if (!freefem_axi::missing_points(plan.read(path), plan.points).empty())
@@ -239,14 +241,14 @@ swimmer::ResistanceTable table_of(const swimmer::SwimmerCase& c, const fs::path&
   return table;
 }
 
-py::dict swim(const fs::path& path, const fs::path& table_path, int intervals) {
+py::dict swim(const fs::path& path, const std::optional<fs::path>& table_path, int intervals) {
   if (intervals < 1)
     throw Error(ErrorKind::kWrongUsage, fmt::format("intervals is {}; it must be > 0", intervals));
   std::optional<SwumStroke> given, optimal;
   long_call([&](const StopToken& stop) {
     const auto c = swimmer::read_swimmer_case(path);
     const auto table = table_of(c, table_path);
-    const auto place = c.table_file.value_or(table_path).string();
+    const auto place = (c.table_file ? *c.table_file : *table_path).string();
     const auto fit = with_place(place, [&] { return swimmer::fit_resistance(table); });
     const swimmer::Swimmer swimmer(fit);
     const auto perturbed = swimmer::perturbed_fits(table, fit);
@@ -315,7 +317,7 @@ first at which the solids touch. No file is written.)",
              R"(The strokes of a swimmer: spheres on a line; see docs/swimmer.md.
 
 case       case file with the section [swimmer] (TOML)
-table      its table of resistance matrices (CSV), which tabulate() makes; empty: that which the case
+table      its table of resistance matrices (CSV), which tabulate() makes; None: that which the case
            names with swimmer.table
 intervals  about as many rows has the table of a stroke
 
@@ -328,7 +330,7 @@ forces                  (R, S) of each sphere on the fluid [M L/T^2]
 
 Its `about` has period [T], displacement [L], energy, energy_at_constant_power [M L^2/T^2],
 efficiency, and displacement_error_estimate, energy_error_estimate. No file is written.)",
-             py::arg("case"), py::arg("table") = fs::path(), py::kw_only(),
+             py::arg("case"), py::arg("table") = py::none(), py::kw_only(),
              py::arg("intervals") = 400);
 }
 

@@ -152,7 +152,7 @@ void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
                 {"radii in the order of the line; the largest is at most 100 times the smallest"});
   keys.optional(
       "table", case_file::custom("a CSV file", read_given_table, c),
-      {"a [table](file-formats.md#tables-of-resistance-matrices) of spheres with the same "
+      {"a [table](file-formats.md#resistance-matrices-csv) of spheres with the same "
        "ratios of radii, in any units and for any viscosity, which is scaled to this case",
        "the table is computed, for `arms`"});
   keys.required_if(!c.table_file, "arms",

@@ -1,6 +1,9 @@
 // Every command of the tutorials and recipes succeeds, and prints what the page says.
 #include <gtest/gtest.h>
 
+#include <ostream>
+#include <string>
+
 #include "tests/docs/document.hpp"
 
 namespace viscontact {
@@ -32,18 +35,25 @@ TEST(Recipes, AllSucceedInTheirOrder) {
 // blocks of the pages and are not run here, because they take minutes: the map of regimes
 // (`sweep` with 1089 points, which tests/sweep/shipped_sweeps_test.cpp samples), and the scripts
 // angle_of_repose, incline_study and swimmer_study.
-class Results : public ::testing::TestWithParam<const char*> {};
+struct PageOfResults {
+  std::string name;
+  int outputs;  ///< of commands on the page. The studies promise pictures and no text:
+                ///< tests/reduced_model/studies_test.cpp checks their numbers.
+};
+std::ostream& operator<<(std::ostream& out, const PageOfResults& page) { return out << page.name; }
+
+class Results : public ::testing::TestWithParam<PageOfResults> {};
 
 TEST_P(Results, DoWhatTheyPromise) {
   const ReadersFolder folder(VISCONTACT_EXECUTABLE);
-  const std::string page = GetParam();
-  // The studies promise pictures and no text; tests/reduced_model/studies_test.cpp checks numbers.
-  EXPECT_EQ(folder.run_page(VISCONTACT_SOURCE_FOLDER "/docs/" + page + ".md"),
-            page == "studies" ? 0 : 1);
+  const auto& [name, outputs] = GetParam();
+  EXPECT_EQ(folder.run_page(VISCONTACT_SOURCE_FOLDER "/docs/" + name + ".md"), outputs);
 }
 
-INSTANTIATE_TEST_SUITE_P(Page, Results, ::testing::Values("studies", "motions", "swimmer"),
-                         [](const auto& page) { return std::string(page.param); });
+INSTANTIATE_TEST_SUITE_P(Page, Results,
+                         ::testing::Values(PageOfResults{"studies", 0}, PageOfResults{"motions", 1},
+                                           PageOfResults{"swimmer", 2}),
+                         [](const auto& page) { return page.param.name; });
 
 }  // namespace
 }  // namespace viscontact
