@@ -7,7 +7,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,6 +21,20 @@
 #include "viscontact/particles/setting.hpp"
 
 namespace viscontact::particles {
+
+/// The largest absolute value; infinity if a number is NaN, so that comparisons see it.
+inline double largest_magnitude(std::span<const double> numbers) {
+  double largest = 0;
+  for (const double x : numbers)
+    largest =
+        std::max(largest, std::isnan(x) ? std::numeric_limits<double>::infinity() : std::abs(x));
+  return largest;
+}
+
+/// Adds `numbers` to `sums`, which has as many, element by element.
+inline void add_elements(std::span<const double> numbers, std::span<double> sums) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) sums[i] += numbers[i];
+}
 
 /// The step in which solids may be hit. All references must outlive the object.
 struct BlowStep {

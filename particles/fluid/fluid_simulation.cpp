@@ -33,31 +33,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Links hold up to this share of the tolerance of lengths, so that their errors do not add up over
-// the steps. They are corrected repeatedly: each correction multiplies the error by about the angle
-// [rad] by which a body or an arm turns in the step, so that few are needed unless this angle is
-// about 1. Both numbers are free choices.
-constexpr double kOfTolerance = 1e-3;
-constexpr int kMostChanges = 20;
-
-/// The largest absolute value; infinity if a number is NaN, so that comparisons see it.
-double largest_of(std::span<const double> numbers) {
-  double largest = 0;
-  for (const double x : numbers)
-    largest =
-        std::max(largest, std::isnan(x) ? std::numeric_limits<double>::infinity() : std::abs(x));
-  return largest;
-}
-
 /// The times of the links in a step of length h that ends at `next`.
 LinkTimes times_of_links(const StepEquation& equation, double h, double next) {
   const auto flow = equation.flow_step();
   return {h, h, next, false, flow.from, flow.to};
-}
-
-/// Adds `numbers` to `sums`, element by element.
-void add(std::span<const double> numbers, std::span<double> sums) {
-  for (std::size_t i = 0; i < numbers.size(); ++i) sums[i] += numbers[i];
 }
 
 }  // namespace
@@ -158,13 +137,13 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
     // The velocities of the step before are made those of a rigid motion at the present places of
     // the members, because the body has turned since then.
     held->make_rigid(earlier);
-    add(held_->forces_of_step(), now);
+    add_elements(held_->forces_of_step(), now);
   }
   std::vector<double> difference(free.size());
   for (std::size_t i = 0; i < free.size(); ++i)
     difference[i] = state_.earlier_forces[i] + equation.inertia()[i] * earlier[i] - now[i];
   std::vector<double> changed(flow.begin(), flow.end());
-  if (largest_of(difference) > 0) {
+  if (largest_magnitude(difference) > 0) {
     const auto added = held_ != nullptr ? held_->velocities_without_springs(difference)
                                         : solver_->velocities(difference, false);
     for (std::size_t i = 0; i < changed.size(); ++i) changed[i] += added[i];
@@ -277,119 +256,6 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
   }
 }
 
-/// Changes velocities until hinges and arms, and the springs of particles that accelerate, hold at
-/// the end of the step. The rows hold them to first order only, because bodies and links turn by
-/// finite angles. Sets `holds` to whether they hold within the tolerance. Returns the forces in the
-/// rows that the change needs, in addition to those of the last velocities(..., true) of the
-/// solver. Throws Error(kNotConverged) if a length or place would be off by more than a mean
-/// radius.
-std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equation,
-                                                     const HeldMotion& held,
-                                                     std::span<const double> flow,
-                                                     std::vector<double>& velocities, double h,
-                                                     bool& holds) const {
-  const auto of_flow = held_->row_forces();
-  auto forces = of_flow;
-  // Adds the forces in the rows that belong to the extrapolation, the difference of U^+ and U.
-  auto extrapolated = velocities;
-  for (std::size_t i = 0; i < flow.size(); ++i) extrapolated[i] -= flow[i];
-  add(held_->row_forces_for(extrapolated), forces);
-  const auto thetas = held_->thetas();
-  const bool with_springs = !equation.link_times().empty();
-  const double allowed = tolerated_length();
-  double off = 0;  // [L]
-  for (int n = 0; n <= kMostChanges; ++n) {
-    const auto missing = held.missing(velocities, forces, thetas);
-    off = h * largest_of(missing);
-    if (off <= kOfTolerance * allowed || n == kMostChanges) break;
-    add(held_->change(velocities, missing, with_springs), forces);
-  }
-  holds = off <= allowed;
-  if (!(off <= mean_radius_))
-    throw Error(
-        ErrorKind::kNotConverged,
-        fmt::format("the links do not hold in the step to time {}: a length or place would be "
-                    "off by {:.3g} mean radii; is the time step too long for the velocities, "
-                    "or do lengths, places and given motions contradict each other?",
-                    state_.time + h, off / mean_radius_));
-  for (std::size_t r = 0; r < forces.size(); ++r) forces[r] -= of_flow[r];
-  return forces;
-}
-
-/// Changes velocities until bodies are rigid and hinges and arms hold at the end of the step, in
-/// which they turn by finite angles. Adds the forces that this needs to `row_forces`; springs keep
-/// their forces. Returns the largest error of a row that is left [L].
-double FluidSimulation::hold_turned(const HeldMotion& held, double h,
-                                    std::vector<double>& velocities,
-                                    std::vector<double>& row_forces) const {
-  const auto rows = held.rows();
-  const auto thetas = held_->thetas();
-  for (int n = 0;; ++n) {
-    auto missing = held.missing(velocities, row_forces, thetas);
-    for (std::size_t r = 0; r < missing.size(); ++r)
-      if (rows[r].stiffness > 0) missing[r] = 0;
-    const double off = h * largest_of(missing);
-    if (off <= kOfTolerance * tolerated_length() || n == kMostChanges) return off;
-    add(held_->change(velocities, missing, false), row_forces);
-  }
-}
-
-/// Makes bodies rigid, and hinges and arms hold, at the end of the step with contacts. Contacts
-/// change the angles by which bodies and links turn, so that the forces in the rows change, too;
-/// and these change the velocities without contact, for which the contacts are solved again. This
-/// is repeated until the changes are small. Changes Motion::free, linear and contact, adds the
-/// forces to `row_forces`, and sets Motion::links_hold. Does nothing in a step in which solids
-/// rebound.
-void FluidSimulation::hold_with_contacts(const StepEquation& equation, const HeldMotion& held,
-                                         double h, double next, Motion& motion,
-                                         std::vector<double>& row_forces) {
-  auto& contact = motion.contact;
-  if (motion.blow || !(largest_of(contact.loads) > 0)) return;
-  const double allowed = kOfTolerance * tolerated_length();
-  for (int round = 0; round < kMostChanges; ++round) {
-    auto velocities = motion.linear;
-    for (std::size_t i = 0; i < velocities.size(); ++i)
-      velocities[i] += contact.velocities[i] - motion.free[i];
-    const auto before = velocities;
-    const double off = hold_turned(held, h, velocities, row_forces);
-    const auto moved = held.with_finite_turns(velocities);
-    double change = 0;  // [L/T]
-    for (std::size_t i = 0; i < velocities.size(); ++i) {
-      const double by = moved[i] - contact.velocities[i];
-      const double lever = i % layout_.components < layout_.directions() ? 1 : mean_radius_;
-      change = largest_or_nan(change, lever * std::abs(by));
-      motion.linear[i] += velocities[i] - before[i];
-      motion.free[i] += by;
-      contact.velocities[i] += by;
-    }
-    // If gaps changed by less than `allowed`, the contacts need not be solved again.
-    motion.links_hold = off <= tolerated_length() && h * change <= allowed;
-    if (h * change <= allowed) return;
-    const int iterations = contact.iterations;
-    motion.blow = solve_contacts_of(equation, motion.free, h, next, contact);
-    contact.iterations += iterations;
-    if (motion.blow) return;
-  }
-}
-
-/// Changes the velocities `at_end` at the end of a step, in which particles moved with `moved`,
-/// until they agree with the hinges and arms at that time. Without this a part of the velocity that
-/// the link forbids would remain, and change its sign in each step. Only the velocities of
-/// particles that accelerate change. Returns the forces in the rows, as means over the step.
-std::vector<double> FluidSimulation::hold_at_end(const StepEquation& equation,
-                                                 const HeldMotion& held,
-                                                 std::span<const double> moved,
-                                                 std::vector<double>& at_end) const {
-  std::vector<char> is_stiff;
-  for (std::size_t r = 0; r < held_->row_forces().size(); ++r)
-    is_stiff.push_back(held_->is_stiff(r) ? 1 : 0);
-  auto velocities = at_end;
-  auto forces = held.hold_at_end(moved, equation.mobility_of_step(), is_stiff, velocities);
-  for (std::size_t i = 0; i < at_end.size(); ++i)
-    if (equation.link_times()[i / layout_.components] >= 0) at_end[i] = velocities[i];
-  return forces;
-}
-
 /// Sets the velocities that a fluid with inertia keeps, and extrapolates them to the end of the
 /// step.
 void FluidSimulation::keep_and_extrapolate(const StepEquation& equation, Motion& motion) const {
@@ -448,11 +314,11 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   }
   const auto& loads = motion.blow ? motion.blow->loads : motion.contact.loads;
   motion.after = motion.blow ? motion.blow->velocities : motion.contact.velocities;
-  if (largest_of(loads) > 0 && !is_split) {
+  if (largest_magnitude(loads) > 0 && !is_split) {
     // The fluid is solved again with the contact forces, because the flow and the forces of the
     // fluid that are reported contain their effect.
     const auto before = motion.flow;
-    add(loads, forces);
+    add_elements(loads, forces);
     motion.flow = solver_->velocities(forces, true);
     for (std::size_t i = 0; i < before.size(); ++i)
       motion.after[i] = motion.free[i] + (motion.flow[i] - before[i]);
@@ -464,20 +330,20 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   motion.drag = forces;
   for (std::size_t i = 0; i < forces.size(); ++i)
     motion.drag[i] -= equation.inertia()[i] * motion.flow[i];
-  if (held) add(held_->forces_of_step(), motion.drag);
+  if (held) add_elements(held_->forces_of_step(), motion.drag);
   motion.at_end = equation.velocities_at_end(motion.after, motion.flow);
   if (setting_.fluid->has_inertia()) keep_and_extrapolate(equation, motion);
   std::vector<double> of_step, at_end;  // the forces of the links within the step and at its end
   if (held) {
     auto row_forces = held_->row_forces();
-    if (!equation.link_times().empty()) add(further_row_forces, row_forces);
+    if (!equation.link_times().empty()) add_elements(further_row_forces, row_forces);
     of_step = motion.link_forces = held->link_forces(row_forces);
     add_torques_of_stops(setting_.links, state_.particles,
                          motion.blow ? motion.blow->contacts : motion.contact.contacts, h,
                          motion.link_forces);
     if (!equation.link_times().empty()) {
       at_end = held->link_forces(hold_at_end(equation, *held, motion.linear, motion.at_end));
-      add(at_end, motion.link_forces);
+      add_elements(at_end, motion.link_forces);
     }
   }
   motion.quantities = solver_->quantities();

@@ -1,8 +1,9 @@
 // The conditions that rigid bodies and links (hinges, arms and springs) put on the velocities of
 // particles in a fluid, and how bodies move, docs/physics.md (6.7). Each condition is a row of
 // held_solver.hpp. A unit is a rigid body, or a particle without a body. Lengths, masses and times
-// are in the units of the case. fluid_simulation.cpp uses it; nothing is checked or thrown. A
-// change must keep the order of the rows, bodies first, and bodies exactly rigid.
+// are in the units of the case. fluid_simulation.cpp and fluid_links.cpp use it; nothing is
+// checked or thrown. A change must keep the order of the rows, bodies first, and bodies exactly
+// rigid.
 #pragma once
 
 #include <cstddef>

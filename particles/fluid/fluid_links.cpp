@@ -1,0 +1,144 @@
+// Makes bodies rigid, and hinges and arms hold, at the end of a step in a fluid (fluid_simulation.hpp
+// has the symbols). The rows of links hold to first order in the motion only, because bodies and
+// links turn by finite angles; the velocities are changed until what is left is within the
+// tolerance. Units are those of the case: velocities in [L/T, 1/T], forces in [M L/T^2, M L^2/T^2].
+// fluid_simulation.cpp calls these functions. A change must keep that a continued run gives the
+// same bits as one without a break.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/particles/fluid/fluid_contacts.hpp"
+#include "viscontact/particles/fluid/fluid_motion.hpp"
+#include "viscontact/particles/fluid/fluid_simulation.hpp"
+#include "viscontact/particles/fluid/held_rows.hpp"
+#include "viscontact/particles/fluid/held_solver.hpp"
+#include "viscontact/particles/fluid/step_equation.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+// Links hold up to this share of the tolerance of lengths, so that their errors do not add up over
+// the steps. They are corrected repeatedly: each correction multiplies the error by about the angle
+// [rad] by which a body or an arm turns in the step, so that few are needed unless this angle is
+// about 1. Both numbers are free choices.
+constexpr double kOfTolerance = 1e-3;
+constexpr int kMostChanges = 20;
+
+}  // namespace
+
+/// Changes velocities until hinges and arms, and the springs of particles that accelerate, hold at
+/// the end of the step. The rows hold them to first order only, because bodies and links turn by
+/// finite angles. Sets `holds` to whether they hold within the tolerance. Returns the forces in the
+/// rows that the change needs, in addition to those of the last velocities(..., true) of the
+/// solver. Throws Error(kNotConverged) if a length or place would be off by more than a mean
+/// radius.
+std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equation,
+                                                     const HeldMotion& held,
+                                                     std::span<const double> flow,
+                                                     std::vector<double>& velocities, double h,
+                                                     bool& holds) const {
+  const auto of_flow = held_->row_forces();
+  auto forces = of_flow;
+  // Adds the forces in the rows that belong to the extrapolation, the difference of U^+ and U.
+  auto extrapolated = velocities;
+  for (std::size_t i = 0; i < flow.size(); ++i) extrapolated[i] -= flow[i];
+  add_elements(held_->row_forces_for(extrapolated), forces);
+  const auto thetas = held_->thetas();
+  const bool with_springs = !equation.link_times().empty();
+  const double allowed = tolerated_length();
+  double off = 0;  // [L]
+  for (int n = 0; n <= kMostChanges; ++n) {
+    const auto missing = held.missing(velocities, forces, thetas);
+    off = h * largest_magnitude(missing);
+    if (off <= kOfTolerance * allowed || n == kMostChanges) break;
+    add_elements(held_->change(velocities, missing, with_springs), forces);
+  }
+  holds = off <= allowed;
+  if (!(off <= mean_radius_))
+    throw Error(
+        ErrorKind::kNotConverged,
+        fmt::format("the links do not hold in the step to time {}: a length or place would be "
+                    "off by {:.3g} mean radii; is the time step too long for the velocities, "
+                    "or do lengths, places and given motions contradict each other?",
+                    state_.time + h, off / mean_radius_));
+  for (std::size_t r = 0; r < forces.size(); ++r) forces[r] -= of_flow[r];
+  return forces;
+}
+
+/// Changes velocities until bodies are rigid and hinges and arms hold at the end of the step, in
+/// which they turn by finite angles. Adds the forces that this needs to `row_forces`; springs keep
+/// their forces. Returns the largest error of a row that is left [L].
+double FluidSimulation::hold_turned(const HeldMotion& held, double h,
+                                    std::vector<double>& velocities,
+                                    std::vector<double>& row_forces) const {
+  const auto rows = held.rows();
+  const auto thetas = held_->thetas();
+  for (int n = 0;; ++n) {
+    auto missing = held.missing(velocities, row_forces, thetas);
+    for (std::size_t r = 0; r < missing.size(); ++r)
+      if (rows[r].stiffness > 0) missing[r] = 0;
+    const double off = h * largest_magnitude(missing);
+    if (off <= kOfTolerance * tolerated_length() || n == kMostChanges) return off;
+    add_elements(held_->change(velocities, missing, false), row_forces);
+  }
+}
+
+/// Makes bodies rigid, and hinges and arms hold, at the end of the step with contacts. Contacts
+/// change the angles by which bodies and links turn, so that the forces in the rows change, too;
+/// and these change the velocities without contact, for which the contacts are solved again. This
+/// is repeated until the changes are small. Changes Motion::free, linear and contact, adds the
+/// forces to `row_forces`, and sets Motion::links_hold. Does nothing in a step in which solids
+/// rebound.
+void FluidSimulation::hold_with_contacts(const StepEquation& equation, const HeldMotion& held,
+                                         double h, double next, Motion& motion,
+                                         std::vector<double>& row_forces) {
+  auto& contact = motion.contact;
+  if (motion.blow || !(largest_magnitude(contact.loads) > 0)) return;
+  const double allowed = kOfTolerance * tolerated_length();
+  for (int round = 0; round < kMostChanges; ++round) {
+    auto velocities = motion.linear;
+    for (std::size_t i = 0; i < velocities.size(); ++i)
+      velocities[i] += contact.velocities[i] - motion.free[i];
+    const auto before = velocities;
+    const double off = hold_turned(held, h, velocities, row_forces);
+    const auto moved = held.with_finite_turns(velocities);
+    double change = 0;  // [L/T]
+    for (std::size_t i = 0; i < velocities.size(); ++i) {
+      const double by = moved[i] - contact.velocities[i];
+      const double lever = i % layout_.components < layout_.directions() ? 1 : mean_radius_;
+      change = largest_or_nan(change, lever * std::abs(by));
+      motion.linear[i] += velocities[i] - before[i];
+      motion.free[i] += by;
+      contact.velocities[i] += by;
+    }
+    // If gaps changed by less than `allowed`, the contacts need not be solved again.
+    motion.links_hold = off <= tolerated_length() && h * change <= allowed;
+    if (h * change <= allowed) return;
+    const int iterations = contact.iterations;
+    motion.blow = solve_contacts_of(equation, motion.free, h, next, contact);
+    contact.iterations += iterations;
+    if (motion.blow) return;
+  }
+}
+
+/// Changes the velocities `at_end` at the end of a step, in which particles moved with `moved`,
+/// until they agree with the hinges and arms at that time. Without this a part of the velocity that
+/// the link forbids would remain, and change its sign in each step. Only the velocities of
+/// particles that accelerate change. Returns the forces in the rows, as means over the step.
+std::vector<double> FluidSimulation::hold_at_end(const StepEquation& equation,
+                                                 const HeldMotion& held,
+                                                 std::span<const double> moved,
+                                                 std::vector<double>& at_end) const {
+  std::vector<char> is_stiff;
+  for (std::size_t r = 0; r < held_->row_forces().size(); ++r)
+    is_stiff.push_back(held_->is_stiff(r) ? 1 : 0);
+  auto velocities = at_end;
+  auto forces = held.hold_at_end(moved, equation.mobility_of_step(), is_stiff, velocities);
+  for (std::size_t i = 0; i < at_end.size(); ++i)
+    if (equation.link_times()[i / layout_.components] >= 0) at_end[i] = velocities[i];
+  return forces;
+}
+
+}  // namespace viscontact::particles
