@@ -376,15 +376,16 @@ template <int D>
 int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
   // Below kNear of the size, an iteration gains much unless rounding errors are what is left.
   constexpr double kNear = 1e-6, kSlow = 0.5;
-  // A second solution, which removes rounding errors, is worth its time in the last iterations only.
-  constexpr double kLast = 1e3, kLargestLast = 1e-3;
+  // A second solution removes rounding errors. It is worth its time in the last iterations only, when
+  // what is left, divided by the size, is below kNearEnd and below kNearAccuracy times the accuracy.
+  constexpr double kNearAccuracy = 1e3, kNearEnd = 1e-3;
   set_parts();
   // The least impulses, and the motions with these. They are the solution where nothing else moves.
   std::ranges::fill(impulses_, 0.0);
   for (const auto& part : singles_) impulses_[part.row] = part.base;
   y_ = motions(problem_, impulses_);
   const double size = largest_value();
-  const double twice_below = std::min(kLargestLast, kLast * accuracy) * size;
+  const double twice_below = std::min(kNearEnd, kNearAccuracy * accuracy) * size;
   start(size);
   int iterations = 0;
   double least = std::numeric_limits<double>::infinity();

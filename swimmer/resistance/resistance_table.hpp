@@ -72,9 +72,9 @@ ResistanceTable read_resistance_table(const std::filesystem::path& path);
 /// The gaps of each pair of neighbours in the table [L], rising, without repetition.
 std::vector<std::vector<double>> gap_grid(const ResistanceTable& table);
 
-/// The length by which `radii` [L] differ from radii of the same number, `other`: radii = ratio
-/// other. Throws Error(kBadInput) if there is no such ratio up to rounding; `what` names the owner
-/// of `other`, "table" or "fit".
+/// The ratio [1] of `radii` to `other`, two lists of radii [L], > 0: radii = ratio other. Throws
+/// Error(kBadInput) if the lists are no multiples of each other up to rounding, or differ in their
+/// length. `what` is the word for the owner of `other` in the message, "table" or "fit".
 double ratio_of_radii(const std::vector<double>& radii, const std::vector<double>& other,
                       std::string_view what);
 
