@@ -376,8 +376,9 @@ template <int D>
 int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
   // Below kNear of the size, an iteration gains much unless rounding errors are what is left.
   constexpr double kNear = 1e-6, kSlow = 0.5;
-  // A second solution removes rounding errors. It is worth its time in the last iterations only, when
-  // what is left, divided by the size, is below kNearEnd and below kNearAccuracy times the accuracy.
+  // A second solution removes rounding errors. It is worth its time in the last iterations only:
+  // when what is left, divided by the size, is below kNearEnd and below kNearAccuracy times the
+  // accuracy.
   constexpr double kNearAccuracy = 1e3, kNearEnd = 1e-3;
   set_parts();
   // The least impulses, and the motions with these. They are the solution where nothing else moves.
