@@ -1,6 +1,6 @@
-// The program viscontact: reads the command line and calls the stages in pipeline/. Every Error is
-// caught in main(), which prints its message and returns its exit code (results/exit_code.hpp). A
-// change must keep that no exception leaves main().
+// The program viscontact: reads the command line and runs the command that it names
+// (commands/commands.hpp). Every Error is caught in main(), which prints its message and returns
+// its exit code (results/exit_code.hpp); so are all other exceptions, and a change must keep this.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -84,7 +84,7 @@ int run(int argc, char** argv) {
   }
   try {
     auto arguments = with_files_apart({argv + std::min(argc, 1), argv + argc});
-    std::ranges::reverse(arguments);  // CLI11 takes the arguments in reverse order
+    std::ranges::reverse(arguments);  // parse(vector) reads the last element first
     app.parse(arguments);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version

@@ -1,8 +1,9 @@
-// Checks the outputs and models that a command line names, adds the options --jobs and --json and
-// those of array jobs, and tells the values of options from names of files (command_options.hpp). A
-// wrong option is an Error(kWrongUsage). The list of the options whose value may be left out must
-// contain every option for which a command calls expected(0, 1). The names of the options of array
-// jobs must stay, because submitted scripts contain them.
+// Options that several commands of app/ share, and checks of what a command line names; the
+// comments of the functions are in command_options.hpp. A wrong option is an Error(kWrongUsage).
+// The list `options` in with_files_apart() must contain every option for which a command calls
+// CLI11's expected(0, 1), which allows an option without its value. The names of the options of
+// array jobs (jobs of many tasks on a Slurm cluster) must stay, because submitted scripts contain
+// them.
 #include "viscontact/app/arguments/command_options.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ namespace {
 /// not exist yet is resolved, too, because an output need not exist yet.
 std::filesystem::path resolved_place_of(std::filesystem::path path) {
   namespace fs = std::filesystem;
-  constexpr int kMostLinks = 40;  // Linux follows at most so many links in a path
+  constexpr int kMostLinks = 40;  // as Linux, which refuses a path with more links
   path = fs::absolute(path);
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path)); ++i)
     path = path.parent_path() / fs::read_symlink(path);
@@ -65,6 +66,7 @@ void check_picture(const std::string& path) {
 }
 
 void add_picture(CLI::App& command, results::PictureRequest& picture, const std::string& help) {
+  // The limits of width and font size only catch mistyped numbers; other limits would do as well.
   auto* plot = add_value(command, "--plot", picture.path, kFile, help);
   add_value(command, "--width", picture.width, "N",
             "width of the picture: pixels of an SVG, points of a PDF; default: its own")
@@ -72,7 +74,7 @@ void add_picture(CLI::App& command, results::PictureRequest& picture, const std:
       ->needs(plot);
   command.add_option("--font-size", picture.font_size, "of the picture, in the unit of its width")
       ->check(CLI::Range(2.0, 200.0))
-      // The check of a range lets "nan" pass.
+      // CLI::Range accepts "nan", because each comparison with it is false.
       ->check([](const std::string& text) {
         return std::isfinite(std::strtod(text.c_str(), nullptr)) ? "" : text + " is not a number";
       })
@@ -98,14 +100,14 @@ CLI::Option* add_json(CLI::App& command, bool& json) {
 CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help) {
   // The default is given in words, because the manual is made on one machine and read on another.
   return command.add_option("-j,--jobs", jobs, help)
-      ->check(CLI::Range(1, 1024))  // more than one machine has cores
+      ->check(CLI::Range(1, 1024))  // a free limit; few machines have more cores
       ->default_str("one for each core");
 }
 
 std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   struct Option {
     std::string_view command, name;
-    bool (*is_value)(std::string_view word);  // true: a value even if a file has this name
+    bool (*is_value)(std::string_view word);  // true: a value, even if `word` also names a file
   };
   constexpr auto is_number = [](std::string_view word) {
     return parse_number(word.substr(0, word.find(','))).has_value();
@@ -120,7 +122,7 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
                                               {"tabulate", "--plot", is_number},
                                               {"simulate", "--lubrication-limit", is_limit}});
   const auto is_file = [](const std::string& word) {
-    std::error_code ignored;  // some words cannot be names of files
+    std::error_code ignored;  // exists() fails for words that cannot be names of files
     return word.ends_with(".csv") || word.ends_with(".toml") ||
            std::filesystem::exists(word, ignored);
   };
@@ -131,7 +133,8 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
     const auto at = std::find(arguments.begin(), end, option.name);
     if (at == end || at + 1 == end) continue;
     if (option.is_value(at[1]) || !is_file(at[1])) continue;
-    // At its new place, no word follows the option that it could take as its value.
+    // At its new place the option is the last word or stands before "--", so that no word follows
+    // that CLI11 could take as its value.
     std::rotate(at, at + 1, end);
   }
   return arguments;
@@ -145,7 +148,7 @@ void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& re
   command
       .add_option("--tasks", o.tasks,
                   "tasks of the array job; default: one for each row, at most 1000")
-      ->check(CLI::Range(1, 4000000));  // Slurm allows no larger array (MaxArraySize)
+      ->check(CLI::Range(1, 4000000));  // about the largest MaxArraySize of Slurm
   add_value(command, "--slurm-options", o.slurm_options, "OPTIONS",
             "more options for sbatch, in one argument");
   o.gather_option = command.add_flag(

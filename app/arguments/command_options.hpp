@@ -1,8 +1,9 @@
 // Options that several commands have, and checks of what a command line names; among them the
 // options of commands whose rows an array job on a Slurm cluster can compute (docs/cluster.md).
-// help/self_description.cpp recognises by the type names below whether to offer files, folders or
-// models as the value of an option; a change of the names must be made there, too. A change must
-// keep the names of options, because submitted scripts contain them.
+// Used by main.cpp, commands/ and help/ of app/. help/self_description.cpp recognises by the type
+// names below whether to offer files, folders or models as the value of an option; a change of the
+// names must be made there, too. A change must keep the names of options, because submitted scripts
+// contain them.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -55,16 +56,17 @@ void check_outputs(const std::vector<std::string>& paths);
 
 /// Throws Error(kWrongUsage) unless the ending of the file that --plot names is that of a kind of
 /// picture (results::kPictureKinds), and Error(kBadInput) if there is such a file that is not a
-/// picture of this kind by Viscontact. An empty name is no picture.
+/// picture of this kind by Viscontact. Does nothing if `path` is empty.
 void check_picture(const std::string& path);
 
-/// Adds the options --plot, whose help is `help`, --width and --font-size.
+/// Adds the options --plot, whose help is `help`, --width (100 to 10000) and --font-size (2 to
+/// 200), which set `picture` and have the unit of results::PictureFormat.
 void add_picture(CLI::App& command, results::PictureRequest& picture, const std::string& help);
 
-/// The default of --jobs: one process or thread for each core.
+/// The default of --jobs, >= 1: one process or thread for each core.
 int default_jobs();
 
-/// Adds the option -j, --jobs, which sets `jobs`.
+/// Adds the option -j, --jobs, which sets `jobs` to a number from 1 to 1024.
 CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help);
 
 /// Adds the flag --json, which sets `json`.
@@ -81,25 +83,27 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments);
 /// The values of the options of array jobs, which `tabulate` and `sweep` have: --launcher, --tasks,
 /// --slurm-options, --gather and --task.
 struct ArrayOptions {
-  std::string launcher = "local",  ///< "local" or "slurm"
+  std::string launcher = "local",  ///< "local": computes here; "slurm": submits a job
       slurm_options,               ///< words for sbatch, quoted as in a shell; may be empty
-      task;                        ///< "K/T": task K of T, 0 <= K < T; empty: no task
-  std::size_t tasks = 0;           ///< number of tasks; 0: one for each row, at most 1000
-  bool gather = false;             ///< true: puts the tables together, computes no row
-  /// CLI11's objects of the options, for `excludes`.
+      task;                        ///< "K/T": rows K, K+T, ...; 0 <= K < T; empty: all
+  std::size_t tasks = 0;           ///< tasks of the array job; 0: one for each row, at most 1000
+  bool gather = false;             ///< true: writes tables from finished rows, computes none
+  /// CLI11's objects of the options, by which a command excludes them beside other options.
   CLI::Option *launcher_option = nullptr, *gather_option = nullptr, *task_option = nullptr;
 
   bool is_slurm() const { return launcher == "slurm"; }  ///< whether a job is submitted
 };
 
-/// Adds the options. `results` is what --help calls the output of the command: "the tables".
+/// Adds these options, which set the members of `o`. `results` is what --help calls the output of
+/// the command, such as "the tables".
 void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& results);
 
 /// Throws Error(kWrongUsage) if options are given that only --launcher slurm uses, or if --task is
 /// not K/T with 0 <= K < T.
 void check_array_options(const ArrayOptions& o);
 
-/// The rows that --task asks for; all rows if the option is not given.
+/// The rows that --task asks for; all rows if the option is not given. Throws the error of
+/// check_array_options() for a wrong --task.
 pipeline::Share share_of(const ArrayOptions& o);
 
 /// The request that these options make, for an array job that computes the rows of `output`.
@@ -121,7 +125,7 @@ void with_remedy(std::string_view remedy, const Call& call) {
   }
 }
 
-/// The options that help if a submission or --gather fails, for with_remedy().
+/// Texts for with_remedy(): the options that help if a submission or --gather fails.
 inline constexpr std::string_view kRemedyOfSlurm =
     "see --slurm-options, --tasks, or leave out --launcher slurm";
 inline constexpr std::string_view kRemedyOfGather =

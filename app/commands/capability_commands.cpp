@@ -1,7 +1,9 @@
-// The command lines of `particles`, `rolling` and `swimmer` (docs/command-line.md), each of which
-// does a whole job from a case to a page. Errors are those of the stages; a change must keep the
-// names of the options. The work is done in particles/run/particles_stage.hpp,
-// rolling/job/rolling_stage.hpp and swimmer/job/swimmer_stage.hpp.
+// The command lines of `particles`, `rolling` and `swimmer` (docs/command-line.md). Each of these
+// commands makes all results of a case, with a page. main.cpp adds them. They throw the errors of
+// run_particles() (particles/run/particles_stage.hpp), run_rolling()
+// (rolling/job/rolling_stage.hpp) and run_swimmer() (swimmer/job/swimmer_stage.hpp), which do the
+// work, and Error(kWrongUsage) for an empty output name. A change must keep the names of the
+// options.
 #include <memory>
 #include <string>
 
@@ -16,14 +18,14 @@
 namespace viscontact::app {
 namespace {
 
-/// Adds the arguments of a job: its case, and its folder, which contains `contents`.
+/// Adds the arguments CASE and --output. `contents` is what --help says of the output folder.
 template <class Request>
 void add_case_and_folder(CLI::App& command, Request& o, const std::string& contents) {
   add_value(command, "CASE", o.case_file, kFile, "case file (TOML)")->required();
   add_value(command, "-o,--output", o.folder, kFolder, "folder for " + contents)->required();
 }
 
-/// Adds the flag --json, and calls `run` with the request when the command runs.
+/// Adds the flag --json. When the command runs, it calls `run` with the request.
 template <class Request>
 void run_job(CLI::App& command, const std::shared_ptr<Request>& o, void (*run)(const Request&)) {
   add_json(command, o->json);

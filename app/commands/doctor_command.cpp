@@ -1,8 +1,8 @@
-// The command `doctor`: checks which programs are installed, says how to install missing ones, and
-// compares a drag factor that FreeFEM computes with its exact value. --json prints the same
-// findings. Lengths, masses and times have the unit 1. A failure of FreeFEM is a finding and no
-// error; the program ends with an exit code of failure if one finding is bad. A change must keep
-// the keys of the JSON.
+// The command `doctor`, which main.cpp adds: checks which programs are installed, says how to
+// install missing ones, and compares a drag factor (drag divided by Stokes' drag in unbounded
+// fluid) that FreeFEM computes with its exact value. --json prints the same findings; a change must
+// keep its keys `ok` and `what`. A failure of FreeFEM is a finding and no error. If one finding is
+// bad, main.cpp returns the exit code of kExternalProgram. Throws Error(kInterrupted) after Ctrl-C.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -34,9 +34,10 @@ struct Finding {
 
 using Report = std::function<void(const Finding&)>;
 
-/// Computes a row whose exact value is known: a gap of 0.1 radii over a plane, in a container so
-/// wide that it changes the drag factor by less than kTolerance. kBrenner is the exact drag factor,
-/// from the series of Brenner (1961).
+/// Computes a drag factor whose exact value is known: that of a sphere at a gap of 0.1 radii above
+/// a plane, with viscosity 1, radius 1 and velocity -1 (towards the plane), in a container so wide
+/// that it changes the drag factor by less than kTolerance. kBrenner is the exact value, from the
+/// series of Brenner (1961).
 Finding solve_known_row(const freefem_axi::FreeFem& freefem) {
   constexpr double kBrenner = 11.45915720340955722964;
   constexpr double kTolerance = 1e-4;
@@ -54,7 +55,7 @@ Finding solve_known_row(const freefem_axi::FreeFem& freefem) {
 void examine_freefem(const Report& report) {
   try {
     auto freefem = freefem_axi::default_freefem(interrupt_token());
-    // The row takes about a second, so the time limit of a version query is long enough.
+    // The row takes about a second, so version_limit, the shorter time limit, is long enough.
     freefem.row_limit = freefem.version_limit;
     report(
         {true, fmt::format("FreeFEM {} ({}; scripts in {})", freefem_axi::freefem_version(freefem),

@@ -1,8 +1,8 @@
 // The command lines of `fit` (fits a formula to a table, or compares bases), `shift` (finds the
-// shift of a rough wall) and `export` (writes a fit as code or numbers). docs/command-line.md
-// describes them, docs/theory.md the fit. Numbers are in the units of the table; a wrong option is
-// an Error(kWrongUsage). The texts given to refuse_other_kind are parts of the written files, by
-// which a file of another kind is recognised; they must agree with the writers.
+// shift of a rough wall) and `export` (writes a fit as code or numbers), which main.cpp adds.
+// docs/command-line.md describes them, docs/theory.md the fit. Numbers are in the units of the
+// table; a wrong option is an Error(kWrongUsage). refuse_other_kind() recognises the kind of a file
+// by the text that it is given here; the text must occur in what the writer of that kind writes.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@
 namespace viscontact::app {
 namespace {
 
-/// Accepts finite numbers > 0. The check of CLI11 accepts what is not a number.
+/// Accepts finite numbers > 0. CLI11's own check of positive numbers accepts "nan".
 CLI::Validator positive_number() {
   return {[](const std::string& text) {
             const auto number = parse_number(text);
@@ -39,9 +39,10 @@ CLI::Validator positive_number() {
           "", "positive number"};
 }
 
-/// Reads the value of --fix, which fixes the coefficient of 1/q in the force at the table's first
-/// velocity [M L^2/T^2]. No value, "1/q" or "theory" fixes it at the value that lubrication theory
-/// gives (docs/theory.md); "1/q=56.5" fixes it at 56.5. Other values throw Error(kWrongUsage).
+/// Reads `word`, the value of --fix, which fixes the coefficient of 1/q (q: the gap) in the force
+/// at the table's first velocity. The coefficient has the dimension [M L^2/T^2]. No value, "1/q" or
+/// "theory" fixes it at the value that lubrication theory gives (docs/theory.md); "1/q=56.5" fixes
+/// it at 56.5. Other values throw Error(kWrongUsage).
 void read_fix(const std::string& word, fitting::FitSettings& settings) {
   settings.fix_leading = true;
   if (word.empty() || word == lubrication::kLeadingTerm || word == "theory") return;
@@ -63,7 +64,7 @@ struct FitOptions {
   std::string table, fit, terms, weights = "relative", loss = "none", fix;
   results::PictureRequest plot;
   bool compare_bases = false, json = false;
-  /// CLI11's objects of some options, which tell whether the option was given.
+  /// CLI11's objects of options, whose count() is 0 if the option was not given.
   const CLI::Option *output_option = nullptr, *terms_option = nullptr, *fix_option = nullptr,
                     *basis_option = nullptr, *weights_option = nullptr;
 };
@@ -122,7 +123,8 @@ void fit_table(FitOptions& o) {
     if (o.compare_bases)
       pipeline::compare_bases_stage(o.table, settings, plot, o.json, interrupt_token());
   } catch (const Error& error) {
-    // The fit does not need gnuplot, so it is written before this error is thrown.
+    // gnuplot is missing or failed. The fit does not need it and is written before the error is
+    // thrown.
     if (error.kind() != ErrorKind::kExternalProgram) throw;
     without_picture = error;
   }
@@ -135,10 +137,13 @@ void fit_table(FitOptions& o) {
 /// The values of the options of `export`.
 struct ExportOptions {
   std::string fit, target, output, below, above;
-  double radius = 0, viscosity = 0;  // 0: those of the fit
+  double radius = 0, viscosity = 0;  // in the units of the fit; 0: those of the fit
 };
 
-/// The text of a fit file for a target, whether it is the fit of one force or of a pair.
+/// The fit file `o.fit` as text for `o.target` (a language or format, fitting/export/). The file is
+/// the fit of one force, or of all resistances of a pair (a sphere and its neighbour). The text
+/// names `source` as its origin. Throws Error(kWrongUsage) if --below or --above is given for a
+/// pair or for a target without them, and Error(kBadInput) if the file is not a fit.
 std::string exported(const ExportOptions& o, const std::string& source) {
   const auto or_of_fit = [](double asked, double of_fit) { return asked > 0 ? asked : of_fit; };
   if (motions::is_pair_fit(o.fit)) {

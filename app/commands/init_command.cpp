@@ -1,6 +1,7 @@
-// The command `init`: writes a commented case and prints the command that runs it. The keys and
-// defaults come from the declarations of the case of one sphere. A file that exists is not replaced
-// (an Error). A change must keep that the case runs as it is written.
+// The command `init`, which main.cpp adds: writes a commented case and prints the command that runs
+// it. The keys and defaults come from the declarations in case_file/case_file.cpp. Throws
+// Error(kBadInput) if the file exists. A change must keep that `viscontact run` accepts the case as
+// it is written.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -17,7 +18,7 @@
 namespace viscontact::app {
 namespace {
 
-/// The beginning of the case, before the sections that the declarations of keys make.
+/// The beginning of the case. The sections follow, made from the declarations of their keys.
 const std::string kHead =
     R"(# A case for Viscontact. Lengths, times and masses may be in any coherent system of units: all in SI
 # units, for example, or all lengths in radii of the sphere.

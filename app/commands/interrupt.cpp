@@ -1,5 +1,6 @@
-// Installs a signal handler with sigaction. The handler may do nothing but set a lock-free flag,
-// because a signal can come in the middle of any function.
+// Installs a signal handler with sigaction, for interrupt.hpp. A change must keep that the handler
+// does nothing but set a lock-free flag, because a signal can come in the middle of any function.
+// Nothing is thrown.
 #include "viscontact/app/commands/interrupt.hpp"
 
 #include <atomic>
@@ -15,9 +16,9 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 void remember_signal(int) { signal_came = true; }
 
-// Whether the program was started with SIGHUP ignored, as nohup does. main() comes too late to ask:
-// libraries set handlers while they are loaded, such as the MPI that SUNDIALS of Debian 13 brings.
-// What is in .preinit_array runs before all libraries.
+// Whether the program was started with SIGHUP ignored, as nohup does. main() would ask too late,
+// because libraries set handlers while they are loaded, such as the MPI that SUNDIALS of Debian 13
+// needs. A function in .preinit_array runs before those of all libraries.
 bool hangup_is_ignored = false;
 
 void look_at_hangup() {
@@ -31,7 +32,7 @@ void look_at_hangup() {
 
 void catch_interrupts() {
   struct sigaction action = {};
-  action.sa_handler = remember_signal;  // no SA_RESTART: a system call that waits returns
+  action.sa_handler = remember_signal;  // without SA_RESTART, a signal ends a waiting call
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);

@@ -1,5 +1,6 @@
-// Turns Ctrl-C and similar signals into a request to stop, which the commands pass to the libraries
-// as a StopToken. Nothing is thrown here. A change must keep that the handler only sets a flag.
+// Turns Ctrl-C and similar signals into a request to stop. main.cpp and the commands of app/ pass
+// it as a StopToken to the libraries, which check it during long computations. Nothing is thrown
+// here. A change must keep that the signal handler only sets a flag.
 #pragma once
 
 #include "viscontact/common/stop_token.hpp"

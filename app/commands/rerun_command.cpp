@@ -1,7 +1,9 @@
-// The command `rerun` repeats a recorded command. A record that is missing, or names a command that
-// is not allowed, is an Error(kBadInput). The record comes from a file that anybody may have
-// written, so check_command decides which commands and options are run; a change must keep this
-// check before execv.
+// The command `rerun`, which main.cpp adds. Every output of Viscontact contains its provenance
+// (results/provenance.hpp): the command that made it, the folder of this command, and its inputs
+// with their hashes. `rerun` starts this command again. A provenance that is missing, or that names
+// a command which is not allowed, is an Error(kBadInput). Anybody may have written the file, so
+// check_command() decides which commands and options are run; a change must keep this check before
+// execv.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -26,12 +28,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The values of the options of `rerun`; add_rerun() says what each means.
+/// The values of the options of `rerun`.
 struct RerunOptions {
-  std::string file,  ///< path of the file whose command is repeated
-      output,        ///< path of the new output; empty: the recorded one
-      folder;        ///< folder in which the command runs; empty: the recorded one
-  bool changed_inputs = false, dry_run = false;
+  std::string file,             ///< path of the file whose command is repeated
+      output,                   ///< path of the new output; empty: the recorded one
+      folder;                   ///< folder in which the command runs; empty: the recorded one
+  bool changed_inputs = false,  ///< true: runs although inputs have changed
+      dry_run = false;          ///< true: prints the command and does not run it
 };
 
 /// Throws Error(kBadInput) unless the command is a command of Viscontact that writes files. The
@@ -57,8 +60,9 @@ struct ValuePlace {
   std::size_t word = 0, begin = 0;
 };
 
-/// The place of an option's value, which is written as "-o VALUE", "-oVALUE", "--output VALUE" or
-/// "--output=VALUE". `letter` is '\0' for an option without a short name.
+/// The place of the value of the option `name`, such as --output, with the short name `letter`
+/// ('\0': none). It may be written as "-o VALUE", "-oVALUE", "--output VALUE" or "--output=VALUE".
+/// Returns nothing if the command does not have the option.
 std::optional<ValuePlace> value_of(const std::vector<std::string>& command, char letter,
                                    const std::string& name) {
   const std::string shorter = letter == '\0' ? "" : std::string("-") + letter;
@@ -77,9 +81,9 @@ std::string value_at(const std::vector<std::string>& command, const ValuePlace& 
   return command[place.word].substr(place.begin);
 }
 
-/// The command of the provenance, changed so that it writes to `o.output`. Throws
-/// Error(kWrongUsage) if the command has no option for that, or if `o.output` must be a folder but
-/// is the name of a file.
+/// The command of the provenance, changed so that it writes to `o.output` instead of
+/// provenance.output. Throws Error(kWrongUsage) if the command has no option for that, or if
+/// `o.output` must be a folder but is the name of a file.
 std::vector<std::string> with_output(const RerunOptions& o, const results::Provenance& provenance) {
   auto command = provenance.command;
   const auto put = [&](const ValuePlace& place) {
@@ -87,13 +91,14 @@ std::vector<std::string> with_output(const RerunOptions& o, const results::Prove
     word = word.substr(0, place.begin) + fs::absolute(o.output).string();
     return command;
   };
-  // The file is the picture that --plot names: only its path is changed. The command's main output
-  // stays at its place, and is not written again if nothing has changed.
+  // If the file is the picture of --plot, only the path of the picture is changed. The command's
+  // main output stays at its place, and is not written again if nothing has changed.
   if (const auto plot = value_of(command, '\0', "--plot");
       plot && value_at(command, *plot) == provenance.output)
     return put(*plot);
   const auto output = value_of(command, 'o', "--output");
-  // The file is the picture of --compare-bases, whose name the command chose by itself.
+  // If `fit` made the file and the file is not its --output, it is the picture of --compare-bases
+  // with the default name.
   if (command[1] == "fit" && (!output || value_at(command, *output) != provenance.output)) {
     command.insert(command.end(), {"--plot", fs::absolute(o.output).string()});
     return command;
@@ -124,8 +129,8 @@ std::vector<std::string> with_output(const RerunOptions& o, const results::Prove
                     "a folder for all of them, but it is '{}'",
                     o.file, command[1], value_at(command, *output), o.output));
   put(*output);
-  // The picture of --plot would replace the earlier picture, so the option is left out, and with it
-  // those that need it.
+  // The picture of --plot would replace the earlier picture, so --plot and the options that need it
+  // are left out. `tabulate` draws its pictures beside the new table.
   for (const auto* option : {"--plot", "--width", "--font-size"})
     if (const auto place = value_of(command, '\0', option); place && command[1] != "tabulate") {
       const auto begin = command.begin() + static_cast<std::ptrdiff_t>(place->word);
@@ -134,11 +139,11 @@ std::vector<std::string> with_output(const RerunOptions& o, const results::Prove
   return command;
 }
 
-/// Changes the provenance for files that have moved to the folder `to`. Absolute paths below the
-/// folder in which the command ran become paths below `to`, so that the old folder is not used.
+/// Changes the provenance so that its command runs in the folder `to`, to which its files have
+/// moved. Absolute paths below the old folder, provenance.folder, become paths below `to`.
 void move_to(results::Provenance& provenance, const fs::path& to) {
   const std::string from = provenance.folder + "/";
-  // A provenance without a folder has no absolute paths either (without_folders).
+  // results::without_folders() removes the folder and all absolute paths together.
   const bool tells_folder = !provenance.folder.empty();
   const auto move = [&](std::string& word, std::size_t begin) {
     if (tells_folder && word.compare(begin, from.size(), from) == 0)
@@ -186,8 +191,8 @@ void rerun(const RerunOptions& o) {
                                 list));
   check_command(o.file, provenance->command);
   auto command = o.output.empty() ? provenance->command : with_output(o, *provenance);
-  // Rows that were computed elsewhere may have been deleted since: without --gather, the command
-  // computes the rows that are missing.
+  // --gather needs the rows of an array job, which may have been deleted since. Without --gather,
+  // the command computes the missing rows.
   std::erase(command, "--gather");
   if (const auto ours = provenance->versions.find("Viscontact");
       ours != provenance->versions.end() && ours->second != VISCONTACT_VERSION)
@@ -205,7 +210,7 @@ void rerun(const RerunOptions& o) {
     throw_bad_input({folder.string()}, fmt::format("the folder in which the file was made cannot "
                                                    "be entered ({})",
                                                    std::strerror(errno)));
-  // This same program is started, not the one that the recorded command names.
+  // The program that runs now is started, not the one that the recorded command names.
   std::vector<char*> arguments;
   for (auto& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);

@@ -1,6 +1,7 @@
 // The command lines of `run` (the main job) and of its last stages, `simulate`, `compare` and
-// `report` (docs/command-line.md). pipeline/ and report/ do the work. Errors are those of the
-// stages. A command must keep the folder into which it writes locked until it ends.
+// `report` (docs/command-line.md), which main.cpp adds. pipeline/ and report/ do the work, and the
+// commands throw their errors. A command must keep the folder into which it writes locked until it
+// ends, because two commands at once would mix their files.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -82,7 +83,7 @@ void add_simulate(CLI::App& app) {
     check_outputs({o->folder});
     check_models("--models", o->models);
     const case_file::Case c = case_file::read_case(o->case_file);
-    // For options that are not given, the case decides.
+    // If an option is not given, the section [fit] of the case decides.
     auto outside = c.fit.value_or(case_file::FitRequest{}).outside;
     if (limit->count() > 0)
       outside.below = o->lubrication_limit == "theory"
@@ -129,7 +130,8 @@ void add_compare(CLI::App& app) {
 
 namespace {
 
-/// Writes the page and the pictures of a folder again. Its results tell which command wrote them.
+/// Writes the page and the pictures of a folder again. The command that made the folder is
+/// recognised by the names of its files.
 void report_again(const std::filesystem::path& folder) {
   const auto has = [&](const char* name) {
     return std::filesystem::is_regular_file(folder / name);

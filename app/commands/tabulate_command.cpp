@@ -1,7 +1,8 @@
-// The command line of `tabulate` (docs/command-line.md), and the choice of what to do: compute all
-// rows here, compute the rows of one task, submit a job to Slurm, or gather the rows of such a job.
-// pipeline/tabulate/ does the work. Gaps are in the unit of the case. A wrong option is an
-// Error(kWrongUsage). A change must keep the names of the tables, which users' scripts read.
+// The command line of `tabulate` (docs/command-line.md), which main.cpp adds, and the choice of
+// what to do: compute all rows here, compute the rows of one task, submit a job to Slurm, or gather
+// the rows of such a job. pipeline/tabulate/ does the work. Gaps are in the unit of the case. A
+// wrong option is an Error(kWrongUsage). A change must keep the names of the tables, which users'
+// scripts read.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,20 +32,22 @@ namespace viscontact::app {
 
 namespace {
 
-/// The values of the options of `tabulate`; add_tabulate() says what each means.
+/// The values of the options of `tabulate`.
 struct TabulateOptions {
   std::vector<std::string> case_files,  ///< paths of the cases, at least one
-      motions;                          ///< names; empty: those of the cases
+      motions;                          ///< names of motions; empty: those of the cases
   std::string output,                   ///< path of the table or folder
       plot;                             ///< gaps separated by commas; may be empty
-  ArrayOptions array;                   ///< of a job on a cluster
+  ArrayOptions array;                   ///< the options of a job on a cluster
   int jobs = default_jobs();            ///< number of rows at once, >= 1
-  bool dry_run = false, json = false;
-  /// CLI11's objects of --jobs and --plot, which tell whether an option was given.
+  bool dry_run = false,                 ///< true: says how long the rows take, computes none
+      json = false;                     ///< true: says it as JSON
+  /// CLI11's objects of --jobs and --plot, whose count() is 0 if the option was not given.
   const CLI::Option *jobs_option = nullptr, *plot_option = nullptr;
 };
 
-/// Reads the gaps of --plot. Throws Error(kWrongUsage) for a word that is not a number.
+/// Reads the gaps [L] of --plot; gaps_to_picture() checks them. Throws Error(kWrongUsage) for a
+/// word that is not a number.
 std::vector<double> read_gaps(const std::string& text) {
   std::vector<double> gaps;
   std::istringstream words(text);
@@ -60,7 +63,7 @@ std::vector<double> read_gaps(const std::string& text) {
   return gaps;
 }
 
-/// The option --motion, if it was given, for the tasks of a job.
+/// The words "--motion NAMES" for the command line of the tasks of a job; none without --motion.
 std::vector<std::string> motion_words(const TabulateOptions& o) {
   if (o.motions.empty()) return {};
   return {"--motion", fmt::format("{}", fmt::join(o.motions, ","))};

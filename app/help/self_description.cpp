@@ -1,7 +1,8 @@
-// Writes the completion scripts for bash and zsh, and the manual page in the language roff. Texts
-// of options must pass through zsh_description() and quoted(), because they contain special
-// characters. Nothing is thrown. help2man cannot make the page, because it reads one --help, and
-// each command has its own.
+// Writes the completion scripts for bash and zsh, and the manual page in the language roff
+// (self_description.hpp). Descriptions of options contain special characters; before a change puts
+// one into a script or the page, it must pass it through zsh_description() and quoted(), or
+// escaped(). Nothing is thrown. help2man is not used for the page, because it reads one --help, and
+// here each command has its own.
 #include "viscontact/app/help/self_description.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ std::vector<std::string> names_of_option(const CLI::Option& option) {
   return names;
 }
 
-/// The words that the option's value can be, if it is a choice of words; otherwise empty.
+/// The words that the option's value can be, if it is one or a list of known words; else empty.
 std::vector<std::string> words_for(const CLI::Option& option) {
   std::string type = option.get_type_name();
   if (type == kModel || type == kModels) type = names_of(reduced_model::all_models(), "|");
@@ -53,7 +54,7 @@ std::string bash_offer(const CLI::Option& option) {
   return "";
 }
 
-/// The text as it must be written within single quotes of a shell.
+/// The text as it must be written between single quotes in a shell script.
 std::string quoted(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -70,6 +71,7 @@ std::string zsh_description(const std::string& text) {
   return result;
 }
 
+/// Zsh code that offers the possible values of the option; a blank if they are not known.
 std::string zsh_action(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (type == kFile) return "_files";

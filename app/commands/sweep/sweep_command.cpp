@@ -1,6 +1,7 @@
-// The command `sweep` (docs/command-line.md): its command line, and what its picture shows. Numbers
-// have the units of the case. A wrong option is an Error(kWrongUsage). A change must keep that the
-// command line decides before the section [sweep] of the case.
+// The command `sweep` (docs/command-line.md), which main.cpp adds: its command line, and what its
+// picture shows. Numbers have the units of the case. A wrong option is an Error(kWrongUsage). A
+// change must keep that an option of the command line takes precedence over the section [sweep] of
+// the case.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,10 +40,10 @@ void add_picture_options(CLI::App& command, SweepOptions& o) {
       ->delimiter(',');
 }
 
-/// What to draw. Options of the command line decide. Where they are missing, the section [sweep] of
-/// the case decides, provided that the sweep has the keys and columns that it names; otherwise the
-/// first varied keys are the axes, and the columns are those that the kind of the case draws.
-/// Throws Error(kWrongUsage) if a map of random samples was asked for.
+/// What to draw. Options of the command line decide. If they are missing, the section [sweep] of
+/// the case decides, provided that the sweep has the keys and columns that it names. Otherwise the
+/// first varied keys are the axes, and the columns are s.columns. Throws Error(kWrongUsage) if no
+/// key is varied, or if a map of random samples was asked for.
 report::SweepPlot picture_of(const SweepOptions& o, const CaseStudy& s) {
   const auto& request = s.request;
   const auto& points = s.study.points;
@@ -85,7 +86,8 @@ report::SweepPlot picture_of(const SweepOptions& o, const CaseStudy& s) {
   return picture;
 }
 
-/// Throws Error(kWrongUsage) if the sweep does not have the axes and columns of the picture.
+/// Throws Error(kWrongUsage) if the sweep does not have the axes and columns of the picture, or if
+/// the picture would have more than 14 lines.
 void check_columns(const report::SweepPlot& picture, const sweep::Study& study) {
   const auto columns = study.columns();
   const auto& points = study.points;
@@ -109,7 +111,7 @@ void check_columns(const report::SweepPlot& picture, const sweep::Study& study) 
   auto lines = static_cast<double>(picture.columns.size());
   for (const auto& v : points.variations)
     if (std::ranges::count(picture.others, v.key) > 0) lines *= static_cast<double>(v.count);
-  constexpr double kMostLines = 14;  // twice the colours; the legend would fill the picture
+  constexpr double kMostLines = 14;  // each of the 7 colours twice; more lines are unreadable
   if (picture.y.empty() && lines > kMostLines)
     throw Error(ErrorKind::kWrongUsage,
                 fmt::format("the plot would have {} lines over {}; at most {} are allowed, so draw "
@@ -122,7 +124,8 @@ void check_columns(const report::SweepPlot& picture, const sweep::Study& study) 
   }
 }
 
-/// The picture that is asked for, if any, checked before rows are computed.
+/// The picture that --plot asks for, or nothing without --plot. Called before rows are computed,
+/// because it throws the errors of picture_of() and check_columns().
 std::optional<report::SweepPlot> checked_picture(const SweepOptions& o, const CaseStudy& s) {
   if (o.plot.path.empty()) return {};
   auto picture = picture_of(o, s);
@@ -130,7 +133,8 @@ std::optional<report::SweepPlot> checked_picture(const SweepOptions& o, const Ca
   return picture;
 }
 
-/// Draws the picture of the rows, or of their means, in `file`.
+/// Draws the picture from the CSV `file`, which contains the rows of the sweep, or their means over
+/// random arrangements of particles.
 void draw(const SweepOptions& o, const CaseStudy& s, const report::SweepPlot& picture,
           const std::filesystem::path& file) {
   const auto format = o.plot.format();
@@ -150,7 +154,8 @@ void run_particles_sweep(const SweepOptions& o) {
                               : std::filesystem::path(o.output));
 }
 
-/// Computes the rows of a study and draws its picture, or says how long that takes.
+/// Computes the rows of a study and draws its picture. With --dry-run it prints instead how long
+/// that takes.
 void run_study(const SweepOptions& o, const CaseStudy& s) {
   const auto picture = checked_picture(o, s);
   if (o.dry_run) {
@@ -165,7 +170,7 @@ void run_study(const SweepOptions& o, const CaseStudy& s) {
 
 void run_sweep(const SweepOptions& o) {
   check_array_options(o.array);
-  // A name that no kind of case has is wrong whatever the case is.
+  // A name that is no model of any kind of case is refused before the case is read.
   for (const auto& model : o.models)
     if (find_named(rolling::rolling_models(), model) == nullptr) check_models("--models", {model});
   check_outputs(o.plot.path.empty() ? std::vector{o.output} : std::vector{o.output, o.plot.path});
@@ -200,7 +205,7 @@ void add_sweep(CLI::App& app) {
             "sphere.mass, motion.external_force[0].value; several --vary make a grid")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  // The limit is kMostPoints of sweep/variation.cpp.
+  // The limit is kMostPoints of sweep/variation.cpp; that of --draws below is a free choice.
   add_value(*command, "--samples", o->samples, "N",
             "number of random points in the ranges, in place of the grid")
       ->check(CLI::Range(1.0, 1e12));

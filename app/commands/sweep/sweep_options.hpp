@@ -1,6 +1,7 @@
 // The options of `sweep`, and the functions that turn options into a study (the points of the sweep
-// and the function that computes the row of a point), one for each kind of case. The commands of
-// this folder use them. docs/command-line.md describes the options, whose names must stay.
+// and the function that computes the row of a point), one for each kind of case. Numbers are in the
+// units of the case. Used by the two sources of this folder. docs/command-line.md describes the
+// options, whose names must stay.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,8 @@
 
 namespace viscontact::app {
 
-/// The values of the options. Each member has the name of its option. An empty text or list, or the
-/// number 0, means that the option was not given, and that the section [sweep] of the case decides.
+/// The values of the options, each named after its option. An empty text or list, or the number 0,
+/// means that the option was not given; the section [sweep] of the case or a default then decides.
 struct SweepOptions {
   std::string case_file,          ///< path of the case
       fit,                        ///< path of a fit file
@@ -28,12 +29,14 @@ struct SweepOptions {
       columns;                    ///< columns that are drawn
   results::PictureRequest plot;   ///< the picture
   std::uint64_t samples = 0,      ///< number of random points
-      seed = 1,                   ///< of the random points
+      seed = 1,                   ///< seed of the random points
       draws = 0;                  ///< number of random arrangements at each point
   int jobs = default_jobs();      ///< number of rows at once, >= 1
   ArrayOptions array;             ///< how the rows are divided among the jobs of a cluster
-  bool dry_run = false, json = false, keep_runs = false;
-  const CLI::Option* jobs_option = nullptr;  ///< CLI11's object of --jobs
+  bool dry_run = false,           ///< true: says how long the rows take, computes none
+      json = false,               ///< true: says it as JSON
+      keep_runs = false;          ///< true: keeps the files of runs of particles
+  const CLI::Option* jobs_option = nullptr;  ///< tells whether --jobs was given
 };
 
 /// The study of a case with these options, and what is needed to write its files and messages.
@@ -45,8 +48,9 @@ struct CaseStudy {
   std::vector<std::string> columns{};  ///< columns that are drawn if nothing else is asked for
 };
 
-/// Each of these makes the study of a kind of case. Throws Error(kWrongUsage) for options that this
-/// kind does not have, and Error(kBadInput) if o.output is a file that is no sweep of this kind.
+/// Each of these functions makes the study of the case o.case_file, which must be of its kind. They
+/// throw Error(kWrongUsage) for options that this kind does not have, and Error(kBadInput) if the
+/// case is wrong or if o.output is a file that is no sweep of this kind.
 CaseStudy study_of_sphere(const SweepOptions& o);
 CaseStudy study_of_swimmer(const SweepOptions& o);
 CaseStudy study_of_rolling_sphere(const SweepOptions& o);
@@ -55,8 +59,8 @@ CaseStudy study_of_rolling_sphere(const SweepOptions& o);
 particles::ParticlesSweep sweep_of_particles(const SweepOptions& o);
 /// The study of these rows for a picture only: it cannot compute rows.
 CaseStudy study_of_particles(const particles::ParticlesSweep& sweep);
-/// Computes the rows here, submits them to a cluster, or collects those that the cluster has
-/// finished.
+/// Computes the rows here, submits them to a cluster (--launcher slurm), computes those of one task
+/// (--task), or collects finished rows (--gather). With --dry-run prints how long the rows take.
 void sweep_many_particles(const SweepOptions& o, const particles::ParticlesSweep& sweep);
 
 }  // namespace viscontact::app

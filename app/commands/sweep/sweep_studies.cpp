@@ -1,7 +1,8 @@
-// The studies of `sweep` from its options, for each kind of case (sweep_options.hpp). Options of
-// the command line decide; for those that are missing, the section [sweep] of the case decides. A
-// wrong option is an Error(kWrongUsage), a wrong case an Error(kBadInput). Rows are computed by
-// sweep/, and runs of particles by particles/sweep/. Used by sweep_command.cpp.
+// Turns the options of `sweep` into a study, for each kind of case (sweep_options.hpp); used by
+// sweep_command.cpp. Options of the command line decide; for those that are missing, the section
+// [sweep] of the case decides. A wrong option is an Error(kWrongUsage), a wrong case an
+// Error(kBadInput). Rows are computed by sweep/, and runs of particles by particles/sweep/. A
+// change must keep the texts given to refuse_other_kind(), which stand in the heads of the files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@
 namespace viscontact::app {
 namespace {
 
-/// Sets the points that the command line gives.
+/// Replaces those points of the case that --vary, --samples and --seed give.
 void set_points(const SweepOptions& o, sweep::Points& points) {
   if (!o.vary.empty()) points.variations.clear();
   for (const auto& text : o.vary)
@@ -46,7 +47,8 @@ sweep::SpherePlan sphere_plan(const SweepOptions& o, const case_file::Case& c) {
   set_points(o, plan.points);
   if (!o.models.empty()) {
     plan.models = o.models;
-    // The reference of the case need not be among the models of the command line.
+    // If --models leaves out the reference model of the case, the study takes another reference
+    // (reduced_model::reference_of()).
     if (std::ranges::find(plan.models, plan.reference) == plan.models.end()) plan.reference.clear();
   }
   if (!o.reference.empty()) plan.reference = o.reference;
@@ -168,7 +170,8 @@ void sweep_many_particles(const SweepOptions& o, const particles::ParticlesSweep
                                              interrupt_token())},
                          o.jobs, o.json));
   } else if (o.array.is_slurm()) {
-    // The tasks read the section [sweep] of the case, too, so only given options are passed on.
+    // Each task reads the section [sweep] of the case itself, so it gets only the options that were
+    // given, and the seed, which always has a value.
     std::vector<std::string> options;
     for (const auto& text : o.vary) options.insert(options.end(), {"--vary", text});
     if (o.samples > 0) options.insert(options.end(), {"--samples", std::to_string(o.samples)});
