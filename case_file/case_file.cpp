@@ -1,7 +1,7 @@
 // Reads the case file of one sphere (case_file.hpp). Numbers are in the units of the case. A wrong
 // value is an Error(kBadInput) with its line. A change must keep the keys and their defaults,
-// because users have written cases with them. A new parameter of a model needs no change here,
-// because the registry of models names them.
+// because users have written cases with them; it changes the tables of docs/case-file.md. A new
+// parameter of a model needs no change here, because reduced_model/models/ lists the parameters.
 #include "viscontact/case_file/case_file.hpp"
 
 #include <cmath>
@@ -26,7 +26,8 @@ using lubrication::BelowInterval;
 using reduced_model::ExternalForce;
 using reduced_model::Motion;
 
-/// The fixed coefficient of 1/q: "theory", or a number.
+/// Reads the key `fix`, which fixes the coefficient of 1/q (q: the gap) in the force [M L^2/T^2] at
+/// a number, or with "theory" at the value of lubrication theory.
 void read_fix(const TomlSection& section, std::string_view key, fitting::FitSettings& settings) {
   settings.fix_leading = true;
   if (!section.is_text(key))
@@ -56,7 +57,7 @@ void fit_keys(Keys& keys, FitRequest& fit, const fs::path& folder) {
       !keys.optional("exact", custom("`\"plane\"`", read_exact),
                      {.meaning = "the exact drag near a plane in a half-space, in place of a fit",
                       .example = "\"plane\""})) {
-    // The defaults are those of the command `fit`.
+    // A key that is left out has the same default as the option of the command `fit`.
     const bool has_terms = keys.optional(
         "terms", parsed("such as `\"1/q, ln q, 1\"`", settings.basis, lubrication::parse_terms),
         {.meaning = "your own list of the terms that are fitted, in one text, in place of `basis`",
@@ -96,7 +97,8 @@ void fit_keys(Keys& keys, FitRequest& fit, const fs::path& folder) {
       {"the drag at gaps above the interval of the fit", "an error", {}, "\"stokes_limit\""});
 }
 
-/// A piece of the force, which begins at the time at which the piece before it ends.
+/// The keys of a piece of the external force: `until` [T], and `value` [M L/T^2] or a polynomial of
+/// the time. The piece begins at the time at which the piece before it ends.
 void piece_keys(Keys& keys, ExternalForce::Piece& piece) {
   keys.required("until", number(piece.until, kPositive),
                 {"end of a piece of the force; the pieces follow each other from time 0"});
@@ -128,12 +130,12 @@ void force_file_keys(Keys& keys, std::string& file) {
   keys.required("file", text(file), {"CSV file with the columns `time,force`"});
 }
 
-/// The path of a file that the case names relative to its folder. If there is no such file, but the
-/// folder of the case itself has a file of this name, the path of that file: a run keeps copies of
-/// the case and of the files that it names side by side.
+/// The path of a file that the case names relative to `folder`, the folder of the case. If there is
+/// no such file, but `folder` itself contains a file of this name, returns the path of the latter,
+/// because a run copies the case and the files that it names into one folder.
 fs::path force_file(const fs::path& folder, const fs::path& file) {
   const auto copy = folder / file.filename();
-  // An error means that no file can have this name; reading the file reports it.
+  // exists() fails for a text that cannot be the name of a file; reading the file reports it.
   std::error_code ignored;
   return !fs::exists(folder / file, ignored) && fs::exists(copy, ignored) ? copy : folder / file;
 }
@@ -175,7 +177,7 @@ auto models(std::vector<std::string>& place) {
   });
 }
 
-/// The keys of [motion]. `time_scale` [1] is set to 1 if the case does not give it.
+/// The keys of [motion]. `time_scale` [1], > 0, keeps its value if the case does not give it.
 void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
   keys.required("end_time", number(motion.end_time, kPositive),
                 {.meaning = "end of the motion", .example = "4.0"});
@@ -237,8 +239,9 @@ void read_roughness(const TomlSection& section, std::string_view key, const doub
   place = {heights[0], heights[1]};
 }
 
-/// The parameters of models that are in one section, and the roughness, which is a property of the
-/// surfaces and no parameter of a model. Each parameter of the motion has its default already.
+/// The keys of `section`: those parameters of models that belong to this section, and in one
+/// section the roughness, which is a property of the surfaces and no parameter of a model. The
+/// caller has given each parameter of the motion its default (set_default_parameters).
 void model_keys(Keys& keys, Case& c, Motion& motion, std::string_view section) {
   const double radius = c.radius;
   for (const auto& parameter : reduced_model::model_parameters()) {
@@ -273,7 +276,8 @@ void set_default_parameters(Motion& motion, double radius) {
   for (std::size_t i = 0; i < values.size(); ++i) motion.set(parameters[i], values[i]);
 }
 
-/// Multiplies all times of the motion by a factor.
+/// Multiplies all times of the motion by `scale` > 0. Throws Error(kBadInput) if a time is then no
+/// normal double.
 void stretch(const TomlSection& section, double scale, Motion& motion) {
   bool representable = std::isnormal(motion.end_time);
   const auto stretched = [&](double time) {
@@ -357,7 +361,7 @@ template <>
 Case case_of_root(const TomlSection& root, std::string text, const fs::path& path) {
   auto c = titled_case<Case>(root, std::move(text), path, true);
   read_keys(root.section("fluid"), fluid_keys, c.viscosity, c.fluid_density);
-  double mass = 1;  // only the motion depends on it
+  double mass = 1;  // without [motion] nothing depends on the mass
   const bool needs_mass = root.has("motion");
   read_keys(root.section("sphere"), sphere_keys, c.radius, c.density, mass, needs_mass);
   if (root.has("tabulation"))
@@ -369,7 +373,7 @@ Case case_of_root(const TomlSection& root, std::string text, const fs::path& pat
     read_keys(root.section("published"), published_keys, c.published.emplace());
   check_exact_drag(root, c);
   if (root.has("sweep")) read_keys(root.section("sweep"), sweep_keys, c.sweep.emplace());
-  // Without [motion] these sections are not read, but they are allowed.
+  // has() makes finish() accept these sections, which a case without [motion] may have, too.
   for (const auto& name : reduced_model::model_sections()) (void)root.has(name);
   root.finish();
   return c;
@@ -401,7 +405,8 @@ std::vector<std::string_view> sections_with_defaults<Case>() {
 Case read_case(const fs::path& path) { return read_case_file<Case>(path); }
 
 std::vector<KeyTable> tables_of_sphere_case() {
-  // The example of a model's parameter is its default for the motion with the other examples.
+  // The page shows as example of a model's parameter its default, which can depend on the motion
+  // and the radius. Here they have the values that are the examples of their own keys.
   auto motion = empty_motion();
   motion.end_time = 4;
   motion.initial_gap = 1;

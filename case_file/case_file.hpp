@@ -1,7 +1,7 @@
 // A case file (TOML, docs/case-file.md): one sphere in a fluid, and what is to be computed for it.
 // Lengths, masses and times are in any consistent units. Keys are declared in case_file.cpp
-// (keys.hpp). The stages of the main job (pipeline/) and sweeps read it. A change must keep
-// accepting the cases that users have written.
+// (keys.hpp). The commands of app/ and the parts pipeline/, sweep/, report/, results/ and python/
+// read it. A change must keep accepting the cases that users have written.
 #pragma once
 
 #include <cstdint>
@@ -61,14 +61,14 @@ struct Case {
   std::string text;                 ///< content of the file
   // Each of these parts exists only if the file has its section. A command that needs a part calls
   // a required_... function below.
-  std::optional<freefem_axi::Tabulation> tabulation;  ///< [tabulation]
-  std::optional<FitRequest> fit;                      ///< [fit]
-  /// [motion], with the settings of the models, or their defaults.
+  std::optional<freefem_axi::Tabulation> tabulation;  ///< section [tabulation]
+  std::optional<FitRequest> fit;                      ///< section [fit]
+  /// Section [motion], with the parameters of the models (defaults if the case does not give them).
   std::optional<reduced_model::Motion> motion;
   /// Names of the models to run; empty: the default models of the registry.
   std::vector<std::string> models;
-  std::optional<PublishedGap> published;           ///< [published]
-  std::optional<SweepRequest> sweep;               ///< [sweep]
+  std::optional<PublishedGap> published;           ///< section [published]
+  std::optional<SweepRequest> sweep;               ///< section [sweep]
   std::filesystem::path path;                      ///< the case file, as read_case() was given it
   std::vector<std::filesystem::path> force_files;  ///< files from which the external force was read
 };
@@ -81,16 +81,17 @@ Case read_case(const std::filesystem::path& path);
 template <>
 Case case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
 
-/// The sections with parameters of models.
+/// Names of the sections with parameters of models, which all have defaults.
 template <>
 std::vector<std::string_view> sections_with_defaults<Case>();
 
 /// The fit, scaled to radius and viscosity of the case (lubrication/scaling.hpp). `file`, from
-/// which it was read, is named in messages. Throws Error(kBadInput) if the radius is another one
-/// and the case has a tabulation with another geometry or container, in units of the radius.
+/// which it was read, is named in messages. Throws Error(kBadInput) if the fit was made for another
+/// radius and, divided by the radius, lengths of its geometry or container differ from those of the
+/// case's tabulation.
 lubrication::Fit fit_for(const Case& c, lubrication::Fit fit, const std::filesystem::path& file);
 
-/// What docs/case-file.md says about the keys of each section.
+/// What docs/case-file.md says about the keys of each section, in the order of the page.
 std::vector<KeyTable> tables_of_sphere_case();
 
 /// The tabulation of a case. Throws Error(kBadInput), which names the missing section, if there is

@@ -1,5 +1,6 @@
-// The keys that all kinds of cases have (case_template.hpp). A wrong value is an Error(kBadInput).
-// A change must keep accepting users' cases.
+// The keys that all kinds of cases have (case_template.hpp): `units`, and those of [sweep] that
+// choose points and picture. A wrong value is an Error(kBadInput) with file and line. A change must
+// keep accepting users' cases, and changes the tables of docs/case-file.md.
 #include "viscontact/case_file/case_template.hpp"
 
 #include "viscontact/case_file/keys.hpp"
@@ -7,8 +8,8 @@
 namespace viscontact::case_file {
 namespace {
 
-/// The word for a unit: 1 to 20 bytes, without blanks and characters that pages and gnuplot read as
-/// commands.
+/// Reads the word for a unit: 1 to 20 bytes, without blanks and characters that HTML pages or
+/// gnuplot read as commands. Any limit that keeps the labels of axes short works.
 void read_unit(const TomlSection& section, std::string_view key, std::string& word) {
   word = section.text(key);
   constexpr std::size_t kLongest = 20;

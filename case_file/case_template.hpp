@@ -1,6 +1,8 @@
 // The parts that all kinds of cases share for sweeps: the section [sweep], and a case file that is
-// read once and from which cases with other numbers are made. Numbers have the units of the case. A
-// kind of case takes part by a specialisation of case_of_root(), which its own header declares.
+// read once and from which cases with other numbers are made. Numbers have the units of the case.
+// Each kind of case (case_file.hpp, and those in particles/, rolling/ and swimmer/) takes part by a
+// specialisation of case_of_root(), which its own header declares; the command `sweep` uses all. A
+// change must keep accepting users' cases.
 #pragma once
 
 #include <cstdint>
@@ -46,8 +48,8 @@ KeyTable table_of_units();
 template <class CaseType>
 CaseType case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
 
-/// A case with the text, the path, the title and the units of its file. Only with `needs_title` it
-/// must have a title.
+/// A case with the text, the path, the title and the units of its file, and nothing else. Throws
+/// Error(kBadInput) if the title is missing although `needs_title`, and the error of read_units().
 template <class CaseType>
 CaseType titled_case(const TomlSection& root, std::string text, const std::filesystem::path& path,
                      bool needs_title = false) {
@@ -59,7 +61,8 @@ CaseType titled_case(const TomlSection& root, std::string text, const std::files
   return c;
 }
 
-/// Names of sections that a case may leave out although `--vary` may name their keys.
+/// Names of sections whose keys `sweep --vary` may set although the case file leaves the section
+/// out, because all of its keys have defaults.
 template <class CaseType>
 std::vector<std::string_view> sections_with_defaults() {
   return {};

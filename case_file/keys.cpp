@@ -1,6 +1,7 @@
-// The tables that declarations of keys make for docs/case-file.md, and the case of `init`
-// (keys.hpp). Examples have the units of the case; nothing is thrown. A change alters that page,
-// whose test says so.
+// Makes the tables of docs/case-file.md and the case that the command `init` writes from
+// declarations of keys (keys.hpp). Examples have the units of the case. Reading throws the
+// Error(kBadInput) of TomlSection; describing throws nothing. A change alters that page, whose test
+// CaseFilePage then fails.
 #include "viscontact/case_file/keys.hpp"
 
 #include <regex>
@@ -17,7 +18,7 @@ std::string plain(const std::string& markdown) {
   return text;
 }
 
-/// A text as lines of comment of at most 100 characters.
+/// A text as lines of a TOML comment, of at most 100 characters, as in all files of the project.
 std::string comment(const std::string& text) {
   constexpr std::size_t kWidth = 100;
   std::string lines, line = "#";
@@ -97,7 +98,7 @@ void Keys::describe(std::string_view key, const KeyValue& value, std::string fal
 
 std::string number_in_words(double number) {
   auto text = fmt::format("{}", number);
-  // fmt writes exponents with two digits at least.
+  // fmt writes exponents with at least two digits; "1e-06" becomes "1e-6".
   if (const auto at = text.find("e-0"); at != std::string::npos) text.erase(at + 2, 1);
   return text;
 }

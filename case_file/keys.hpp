@@ -10,8 +10,9 @@
 //     read_keys(root.section("solver"), solver_keys, settings);
 //     describe_keys("[solver]", solver_keys);
 //
-// All readers of cases use it. Values have the units of the case. After a change of a declaration
-// the tables of the page must be made again; the test CaseFilePage makes them and says where.
+// The readers of cases in case_file/, particles/, rolling/ and swimmer/ use it. Values have the
+// units of the case. After a change of a declaration the tables of docs/case-file.md must be made
+// again; the test CaseFilePage makes them and says where.
 #pragma once
 
 #include <algorithm>
@@ -45,7 +46,7 @@ auto at_key(const TomlSection& section, std::string_view key, const Check& check
 
 /// What the tables of docs/case-file.md say about a section.
 struct KeyTable {
-  /// What they say about a key, in Markdown.
+  /// A row of such a table, which describes a key in Markdown.
   struct Row {
     std::string key;       ///< its name
     std::string value;     ///< which values are allowed
@@ -61,19 +62,21 @@ struct KeyTable {
 };
 
 /// The text of a case with these sections, for `viscontact init`: each key has a value as an
-/// example, under a comment with its meaning. Keys with a default are commented out. Sections that
-/// lack an example of a required key are left out, and so are tables of keys within a value.
+/// example, under a comment with its meaning. Keys with a default are commented out. A table is
+/// left out if a required key has no example, or if its name does not begin with "[", because it
+/// then describes keys within a value.
 std::string commented_case(std::span<const KeyTable> tables);
 
 /// What a declaration says about a key in words, in Markdown.
 struct Help {
   std::string_view meaning = {};   ///< what the key does
-  std::string_view fallback = {};  ///< the default, if it is not that of the struct
+  std::string_view fallback = {};  ///< the default, if the place does not have it
   std::string_view value = {};     ///< the allowed values, if those of the type do not say it all
   std::string_view example = {};   ///< for `viscontact init`, if it is not the default
 };
 
-/// How the value of a key is read and described. It refers to the place into which it reads.
+/// How the value of a key is read and described. It refers to the place into which it reads, such
+/// as a member of a struct, which must outlive it.
 struct KeyValue {
   /// Reads the value of a key that the section has.
   std::function<void(const TomlSection& section, std::string_view key)> read;
@@ -82,11 +85,12 @@ struct KeyValue {
   std::function<std::string()> fallback = [] { return std::string(); };
 };
 
-/// The visitor of declarations. It either reads the keys of a section, or describes them.
+/// The first argument of a declaration. It either reads the keys of a section into their places, or
+/// describes them in a table.
 class Keys {
  public:
-  explicit Keys(const TomlSection& section) : section_(&section) {}  ///< reads this section
-  explicit Keys(KeyTable& table) : table_(&table) {}                 ///< adds rows to this table
+  explicit Keys(const TomlSection& section) : section_(&section) {}  ///< for reading this section
+  explicit Keys(KeyTable& table) : table_(&table) {}                 ///< for describing: adds rows
 
   bool reads() const { return section_ != nullptr; }        ///< true: reads; false: describes
   const TomlSection& section() const { return *section_; }  ///< only if it reads
@@ -126,8 +130,8 @@ void read_keys(const TomlSection& section, const Declaration& declaration, Place
   section.finish();
 }
 
-/// Describes a section by its declaration, whose first place is new and has the defaults; `more`
-/// are its other places.
+/// The table of `section`, with a row for each key that `declaration` declares. Its first place is
+/// a new object, whose values are the defaults in the table; `more` are its other places.
 template <class Place, class... More>
 KeyTable describe_keys(std::string section, void (*declaration)(Keys&, Place&, More...),
                        std::type_identity_t<More>... more) {
@@ -152,7 +156,7 @@ std::string number_in_words(double number);
 
 // Values of keys. They refer to their arguments, which must live until the key is declared.
 
-/// A value that `read` reads, described by `words`. `read` gets the section, the key and the
+/// A value that is described by `words`, and that read(section, key, places...) reads into the
 /// places.
 template <class Read, class... Places>
 KeyValue custom(std::string_view words, Read read, Places&... places) {
@@ -162,7 +166,8 @@ KeyValue custom(std::string_view words, Read read, Places&... places) {
           [words] { return std::string(words); }};
 }
 
-/// A number. `place` is a double, an optional one, which has no default, or a whole number.
+/// A number that is `allowed`. `place` is a double, a whole number, or a std::optional<double>,
+/// which shows no default in the tables.
 template <class Place>
 KeyValue number(Place& place, const Allowed& allowed) {
   return {[&](const TomlSection& section, std::string_view key) {
@@ -190,7 +195,7 @@ KeyValue count(Place& place, int least, int most) {
 KeyValue text(std::string& place);
 /// A list of at least one text.
 KeyValue texts(std::vector<std::string>& place);
-/// A list of at least one number.
+/// A list of at least one number, each of which is `allowed`.
 KeyValue numbers(std::vector<double>& place, const Allowed& allowed, std::string_view words);
 
 /// A text that `parse` turns into the value, or refuses with an Error.

@@ -1,7 +1,7 @@
-// Reads [fluid] and [sphere] of one sphere, [tabulation], with gaps, velocities, geometry and
-// container, and keys of [sweep] (shared_sections.hpp). Lengths are in the unit of the case. A
-// wrong value is an Error(kBadInput) with its line. A change must keep the gaps of a grid bit for
-// bit, because finished rows and tables are found again by their gaps.
+// Reads the sections [fluid], [sphere] and [tabulation] (gaps, velocities, geometry, container) of
+// one sphere (shared_sections.hpp). Lengths are in the unit of the case. A wrong value is an
+// Error(kBadInput) with its line. A change must keep the gaps of a grid bit for bit, because
+// finished rows and tables are found again by their gaps.
 #include "viscontact/case_file/shared_sections.hpp"
 
 #include <algorithm>
@@ -25,7 +25,8 @@ constexpr double kSmallestGap = 1e-8;
 
 double ball_volume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
-/// Gaps from `from` to `to` [L], with equal ratios or equal differences.
+/// `count` >= 2 gaps from `from` > 0 to `to` > `from` [L], with equal ratios of neighbours if
+/// is_logarithmic, else with equal differences.
 struct GapGrid {
   double from = 0, to = 0;
   int count = 0;
@@ -40,7 +41,7 @@ void grid_keys(Keys& keys, GapGrid& grid) {
                 {"equal ratios of neighbours, or equal differences"});
 }
 
-/// A list of gaps [L], or a grid. They are put into rising order.
+/// Reads a list of gaps [L], or a grid, into tabulation.gaps, in rising order.
 void read_gaps(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
   auto& gaps = tabulation.gaps;
   if (section.is_array(key)) {
@@ -66,7 +67,7 @@ void read_gaps(const TomlSection& section, std::string_view key, Tabulation& tab
                 count, from, to);
 }
 
-/// The keys that are parameters of a geometry.
+/// The keys of tabulation.geometry that are parameters of this geometry, which has a row for each.
 void geometry_keys(Keys& keys, Tabulation& tabulation, const freefem_axi::Geometry& geometry) {
   for (const auto& parameter : geometry.parameters) {
     double& value = tabulation.geometry_parameters.emplace_back(parameter.fallback.value_or(0));
@@ -90,7 +91,8 @@ void container_keys(Keys& keys, Container& container) {
   keys.required("height", number(container.height, kPositive), {"distance of its ends"});
 }
 
-/// Reads a container, which must contain the sphere and its neighbour at every gap.
+/// Reads a container. Throws Error(kBadInput) if the sphere and its neighbour, such as a plane, do
+/// not fit into it at every gap.
 void read_container(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
   const auto& geometry = freefem_axi::find_geometry(tabulation.geometry);
   section.require(geometry.takes_container, key,
@@ -125,7 +127,7 @@ void read_container(const TomlSection& section, std::string_view key, Tabulation
   tabulation.container = container;
 }
 
-/// A name, a list of names, or "all", every motion that the geometry has.
+/// Reads the motions: a name, a list of names, or "all", which are all motions of the geometry.
 void read_motions(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
   const auto names = section.is_array(key) ? section.texts(key) : std::vector{section.text(key)};
   tabulation.motions =
@@ -141,7 +143,8 @@ void check_gaps(const TomlSection& section, const Tabulation& tabulation) {
                          .required_space(tabulation.radius, widest, tabulation.geometry_parameters);
   section.require(space.largest_gap > 0, "geometry",
                   "leaves no room for the sphere; give it a larger radius");
-  // largest_gap is the difference of two lengths. A gap may exceed it by rounding errors.
+  // largest_gap is the difference of two lengths, so that a gap of this size may exceed it by
+  // rounding errors.
   section.require(widest <= space.largest_gap * (1 + 1e-12), "gaps",
                   "goes up to {}; in this {} a gap must be at most {}", widest, tabulation.geometry,
                   space.largest_gap);

@@ -1,6 +1,6 @@
-// Sections that cases of one sphere and of a rolling one share (docs/case-file.md): [tabulation],
-// and what both have in [sweep]. Lengths, masses and times are in the units of the case.
-// case_file.cpp and rolling_case.cpp call it. A change must keep accepting users' cases.
+// Sections that cases of one sphere and of a rolling one share (docs/case-file.md): [fluid],
+// [sphere] and [tabulation]. Lengths, masses and times are in the units of the case. case_file.cpp
+// and rolling_case.cpp call it. A change must keep accepting users' cases.
 #pragma once
 
 #include <vector>
@@ -21,7 +21,7 @@ freefem_axi::Tabulation read_tabulation(const TomlSection& section, double visco
 std::vector<KeyTable> tables_of_tabulation();
 
 /// Declares the keys of [fluid] of a case of one sphere: its viscosity [M/(L T)], > 0, and its
-/// density [M/L^3], >= 0, which is 0 if the case does not give it.
+/// `density` [M/L^3], >= 0, which stays as it is if the case does not give it.
 void fluid_keys(Keys& keys, double& viscosity, double& density);
 
 /// Declares the keys of [sphere] that give its radius [L], > 0, and its mass [M], > 0, or its
@@ -29,8 +29,9 @@ void fluid_keys(Keys& keys, double& viscosity, double& density);
 /// the mass. With `needs_mass` the case must give one of the two.
 void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool needs_mass);
 
-/// The mass [M] of a sphere minus that of the fluid which it displaces, on which gravity acts
-/// (physics.md (4.15)). The volume of the sphere is in [L^3]. It is 0 if both densities are equal.
+/// The mass [M] of a sphere minus that of the fluid which it displaces: times the acceleration of
+/// gravity, it is the weight less buoyancy (physics.md (4.15)). It is 0 if both densities are equal
+/// and negative if the fluid is denser. `mass` [M], `fluid_density` [M/L^3], `radius` [L].
 double mass_less_displaced_fluid(double mass, double fluid_density, double radius);
 
 }  // namespace viscontact::case_file

@@ -1,6 +1,6 @@
-// Reads TOML tables with toml++ (toml_section.hpp). Every fault is an Error(kBadInput) with file
-// and line. Every function that reads a key must note it in `asked`, because finish() reports all
-// other keys as unknown.
+// Reads TOML tables with toml++ (toml_section.hpp). Every fault is an Error(kBadInput) with the
+// file and, where there is one, the line. In a change, every function that reads a key must note it
+// in `asked`, because finish() reports all other keys as unknown.
 #include "viscontact/case_file/toml_section.hpp"
 
 #include <toml++/toml.h>
@@ -78,7 +78,7 @@ std::size_t end_of_bare_word(std::string_view text, std::size_t at) {
 /// that a key of 40 000 parts overflows the stack. toml++ itself limits nested arrays and inline
 /// tables to 256 levels. Dots in strings and comments separate no keys.
 void check_dotted_keys(const std::string& text, const std::string& file) {
-  constexpr int kMostParts = 16;  // the longest key of a case has five parts
+  constexpr int kMostParts = 16;  // a free limit; the longest key of a case has five
   const std::string_view all = text;
   int line = 1, parts = 0;
   bool after_dot = false;
@@ -115,14 +115,14 @@ void check_dotted_keys(const std::string& text, const std::string& file) {
 
 /// True if the number can be stored as an integer without loss.
 bool is_integer(double value) {
-  constexpr double kLargestInteger = 1e15;  // below 2^53
+  constexpr double kLargestInteger = 1e15;  // any limit up to 2^53 works: doubles hold all integers
   return value == std::floor(value) && std::abs(value) <= kLargestInteger &&
          !(value == 0 && std::signbit(value));
 }
 
-/// The elements of an array of at least one, which `node`, the value of `key`, must be. `many`
-/// completes "a list of" in the message for a missing key, `one` "a list of at least one" in that
-/// for a value that is no such array.
+/// The elements of `node`, the value of `key`. Throws Error(kBadInput) unless it is an array of at
+/// least one element. In the message, `many` follows "a list of" if the key is missing, and `one`
+/// follows "a list of at least one" otherwise.
 const toml::array& elements(const TomlSection& section, std::string_view key,
                             const toml::node* node, std::string_view many, std::string_view one) {
   section.require(section.has(key), key, "is missing; it must be a list of {}", many);
@@ -207,7 +207,7 @@ int TomlSection::count(std::string_view key, int least, int most) const {
   const std::string allowed = fmt::format("it must be a whole number from {} to {}", least, most);
   if (!has(key)) fail(key, "is missing; " + allowed);
   const auto* node = node_->table->get(key);
-  // show() leaves out the decimal point of such a number, so this message needs a case of its own.
+  // show() writes 3.0 as "3", which would look allowed. This message writes the decimal point.
   if (const auto decimal = node->value_exact<double>(); decimal && *decimal == std::floor(*decimal))
     fail(key, fmt::format("is {:.1f}; {}, without a decimal point", *decimal, allowed));
   const auto value = node->is_integer() ? node->value<int>() : std::nullopt;
@@ -329,7 +329,7 @@ TomlSection TomlSection::with_numbers(
       throw_bad_input({node_->file}, fmt::format("{} {}", path, what));
     };
     auto* place = root->at_path(path).node();
-    // In place of a node of another type, because the node of an integer cannot store a fraction.
+    // Puts a new node at `path`, because the existing node of an integer cannot store a fraction.
     const auto replace = [&](auto new_value) {
       const auto dot = path.rfind('.');
       const auto bracket = path.rfind('[');

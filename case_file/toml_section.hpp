@@ -1,7 +1,8 @@
 // A table of a TOML file, read strictly: the reader asks for every key by name, and a key that was
 // not asked for is an error. Sections whose keys are declared are read by keys.hpp. Numbers are in
-// the units of the file and have no unit here. All readers of cases stand on this class; a change
-// must keep the messages, which name file, line, key and what is allowed.
+// the units of the file and have no unit here. All readers of cases (case_file/, particles/,
+// rolling/, swimmer/) use this class; a change must keep the messages, which name file, line, key
+// and what is allowed.
 #pragma once
 
 #include <fmt/format.h>
@@ -32,17 +33,19 @@ class TomlSection {
   /// A copy of this root table with other numbers, each at a path such as
   /// "motion.external_force[0].value". Only the last key of a path need not exist yet. A number
   /// without a fraction is stored as an integer, unless it replaces a decimal number. Throws
-  /// Error(kBadInput) if another part of a path does not exist, or is no number.
+  /// Error(kBadInput) if another part of a path does not exist, or if the path leads to a value
+  /// that is no number.
   TomlSection with_numbers(std::span<const std::pair<std::string, double>> numbers) const;
 
-  /// A copy of this root table with other texts, each at a path. There must be a text at each path.
+  /// A copy of this root table with other texts, each at a path. Throws Error(kBadInput) if there
+  /// is no text at a path.
   TomlSection with_texts(std::span<const std::pair<std::string, std::string>> texts) const;
 
   /// This root table as TOML, without the comments of the file and with its keys in alphabetical
   /// order. Tables with equal keys and values give equal texts. Numbers read back exactly.
   std::string as_toml() const;
 
-  /// True if the key exists. The key then counts as asked for (finish).
+  /// True if the key exists. finish() then counts the key as asked for.
   bool has(std::string_view key) const;
   bool is_text(std::string_view key) const;   ///< the key exists and its value is a text
   bool is_array(std::string_view key) const;  ///< the key exists and its value is an array
@@ -72,7 +75,7 @@ class TomlSection {
   /// for.
   void finish() const;
 
-  int line() const;                      ///< line of this table in the file
+  int line() const;                      ///< line of this table in the file, from 1
   int line(std::string_view key) const;  ///< line of a key, or that of the table without it
   std::string shown(std::string_view key) const;  ///< the value of an existing key, for a message
 
@@ -89,8 +92,8 @@ class TomlSection {
 
  private:
   struct Node;
-  /// Same as fail, but the message has no line if this is the root table, because a section that is
-  /// missing from the file has no line.
+  /// As fail(), for a missing section. In the root table the message has no line, because a section
+  /// that is missing from the file has none.
   [[noreturn]] void fail_of_section(std::string_view key, const std::string& what) const;
   std::string full_name(std::string_view key) const;  // "tabulation.gaps"
   explicit TomlSection(Node node);

@@ -1,6 +1,7 @@
-// The error type of Viscontact. Every error that a user can cause or meet is thrown as
-// viscontact::Error. Unless a caller handles it, app/main.cpp prints its message and ends with the
-// exit code of its kind. A new kind needs an exit code, and a row in docs/command-line.md.
+// The error type of Viscontact, which all parts throw. Every error that a user can cause or meet is
+// thrown as viscontact::Error. Unless a caller handles it, app/main.cpp prints its message and ends
+// with the exit code of its kind. A new kind needs an exit code in results/exit_code.cpp, and a row
+// in docs/command-line.md.
 #pragma once
 
 #include <stdexcept>
@@ -30,7 +31,7 @@ class Error : public std::runtime_error {
   /// `message` is what() of the error, in the form above.
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
 
-  ErrorKind kind() const { return kind_; }  ///< decides on the exit code
+  ErrorKind kind() const { return kind_; }  ///< decides the exit code
 
  private:
   ErrorKind kind_;

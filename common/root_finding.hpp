@@ -1,16 +1,18 @@
-// Root finding in one unknown: bisection of a condition, and Newton's method in a bracket. A change
-// must keep the points at which functions are evaluated, because the drag, the models of one sphere
-// and rolling depend on them in their last digits. Nothing is thrown. Boost.Math 1.74 takes other
-// points and is therefore not used; besides, its header takes 1.2 s to compile.
+// Root finding in one unknown: bisection of a condition, and Newton's method in a bracket. Used by
+// lubrication/, reduced_model/ and rolling/. A change must keep the points at which functions are
+// evaluated, because results of these parts depend on them in their last digits. Arguments have the
+// unit of the caller; nothing is thrown. Boost.Math 1.74 takes other points and is therefore not
+// used; besides, its header takes 1.2 s to compile.
 #pragma once
 
 #include <utility>
 
 namespace viscontact {
 
-/// Returns the smallest double at which a condition is true, where the condition is false at `from`
-/// and true at `to`. The result is `to` if the condition is true only there. If the condition
-/// changes more than once in between, returns one of the places where it becomes true.
+/// Returns the smallest double at which holds(x) is true. The caller knows that it is false at
+/// `from` and true at `to` >= `from`; neither is checked. The result is `to` if the condition is
+/// true only there. If the condition changes more than once in between, returns one of the places
+/// where it becomes true.
 template <class Condition>
 double bisect_first_true(double from, double to, const Condition& holds) {
   for (double middle = from + (to - from) / 2; from < middle && middle < to;
@@ -23,14 +25,15 @@ double bisect_first_true(double from, double to, const Condition& holds) {
 /// step.
 enum class Bracket { kOpen, kClosed };
 
-/// The root in [low, high] of an increasing function, by Newton's method from x. A step that leaves
-/// the bracket is replaced by bisection. `excess_and_slope(x)` returns the function and its
-/// derivative. The search ends at excess 0, or if `settled(x, next)` says that the step from x to
-/// next is round-off.
+/// The root in [low, high] of an increasing function, by Newton's method from x in [low, high]. A
+/// step that leaves the bracket is replaced by bisection. `excess_and_slope(x)` returns the
+/// function and its derivative. The search ends where the function is 0, or if settled(x, next)
+/// says that the step from x to next is round-off, or after 200 steps.
 template <class ExcessAndSlope, class Settled>
 double bracketed_newton(double x, double low, double high, Bracket bracket,
                         const ExcessAndSlope& excess_and_slope, const Settled& settled) {
-  // A limit that is never reached. Bisection alone takes 60 steps to shorten the bracket by 1e18.
+  // A limit against endless loops that is not reached, because 60 steps of bisection alone shorten
+  // the bracket by a factor of 1e18.
   constexpr int kMaxSteps = 200;
   for (int step = 0; step < kMaxSteps; ++step) {
     const auto [excess, slope] = excess_and_slope(x);

@@ -1,7 +1,8 @@
 // Random numbers that are the same bits on every machine: SplitMix64 (Steele, Lea & Flood 2014,
-// "Fast splittable pseudorandom number generators"). The distributions of the C++ library are not
-// used, because each library may define them differently. A change must keep all numbers, because
-// sweeps compare them with earlier results, and users repeat runs by their seeds.
+// "Fast splittable pseudorandom number generators"). particles/, sweep/, swimmer/ and bench/ use
+// them. The distributions of the C++ library are not used, because each library may define them
+// differently. A change must keep all numbers, because sweeps compare them with earlier results,
+// and users repeat runs by their seeds. Nothing is thrown.
 #pragma once
 
 #include <cmath>
@@ -9,7 +10,8 @@
 
 namespace viscontact {
 
-/// A hash of one number that mixes all bits.
+/// A hash of one number: each bit of the result depends on all bits of x. The constants are those
+/// of SplitMix64.
 constexpr std::uint64_t splitmix_hash(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -29,7 +31,7 @@ class SplitMix64 {
   /// Every seed is allowed, also 0.
   explicit SplitMix64(std::uint64_t seed) : state_(splitmix_hash(seed)) {}
 
-  /// The next 64 random bits. All other numbers are made from them.
+  /// The next 64 random bits. The functions below make their numbers from them.
   std::uint64_t next() {
     const std::uint64_t bits = splitmix_hash(state_);
     state_ += 0x9e3779b97f4a7c15ULL;
@@ -42,7 +44,7 @@ class SplitMix64 {
   /// A number in [from, to) of a uniform distribution.
   double between(double from, double to) { return from + (to - from) * unit(); }
 
-  /// A whole number in [0, count), count > 0.
+  /// A whole number in [0, count), count > 0. Small numbers are likelier by at most count/2^64.
   std::uint64_t below(std::uint64_t count) { return next() % count; }
 
  private:

@@ -30,13 +30,13 @@ namespace {
   throw_bad_input({path.string()}, fmt::format("cannot be {} ({})", action, std::strerror(code)));
 }
 
-// A file NAME that is not finished is named NAME.viscontact-PID.tmp.
+// While a process PID writes the file NAME, the file is called NAME.viscontact-PID.tmp.
 constexpr std::string_view kUnfinishedOf = ".viscontact-", kUnfinished = ".tmp";
 
 /// Removes the files NAME.viscontact-PID.tmp that killed processes have left in a folder, where
 /// NAME is `of`, or any name if `of` is empty.
 void remove_left_behind(const std::filesystem::path& folder, const std::string& of) {
-  std::error_code ignored;  // a file that cannot be removed does no harm
+  std::error_code ignored;  // a folder that cannot be read is left as it is
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
     const auto after = name.rfind(kUnfinishedOf);
@@ -60,8 +60,9 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// Opens `beside`, a new file that takes the place of `path`, with these flags of open(2), and
-/// locks it. The lock tells remove_left_behind that the file is in use. Not every disk has locks.
+/// Opens `beside`, a new file that will take the place of `path`, with these flags of open(2), and
+/// locks it. The lock tells remove_left_behind() that the file is in use. A lock that fails is no
+/// error, because not every file system has locks.
 Descriptor open_locked(const std::filesystem::path& path, const std::filesystem::path& beside,
                        int flags) {
   Descriptor file(::open(beside.c_str(), flags | O_CLOEXEC, 0666));
@@ -71,8 +72,8 @@ Descriptor open_locked(const std::filesystem::path& path, const std::filesystem:
 }
 
 /// Makes a new file beside `path` by write(beside), which returns its descriptor, flushes it to
-/// disk if `is_flushed`, and renames it. Returns the path of the file that was replaced, which is
-/// not `path` if that is a link.
+/// disk if `is_flushed`, and renames it to `path`, or to the file to which `path` is a link.
+/// Returns the path of this file.
 template <class Write>
 std::filesystem::path put_in_place(const std::filesystem::path& path, bool is_flushed,
                                    const Write& write) {

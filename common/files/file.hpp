@@ -1,6 +1,6 @@
-// Reads and writes whole files. A file is written under another name and then renamed. A change
-// must keep that at any time, also after a power cut, a reader finds the old file or the whole new
-// one, because commands continue from such files.
+// Reads and writes whole files; all parts with files use it. A file is written under another name
+// and then renamed. A change must keep that at any time, also after a power cut, a reader finds the
+// old file or the whole new one, because commands continue from such files.
 #pragma once
 
 #include <filesystem>
@@ -28,14 +28,14 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 void write_file_by(const std::filesystem::path& path,
                    const std::function<void(const std::filesystem::path&)>& write);
 
-/// As write_file, for one of many files, but faster: the file is on disk only after flush_files().
-/// Files that killed processes have left are not removed; call remove_unfinished() for them, which
-/// reads the whole folder.
+/// As write_file() for one of many files, but faster, because the file is not flushed to disk; call
+/// flush_files() after the last one. Files that killed processes have left are not removed; call
+/// remove_unfinished() for them, which reads the whole folder.
 void write_unflushed(const std::filesystem::path& path, std::string_view content);
 /// Returns when these files, which lie in one folder, are on disk. Throws Error(kBadInput), which
 /// names a path, if the disk reports an error.
 void flush_files(std::span<const std::filesystem::path> paths);
-/// Removes files NAME.viscontact-PID.tmp in the folder that killed processes have left.
+/// Removes the files NAME.viscontact-PID.tmp in the folder that killed processes have left.
 void remove_unfinished(const std::filesystem::path& folder);
 
 /// The file that write_file would replace: `path`, or what it links to. Throws Error(kBadInput) if

@@ -1,6 +1,6 @@
-// Overwrites the foot of the file with new lines, followed by the foot again, in one call
-// (growing_file.hpp). Lengths are in bytes. A change must keep that the file ends with a whole line
-// and the foot, also after a failed write, which is an Error(kBadInput).
+// Writes new lines over the foot of the file (a text that always ends it), followed by the foot
+// again, in one call (growing_file.hpp). Lengths are in bytes. A change must keep that the file
+// ends with a whole line and the foot, also after a failed write, which is an Error(kBadInput).
 #include "viscontact/common/files/growing_file.hpp"
 
 #include <fcntl.h>
@@ -58,7 +58,7 @@ void GrowingFile::append(std::string_view lines) {
   end_.bytes += lines.size();
   const auto last = lines.substr(0, lines.size() - 1);
   end_.last_line = last.substr(last.rfind('\n') + 1);  // npos + 1 = 0: there is only one line
-  constexpr std::size_t kMostWaiting = std::size_t{1} << 16U;
+  constexpr std::size_t kMostWaiting = std::size_t{1} << 16U;  // bytes; 1 KiB to 1 MiB work
   if (waiting_.size() > kMostWaiting) write_waiting();
 }
 

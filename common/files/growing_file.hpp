@@ -1,7 +1,7 @@
-// A text file to which lines are only ever added, as to a table with a row for each step. If a
-// process is killed, the next one continues the file from an earlier end of it: after each sync(),
-// keep that end (FileEnd) in another file. Logs of particle runs use it. A change must keep that
-// what sync() has written is never changed.
+// A text file to which lines are only ever added, as to a table with a row for each step. After
+// each sync(), the caller keeps the end of the file (FileEnd) in another file. If the process is
+// killed, the next one continues the file from this end. particles/run/ uses it for the logs of
+// runs. A change must keep that what sync() has written is never changed.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,13 @@ struct FileEnd {
   std::string last_line;    ///< the line that ends there, without its line break
 };
 
-/// Holds back up to 64 KiB of lines, so that it makes few writes. Lines that sync() has not written
-/// when the object is destroyed are lost.
+/// Holds back up to 64 KiB of lines, because one long write is faster than many short ones. Lines
+/// that sync() has not written when the object is destroyed are lost.
 class GrowingFile {
  public:
   /// A new file at `path` with the lines `head`. It is made, and replaces an earlier file, when the
-  /// first lines are written. `foot` follows the last line at any time, as XML needs it.
+  /// first lines are written. At any time the file ends with `foot`, which may be empty, such as
+  /// the closing tags of XML.
   GrowingFile(std::filesystem::path path, std::string_view head, std::string foot = "");
 
   /// Throws Error(kBadInput), which names the path, if the file cannot be read, is shorter than

@@ -20,8 +20,8 @@
 namespace viscontact {
 namespace {
 
-/// Throws Error(kBadInput), which says that `path` cannot be written. For a file that could not be
-/// opened: the message says nothing of finished rows, because none have been written.
+/// Throws Error(kBadInput) for a file that could not be opened. Unlike that of throw_not_written(),
+/// the message says nothing of finished rows, because none have been written.
 [[noreturn]] void throw_not_opened(const std::filesystem::path& path, int code) {
   throw_bad_input({path.string()}, fmt::format("cannot be written ({})", std::strerror(code)));
 }

@@ -1,6 +1,7 @@
 // Files that only one process at a time may append to (the journal of a tabulation or sweep), and
-// folders that only one process at a time may write into (that of a run). A change must keep that a
-// text is at the end of the file, in one piece, when append_to returns.
+// folders that only one process at a time may write into (that of a run). app/, freefem_axi/,
+// particles/, rolling/, sweep/ and swimmer/ use them. A change must keep that a text is at the end
+// of the file, in one piece, when append_to() returns.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +14,8 @@ namespace viscontact {
 
 /// Opens a file for reading and appending, makes it if it does not exist, and locks it against
 /// other processes that lock it in the same way, until it is closed. Throws Error(kBadInput), which
-/// names the path, if the file cannot be opened, or if another process has locked it; then the
-/// error ends with `message`. It is not an error if the file system has no locks.
+/// names the path, if the file cannot be opened, or if another process has locked it; the message
+/// then ends with `message`. It is not an error if the file system has no locks.
 Descriptor open_and_lock(const std::filesystem::path& path, const std::string& message);
 
 /// Writes the whole text at the end of the file. `path` is the file's path, for messages. Throws

@@ -1,6 +1,6 @@
-// SHA-256 (FIPS 180-4), with which files of Viscontact identify the content of other files. A
-// change must keep the hashes, because published files contain them and commands compare them to
-// see what is up to date.
+// SHA-256 (FIPS 180-4), with which files of Viscontact identify the content of other files. All
+// parts that write results use it. A change must keep the hashes, because published files contain
+// them and commands compare them to see what is up to date. Nothing is thrown.
 #pragma once
 
 #include <string>
