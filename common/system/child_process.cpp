@@ -1,7 +1,7 @@
-// Talks with a child process by poll on its three streams at once. Only a program that cannot be
-// run is an Error (kExternalProgram); a child that fails later is not, and the state of a reading
-// says what happened. A change must keep that at most one buffer is received ahead of what is read,
-// so that a child that writes without end takes no memory.
+// Exchanges messages with a child process by poll on its three streams at once (child_process.hpp).
+// Only a program that cannot be run is an Error (kExternalProgram); a child that fails later is
+// not, and Reading::state says what happened. A change must keep that at most one buffer is
+// received ahead of what is read, so that a child that writes without end takes no memory.
 #include "viscontact/common/system/child_process.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ constexpr std::string_view kWhiteSpace = " \t\r\n\v\f";
 // The longest delay until a stop is noticed [ms].
 constexpr int kLongestWait = 100;
 
-constexpr std::size_t kBufferSize = 1 << 16;
+constexpr std::size_t kBufferSize = 1 << 16;  // bytes; any size from some kB on works
 
 /// Reads the bytes that have arrived into `buffer`, without waiting, and returns them; there may be
 /// none. Closes the descriptor at the end of the stream.
@@ -72,8 +72,8 @@ ChildProcess::ChildProcess(const ProcessCommand& command, const StopToken& stop)
 
 ChildProcess::~ChildProcess() {
   if (child_.id < 0) return;
-  // finish() was not called. The child is therefore still waited for, and the system has not given
-  // the number of its process group to another one.
+  // finish() was not called, so the end of the child has not been waited for, and no other process
+  // group can have its number yet.
   ::kill(-child_.id, SIGKILL);
   while (::waitpid(child_.id, nullptr, 0) < 0 && errno == EINTR) {
   }
@@ -89,7 +89,8 @@ void ChildProcess::send_some() {
   const ssize_t count = ::send(child_.to_child.get(), to_send_.data() + sent_,
                                to_send_.size() - sent_, MSG_NOSIGNAL | MSG_DONTWAIT);
   if (count > 0) sent_ += static_cast<std::size_t>(count);
-  // A child that no longer reads may still answer. If not, read_word returns kClosed or kTimedOut.
+  // A child that no longer reads may still answer. If it does not, read_word() returns kClosed or
+  // kTimedOut.
   if (count < 0 && errno != EAGAIN && errno != EINTR) child_.to_child.close();
 }
 
@@ -200,7 +201,7 @@ long ChildProcess::peak_memory_kb() const {
 
 bool ChildProcess::has_ended() const {
   siginfo_t info{};
-  // The child stays a zombie, so that its group can still be killed.
+  // With WNOWAIT the child stays a zombie, so that its group keeps its number and can be killed.
   return ::waitid(P_PID, static_cast<id_t>(child_.id), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
          info.si_pid == child_.id;
 }

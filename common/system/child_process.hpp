@@ -1,7 +1,7 @@
-// A child process that is asked over and over, such as a fluid solver (freefem_flow/process/): text
-// goes to its standard input, and words come from its standard output (Linux). A change must keep
-// that neither a full pipe nor a child that ends or is silent can stop this process beyond the
-// deadline. Used by freefem_flow/.
+// A child process with which this process exchanges many messages, such as a fluid solver (Linux):
+// text goes to its standard input, and words come from its standard output. Used by freefem_flow/.
+// A change must keep that no function waits longer than its deadline, also if a pipe is full, or if
+// the child has ended or is silent.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ namespace viscontact {
 /// white space at both ends of a line, and its bytes beyond kLongest are left out.
 class LastLines {
  public:
-  // Error messages show these lines, which must therefore be few and short.
+  // Error messages show these lines. Other small numbers would do as well.
   static constexpr std::size_t kLines = 20,  ///< number of lines that are kept
       kLongest = 1000;                       ///< number of bytes of a line that are kept
 
@@ -50,7 +50,8 @@ class ChildProcess {
   /// The clock of the deadlines.
   using Clock = std::chrono::steady_clock;
 
-  /// Throws Error(kExternalProgram) "PROGRAM cannot be run (REASON)" if there is no such program.
+  /// Starts the child. Throws Error(kExternalProgram) "PROGRAM cannot be run (REASON)" if there is
+  /// no such program or it cannot be run.
   ChildProcess(const ProcessCommand& command, const StopToken& stop);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -72,7 +73,8 @@ class ChildProcess {
     State state = State::kRead;  ///< how reading ended
     std::string_view text{};     ///< the word or line, or what there is of it
   };
-  /// Bytes of the longest word or line, to bound the memory: answers are numbers and messages.
+  /// Bytes of the longest word or line that is accepted, which bounds the memory. Answers are
+  /// numbers and messages, which are shorter.
   static constexpr std::size_t kLongestText = 4096;
 
   /// The next word of the output, which white space precedes and follows.
@@ -85,8 +87,8 @@ class ChildProcess {
   /// Makes the next call read the last word again.
   void put_word_back() { at_ = word_start_; }
 
-  /// The largest resident memory of the child so far [kB], without that of its own children; 0 if
-  /// the child has ended.
+  /// The largest resident memory of the child so far [1024 bytes], without that of its own
+  /// children; 0 if the child has ended.
   long peak_memory_kb() const;
 
   /// True if the child has written something that was not read yet, other than white space.

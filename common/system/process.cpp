@@ -57,14 +57,14 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
 struct ChildEnd {
   int status = 0;  ///< status from wait4
   rusage usage{};
-  /// Why the child was killed, if it was.
-  bool stopped = false, timed_out = false;
+  bool stopped = false,   ///< true: killed because of a stop request
+      timed_out = false;  ///< true: killed at the deadline
 };
 
-/// Waits until the child has ended. Kills its process group first if a stop is requested or
-/// `deadline` passes. A child can close its output and continue to run.
+/// Waits until the child has ended. Kills its process group if a stop is requested or `deadline`
+/// passes, because a child can close its output and continue to run.
 ChildEnd wait_for_end(pid_t child, Clock::time_point deadline, const StopToken& stop) {
-  constexpr int kFirstPause = 1, kLongestPause = 20;  // milliseconds between two checks
+  constexpr int kFirstPause = 1, kLongestPause = 20;  // milliseconds; any short times work
   ChildEnd end;
   for (int pause = kFirstPause;; pause = std::min(2 * pause, kLongestPause)) {
     const bool to_kill = !end.stopped && !end.timed_out;

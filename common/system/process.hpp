@@ -1,6 +1,6 @@
-// Runs a child process to its end and collects its output (Linux): a row of FreeFEM, gnuplot,
-// sbatch. A change must keep that no child outlives this process. Used by app/, freefem/,
-// freefem_axi/, pipeline/ and report/.
+// Runs a child process to its end and collects its output (Linux), such as FreeFEM for a row of a
+// table, gnuplot or sbatch. A change must keep that no child outlives this process. Used by app/,
+// freefem/, freefem_axi/, pipeline/ and report/.
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@ struct ProcessResult {
   /// Standard output and standard error, in the order in which they came. If a signal ended the
   /// process, the name of the signal follows.
   std::string output;
-  long peak_memory_kb = 0;  ///< largest resident set [kB]
+  long peak_memory_kb = 0;  ///< largest resident memory [1024 bytes]
   bool timed_out = false;   ///< the process was killed at the time limit
 };
 
@@ -32,7 +32,8 @@ struct ProcessResult {
 /// `timed_out` of the result is true.
 ///
 /// If `stop` requests a stop, the child is killed and Error(kInterrupted) is thrown. The child also
-/// ends when the thread or the process that started it ends, even by SIGKILL.
+/// ends when the thread or the process that started it ends, even by SIGKILL. Throws
+/// std::system_error if the system has no more sockets.
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment = {},
                           const std::string& input = {}, const std::string& folder = {},

@@ -1,6 +1,6 @@
-// Starts a child process by fork and exec. Between fork and exec a change may only call functions
-// that POSIX lists as async-signal-safe, which neither allocate memory nor take locks, because
-// another thread may hold a lock at the moment of the fork.
+// Starts a child process by fork and exec (start_process.hpp). Between fork and exec a change may
+// only call functions that POSIX lists as async-signal-safe, which neither allocate memory nor take
+// locks, because another thread may hold a lock at the moment of the fork.
 #include "viscontact/common/system/start_process.hpp"
 
 #include <fmt/format.h>
@@ -22,8 +22,8 @@ struct Pipe {
   Descriptor read_end{}, write_end{};
 };
 
-/// Sockets and not a pipe, because send() with MSG_NOSIGNAL returns EPIPE if the child no longer
-/// reads. A write to a pipe would raise SIGPIPE.
+/// Makes a pair of sockets and not a pipe, because send() with MSG_NOSIGNAL fails with EPIPE if the
+/// child no longer reads, while a write to a pipe would raise SIGPIPE.
 Pipe make_pipe() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
@@ -53,10 +53,10 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
   return result;
 }
 
-/// The descriptors that the child gets.
+/// The descriptors that become the standard streams of the child.
 struct ChildStreams {
   int input, output, errors;
-  int failure;  ///< where it writes the error number if it cannot become the program
+  int failure;  ///< where the child writes errno if it cannot become the program
 };
 
 /// Runs in the child between fork and exec (see the rule at the head of this file). Becomes the

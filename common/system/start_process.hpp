@@ -1,6 +1,6 @@
-// Starts a child process with sockets as its standard streams (Linux), for run_process
-// (process.hpp) and ChildProcess (child_process.hpp). A change must keep that the child ends with
-// the thread that started it. Used by child_process.hpp and process.cpp.
+// Starts a child process with sockets as its standard streams (Linux). Used by run_process()
+// (process.cpp) and ChildProcess (child_process.hpp). A change must keep that the child ends with
+// the thread that started it.
 #pragma once
 
 #include <sys/types.h>
@@ -29,10 +29,11 @@ enum class ErrorStream { kWithOutput, kSeparate };
 /// that kill(-id, SIGKILL) also ends the processes that it has started. The caller of start_process
 /// must wait for the end of the child (waitpid).
 struct StartedProcess {
-  pid_t id = -1;            ///< -1: there is no such program, or it cannot be run
-  std::string failure;      ///< why it cannot be run
-  Descriptor to_child{};    ///< a write to a child that does not read gives EPIPE with MSG_NOSIGNAL
-  Descriptor from_child{};  ///< its standard output
+  pid_t id = -1;        ///< -1: there is no such program, or it cannot be run
+  std::string failure;  ///< why it cannot be run; empty if it runs
+  /// Its standard input. send() with MSG_NOSIGNAL fails with EPIPE if the child no longer reads.
+  Descriptor to_child{};
+  Descriptor from_child{};    ///< its standard output
   Descriptor errors_of_it{};  ///< its standard error, if kSeparate
 };
 

@@ -38,8 +38,8 @@ struct ThreadPool::Workers {
   void serve() {
     for (unsigned seen = 0;;) {
       // In the solver of a particle step (the projection, docs/particles.md) loops follow each
-      // other within microseconds. A thread therefore checks for a while (2000 calls of yield take
-      // about 1 ms) before it sleeps.
+      // other within microseconds. A thread therefore checks 2000 times, which takes about 1 ms,
+      // before it sleeps.
       constexpr int kLooks = 2000;
       for (int look = 0; look < kLooks && round.load() == seen; ++look) std::this_thread::yield();
       round.wait(seen);

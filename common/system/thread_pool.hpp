@@ -1,7 +1,7 @@
-// Threads that share loops over fixed blocks, for the simulation of many particles. A change must
-// keep the results independent of the number of threads, bit for bit. oneTBB 2021.8 is not used,
-// because ThreadSanitizer cannot check it. It is hardly faster: for a loop of 2, 4 and 16 blocks on
-// two idle cores it takes 21, 40 and 156 us, and this class takes 21, 45 and 159 us.
+// Threads that share loops over fixed blocks, used by particles/ for the steps of many particles. A
+// change must keep the results independent of the number of threads, bit for bit. oneTBB 2021.8 is
+// not used, because ThreadSanitizer cannot check it. It is hardly faster: for a loop of 2, 4 and 16
+// blocks on two idle cores it takes 21, 40 and 156 us, and this class takes 21, 45 and 159 us.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace viscontact {
 class ThreadPool {
  public:
   /// `threads` >= 1, including the calling thread; fewer are used if the system refuses to start
-  /// more. Between loops the threads look for the next one for a short while, then sleep.
+  /// more. Between loops the threads look for the next loop for about 1 ms, then sleep.
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -30,8 +30,8 @@ class ThreadPool {
   /// time than the thread saves.
   static constexpr std::size_t kBlock = 16384;
 
-  /// Calls body(begin, end) for each block of [0, count). If a body throws, the exception is thrown
-  /// again when no body runs any more.
+  /// Calls body(begin, end) for each block of [0, count). The calls run on all threads of the pool.
+  /// If one throws, the first exception is thrown again when all calls have ended.
   template <class Body>
   void for_blocks(std::size_t count, const Body& body) {
     const std::size_t blocks = (count + kBlock - 1) / kBlock;
@@ -65,7 +65,8 @@ class ThreadPool {
   std::unique_ptr<Workers> workers_;  // null for one thread
 };
 
-/// The largest of the values of all blocks; minus infinity if there are none.
+/// A Result of sum_of_blocks(): the largest of the values of all blocks; minus infinity if there
+/// are none.
 struct MaximumOfBlocks {
   double value = -std::numeric_limits<double>::infinity();  ///< largest value so far
   /// Takes the larger value of both.
@@ -75,7 +76,7 @@ struct MaximumOfBlocks {
   }
 };
 
-/// The lists of all blocks, one after the other.
+/// A Result of sum_of_blocks(): the lists of all blocks, one after the other.
 template <class T>
 struct ConcatenatedBlocks {
   std::vector<T> values;  ///< in the order of the blocks

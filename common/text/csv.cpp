@@ -1,5 +1,6 @@
-// Reads CSV files by fast-cpp-csv-parser. Every fault of a file becomes an Error(kBadInput) with
-// file and line; the messages are not those of the library.
+// Reads CSV files by fast-cpp-csv-parser (csv.hpp). Every fault of a file becomes an
+// Error(kBadInput) with file and line; the messages are not those of the library. A change must
+// keep published files readable.
 #include "viscontact/common/text/csv.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +21,8 @@
 namespace viscontact {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some spreadsheets write it
+constexpr std::string_view kByteOrderMark =
+    "\xEF\xBB\xBF";  // some spreadsheets write it at the head
 
 /// Text to be added to a message about missing columns: ", 'the header line'", or the probable
 /// reason why its columns were not found (quotes, another separator, UTF-16).
@@ -53,7 +55,8 @@ void remove_trailing_blank_lines(std::string& text) {
   if (end_of_row != std::string::npos) text.erase(end_of_row + 1);
 }
 
-/// The number in a field, or nothing if the field is empty or missing.
+/// The number in a field, or nothing if the field is empty or missing. Throws Error(kBadInput) for
+/// a field that is no finite number.
 std::optional<double> number_of(const char* field, const std::string& column,
                                 const std::string& file, int line) {
   if (field == nullptr || *field == '\0') return {};
@@ -79,8 +82,8 @@ void check_not_truncated(const CsvComments& comments, std::size_t rows, const st
 
 using Fields = std::span<const std::optional<double>>;
 
-/// Number of columns that the library reads at once. It is the same for all files, because each
-/// further number costs seconds to compile.
+/// Number of columns that the library reads at once. It is a template argument of the library, and
+/// the same for all files, because each other value takes seconds to compile.
 constexpr std::size_t kColumnsAtOnce = 16;
 
 /// Calls `add_row` with the fields of each row and its line. There are at most kColumnsAtOnce
@@ -94,7 +97,7 @@ void read_columns(const std::string& text, const std::string& file,
   all_names.fill("\n");
   std::ranges::copy(names, all_names.begin());
   std::istringstream stream(text);
-  // Fields are taken as text: the library's own conversion to double does not round-trip.
+  // Fields are taken as text, because the library's own conversion to double loses the last digits.
   using Reader = io::CSVReader<kColumnsAtOnce, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>,
                                io::throw_on_overflow, io::single_line_comment<'#'>>;
   try {

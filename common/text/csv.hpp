@@ -1,6 +1,6 @@
 // CSV files as Viscontact writes them (docs/file-formats.md): lines "# key: value", a header line,
-// and rows of numbers. All readers of tables, trajectories and particles use this file. A change
-// must keep published files readable.
+// and rows of numbers, each in the unit of its column. All readers of tables, trajectories and
+// particles use this file. A change must keep published files readable.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Reads a text twice (json.hpp): once for errors, lines and repeated keys, and once for the values.
-// Every fault of a text becomes an Error(kBadInput) with file, line and cause.
+// Every fault of a text becomes an Error(kBadInput) with file, line and cause. A change must keep
+// published files readable.
 #include "viscontact/common/text/json.hpp"
 
 #include <fmt/format.h>
@@ -93,7 +94,9 @@ class LineRecorder {
     return fmt::format("{}{}{}", level.path, level.path.empty() ? "" : ".", level.key);
   }
 
-  /// The path under which a value is recorded. Deeper than eight levels costs too much memory.
+  /// The path under which a value is recorded. It is empty deeper than eight levels, because the
+  /// paths of a deeply nested text would take too much memory; any number of levels that the files
+  /// of Viscontact do not exceed works.
   std::string recorded_path() const {
     constexpr std::size_t kDeepest = 8;
     return levels_.size() > kDeepest ? std::string() : path_of_member();

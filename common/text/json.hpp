@@ -1,6 +1,6 @@
 // Reads JSON texts (RFC 8259) and remembers the line of each value, so that an error can name it.
-// Readers of fit files, comparisons and provenance use it. A change must keep the order of the
-// keys, because files are written in this order.
+// Readers of fit files, comparisons, provenance and records of runs use it. A change must keep the
+// order of the keys, because files are written in this order.
 #pragma once
 
 #include <filesystem>

@@ -1,13 +1,14 @@
-// Reads and writes structs as JSON objects by one list of their fields. A struct S is a file or a
-// part of one if its namespace has
+// Reads and writes structs as JSON objects by one list of their fields. A struct S can be read and
+// written if its namespace has the function
 //
 //   void fields_of(JsonFields& json, S& s) {
 //     json("radius", s.radius, kPositive);   // key, member, what is allowed
 //     json("geometry", s.geometry, kLeftOutIfEmpty);
 //   }
 //
-// in the order of the file. Every error is an Error(kBadInput), which names the file, the line, the
-// key and what is allowed there. Fits and comparisons use it; published files must stay readable.
+// with the fields in the order of the file. Every error is an Error(kBadInput), which names the
+// file, the line, the key and what is allowed there. lubrication/, motions/, reduced_model/ and
+// swimmer/ use it for fits and comparisons; published files must stay readable.
 #pragma once
 
 #include <fmt/format.h>
@@ -30,10 +31,11 @@ namespace viscontact {
 /// written without the key if the value is empty, nothing or 0.
 enum class Absence { kRefused, kAllowed, kLeftOutIfEmpty };
 
-/// Writes or reads the fields of a JSON object. A reader must not outlive its document.
+/// Writes or reads the fields of a JSON object; the functions below are called by fields_of() of a
+/// struct. An object that reads must not outlive the JsonDocument from which it reads.
 class JsonFields {
  public:
-  /// The struct that the text of a file describes; messages call the file `file`. Throws
+  /// The struct that `text`, the content of a file, describes; `file` names it in messages. Throws
   /// Error(kBadInput) with the line, the key, what is allowed, and then `remedy`.
   template <class Struct>
   static Struct read(const std::string& text, const std::string& file,
@@ -59,7 +61,8 @@ class JsonFields {
   /// The text of a file, in which each level is indented by `indent` more.
   template <class Struct>
   static std::string text_of(const Struct& value, int indent = 2) {
-    // The head of a table may contain bytes that are not UTF-8, which dump() would refuse.
+    // Texts from the head of a table may contain bytes that are not UTF-8. dump() replaces them
+    // instead of throwing.
     return write(value).dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
   }
 
@@ -106,8 +109,8 @@ class JsonFields {
                             json_->at(key).dump()));
   }
 
-  /// A vector as a JSON object: the member `name` of a value is its key, and `part` gives what is
-  /// written there.
+  /// A vector as a JSON object with a member for each element of `values`: its key is the element's
+  /// member `name`, and its value is part(element).
   template <class Value, class Part>
   void by_name(const std::string& key, std::vector<Value>& values, std::string Value::*name,
                const Part& part, Absence absence = Absence::kRefused) {
@@ -124,8 +127,9 @@ class JsonFields {
     }
   }
 
-  /// A word for a value that to_string() and `parse` translate. `parse` throws Error("...; what is
-  /// allowed") for other words; the message ends with that text from the semicolon on.
+  /// A value, such as an enumerator, that is written as the word to_string(value) and read by
+  /// parse(word). For other words `parse` throws Error("...; what is allowed"); the error that is
+  /// thrown here ends with "; what is allowed".
   template <class Value, class Parse>
   void word(const std::string& key, Value& value, const Parse& parse,
             Absence absence = Absence::kRefused) {
@@ -149,7 +153,8 @@ class JsonFields {
     if (found != text) fail(key, fmt::format("is '{}'; it must be '{}'", found, text));
   }
 
-  /// A key whose object another reader reads, and that a file may lack. Only its type is checked.
+  /// A key whose object other code reads and writes, and that a file may lack. Only its type is
+  /// checked when a file is read; nothing is written.
   void foreign_object(const std::string& key) {
     if (reads() && is_there(key, Absence::kAllowed))
       JsonFields(*document_, json_->at(key), path_of(key));
@@ -181,8 +186,8 @@ class JsonFields {
     return path_ + (path_.empty() || key.empty() ? "" : ".") + key;
   }
 
-  /// A value as text for a message. For an array or object it says only which of the two it is,
-  /// because dump() is recursive and a file may nest values so deeply that the stack overflows.
+  /// A value as text for a message. An array or object is only named as such, because dump() is
+  /// recursive and a file may nest values so deeply that the stack overflows.
   static std::string shown(const Json& value) {
     return value.is_structured() ? value.is_array() ? "an array" : "an object" : value.dump();
   }

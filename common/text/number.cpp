@@ -1,5 +1,5 @@
-// Conversion of numbers by <charconv>. A change must keep that every double is read back with the
-// same bits, and that the locale has no effect. Nothing is thrown.
+// Conversion of numbers by <charconv> (number.hpp). A change must keep that every double is read
+// back with the same bits, and that the locale has no effect. Nothing is thrown.
 #include "viscontact/common/text/number.hpp"
 
 #include <array>

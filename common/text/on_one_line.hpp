@@ -1,5 +1,6 @@
-// Turns a text of several lines into one line, for journals and messages that have one line each.
-// Only line ends may change.
+// Turns a text of several lines into one line. freefem_axi/, particles/, pipeline/ and report/ use
+// it for journals and messages that have one line each. A change may alter only line ends, because
+// journals are read again.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Splits and quotes words. A change must keep that a POSIX shell reads each quoted word as it was.
-// In split_words() backslashes have no special meaning.
+// Splits and quotes words (shell_words.hpp). A change must keep that a POSIX shell reads each
+// quoted word as it was. In split_words() backslashes have no special meaning.
 #include "viscontact/common/text/shell_words.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,7 @@
-// Splits command lines into words, and quotes words for a POSIX shell. The commands in messages, in
-// scripts of Slurm and in provenance are quoted by it and must stay the same.
+// Splits command lines into words, and quotes words for a POSIX shell. app/, freefem_flow/,
+// motions/, particles/, pipeline/ and report/ use it for commands in messages, in scripts of Slurm
+// and in provenance (the record in a file of how it was made); a change must keep how they are
+// quoted.
 #pragma once
 
 #include <string>

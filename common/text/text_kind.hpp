@@ -1,5 +1,6 @@
-// The kinds of files that Viscontact writes. The kind says where a file has its line of provenance
-// (results/provenance.hpp); a new kind needs such a place there. All writers use it.
+// The kinds of files that Viscontact writes. The kind says where a file has its line of provenance,
+// the record of how it was made (results/provenance.hpp); a new kind needs such a place there. Used
+// by results/ and all parts that write files.
 #pragma once
 
 namespace viscontact {

@@ -1,5 +1,5 @@
-// Composes the words of units (units.hpp), such as "kg m/s²". Nothing is thrown. A change must keep
-// the words of files, which users' scripts read.
+// Composes the words of units (units.hpp), such as "kg m/s²". A power beyond -9 to 9 throws
+// std::out_of_range. A change must keep the words of files, which users' scripts read.
 #include "viscontact/common/text/units.hpp"
 
 #include <array>
@@ -16,7 +16,8 @@ std::string Units::words() const {
 
 namespace {
 
-/// The quantity with these powers of the words, with `times` between two factors.
+/// The product of the words with these powers, each from -9 to 9, and with `times` between two
+/// factors. The symbol "/" stands before the words with negative powers.
 std::string quantity(const Units& words, std::string_view times, int mass_power, int length_power,
                      int time_power) {
   constexpr std::array<std::string_view, 10> kPowers = {"",  "",  "²", "³", "⁴",

@@ -1,6 +1,6 @@
 // The units in which a case is written, as words for pages, axes and tables. Nothing is converted.
-// The reader of cases fills them in; reports and files show them. A change must keep the words of
-// files, which users' scripts read.
+// case_file/ fills them in; particles/, report/, rolling/ and swimmer/ show them in pages and
+// files. A change must keep the words of files, which users' scripts read.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct Units {
   /// "length m, time s, mass kg"; empty without units.
   std::string words() const;
   /// The unit of the quantity with these powers, such as "kg m/s²" for (1, 1, -2); empty without
-  /// units. Powers are from -9 to 9.
+  /// units. Powers are from -9 to 9; others throw std::out_of_range.
   std::string unit_of(int mass_power, int length_power, int time_power) const;
   /// The same in brackets for the end of a label, such as " [m/s]"; empty without units.
   std::string in_brackets(int mass_power, int length_power, int time_power) const;
@@ -28,7 +28,7 @@ struct Units {
   /// A text with dimensions in brackets, such as "[M L/T]" or "[M/(L T)]", in which the letters are
   /// replaced by the units; unchanged without units. Exponents may be superscripts of HTML.
   std::string in_brackets_of(std::string text) const;
-  /// A text with dimensions as "M", "L<sup>-1</sup>" and "T<sup>-2</sup>" between blanks, in which
+  /// A text with dimensions as `M`, `L<sup>-1</sup>` and `T<sup>-2</sup>` between blanks, in which
   /// the letters are replaced by the units; unchanged without units.
   std::string in_place_of_dimensions(const std::string& html) const;
 };

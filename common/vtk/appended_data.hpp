@@ -1,7 +1,7 @@
 // The arrays of a VTK XML file with appended raw data (VTK's file formats, "XML file formats"):
 // writes them, and reads what was written on a machine with the same byte order. Numbers are copied
-// without conversion. particles/io and flow_vtk.cpp use it for frames and flows, which earlier
-// versions wrote, too; a change must keep them readable.
+// without conversion. particles/ and flow_vtk.cpp use it for frames and flows; a change must keep
+// the files of earlier versions readable.
 #pragma once
 
 #include <fmt/format.h>
@@ -103,7 +103,8 @@ inline std::optional<std::string_view> between(std::string_view text, std::strin
 /// Reads the arrays of a file that AppendedData wrote. `text` must outlive this object.
 class AppendedReader {
  public:
-  /// `what` names in messages what the file should be, such as "frame".
+  /// `text` is the content of `file`, which messages name; `what` says in them what it should be,
+  /// such as "frame". Throws the error of refuse() if the text has no appended data.
   AppendedReader(std::string_view text, std::string file, std::string what)
       : file_(std::move(file)), what_(std::move(what)) {
     constexpr std::string_view kMark = "<AppendedData encoding=\"raw\">\n_";
@@ -113,13 +114,13 @@ class AppendedReader {
     bytes_ = text.substr(mark + kMark.size());
   }
 
-  /// True if an element `section`, with or without attributes, has the array `name`.
+  /// True if the element `section`, such as PointData, has the array `name`.
   bool has_array(std::string_view section, std::string_view name) const {
     return after_name(section, name).has_value();
   }
 
-  /// The array `name` in the element `section`, with or without attributes. Throws
-  /// Error(kBadInput), which names the file, if there is none or it is cut short.
+  /// The array `name` in the element `section`. Throws Error(kBadInput), which names the file, if
+  /// there is none or it is cut short.
   template <class Number>
   std::vector<Number> array(std::string_view section, std::string_view name) const {
     const auto element = after_name(section, name);

@@ -18,7 +18,8 @@ namespace {
 constexpr std::size_t kNodes = 6;
 constexpr std::uint8_t kQuadraticTriangle = 22;
 
-/// Three numbers for each node: (a, b, 0) in the plane, (a, 0, b) in a half-plane through the axis.
+/// Three numbers for each node: (a, b, 0) for a flow in the plane, and (a, 0, b) with `on_axis`,
+/// where a is along x and b along the axis z of VTK.
 std::vector<double> vectors_of(const std::vector<double>& a, const std::vector<double>& b,
                                bool on_axis) {
   std::vector<double> vectors;

@@ -1,7 +1,8 @@
 // The flow of a fluid on a mesh of quadratic triangles in a plane, and its VTK file for ParaView.
-// freefem_axi/ and freefem_flow/ make it, and report/flow/ reads the file again to draw it.
-// Lengths, masses and times are in the units of the case. A change must keep the order of nodes,
-// which is that of VTK, and the arrays and names of the file.
+// freefem_axi/ and freefem_flow/ make flows, report/flow/ draws them, freefem_axi/ and particles/
+// write files, and particles/picture/ reads them again. Lengths, masses and times are in the units
+// of the case. A change must keep the order of nodes, which is that of VTK, and the arrays and
+// names of the file.
 #pragma once
 
 #include <array>
@@ -32,9 +33,9 @@ struct FlowField : QuadraticMesh {
 
 /// Content of a VTK XML UnstructuredGrid file (VTK's file formats, "XML file formats"; appended raw
 /// data): quadratic triangles (VTK's cell type 22) with velocity [L/T], pressure [M/(L T^2)] and
-/// speed [L/T] at their nodes. Unless `more` is empty, it has a value for each node, which is
-/// written under the name `more_name`. x and y are those of VTK and z = 0; with `on_axis`, the flow
-/// is in the half-plane x >= 0, y = 0 of VTK, and z is the axis.
+/// speed [L/T] at their nodes. `more` is empty or has a value for each node, which is written under
+/// the name `more_name`. x and y are those of VTK and z = 0; with `on_axis`, the flow is in the
+/// half-plane x >= 0, y = 0 of VTK, and z is the axis.
 std::string write_flow(const FlowField& flow, bool on_axis = false, std::string_view more_name = {},
                        const std::vector<double>& more = {});
 
