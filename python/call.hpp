@@ -1,7 +1,8 @@
-// What all files of the Python module use: calls that take long, arrays of NumPy, and a fit with
-// its force. Numbers are in the units of the fit. While a long call runs, other Python threads run,
-// too, and Ctrl-C (SIGINT) stops it. A change must keep that no object of Python is used while the
-// interpreter is released, and that the values are bit for bit those of the libraries.
+// What the sources of the Python module (python/*.cpp) share: calls that take long, arrays of
+// NumPy, and a fit with its force. Numbers are in the units of the fit. While a long call runs,
+// other Python threads run, too, and Ctrl-C (SIGINT) stops the call. A change must keep that no
+// object of Python is used while the interpreter's lock is released, and that the values are bit
+// for bit those of the C++ libraries.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -23,8 +24,8 @@ namespace py = pybind11;
 
 /// While an object of this class exists, SIGINT sets a flag instead of calling the handler of
 /// Python, which could not run before the call returns. The handler of Python runs afterwards. If
-/// SIGINT is ignored or ends the process, this stays so. The interpreter must be held when an
-/// object is made and when it ends.
+/// SIGINT is ignored or ends the process, this stays so. The thread must hold the interpreter's
+/// lock (GIL) when it makes or destroys an object.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -73,7 +74,7 @@ py::object mapped(const Doubles& x, const Function& function) {
   return y;
 }
 
-/// A new array with one value for each of `rows`, which `value` gives.
+/// A new array with value(row) for each row of `rows`.
 template <class Rows, class Value>
 py::array column(const Rows& rows, const Value& value) {
   using Element = std::decay_t<decltype(value(*std::begin(rows)))>;
@@ -83,18 +84,18 @@ py::array column(const Rows& rows, const Value& value) {
   return array;
 }
 
-/// The columns as viscontact.Columns, a dictionary whose entries are attributes, too. `about` has
-/// further values.
+/// The columns as an object of the Python class viscontact.Columns: a dictionary whose entries are
+/// attributes, too. `about` becomes its attribute `about`.
 inline py::object as_columns(const py::dict& columns, const py::dict& about = py::dict()) {
   return py::module_::import("viscontact.columns").attr("Columns")(columns, about);
 }
 
-// Each of these adds its classes and functions to the module.
+// Each of these functions adds the classes and functions that it names to the module.
 void add_fits(py::module_& module);       ///< Fit, PairFit, tabulate, fit, fit_pair
 void add_particles(py::module_& module);  ///< Particles
 void add_spheres(py::module_& module);    ///< simulate, rolling, swimmer
 
-/// The class Fit of Python.
+/// The class Fit of Python: a fit, and the lubrication force that it describes.
 class PythonFit {
  public:
   /// Throws the errors of LubricationForce with `place` before their message.
@@ -103,7 +104,7 @@ class PythonFit {
       : fit_(std::move(fit)),
         force_(with_place(place, [&] { return lubrication::LubricationForce(fit_, outside); })) {}
 
-  const lubrication::Fit& fit() const { return fit_; }                   ///< the coefficients
+  const lubrication::Fit& fit() const { return fit_; }                   ///< with its coefficients
   const lubrication::LubricationForce& force() const { return force_; }  ///< the force of the fit
 
  private:

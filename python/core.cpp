@@ -1,6 +1,7 @@
 // The library viscontact._core of the Python module: errors of the program as exceptions of Python,
-// Ctrl-C, and the version. The other files of this folder add classes and functions (call.hpp). A
-// change must keep the names of the exceptions.
+// Ctrl-C, and the version. The other sources of this folder add classes and functions (call.hpp).
+// python/viscontact/ imports it. A change must keep the names of the exceptions, which users'
+// scripts catch.
 #include <csignal>
 #include <exception>
 
@@ -13,8 +14,8 @@ namespace {
 // Set by the handler of SIGINT. A global variable, because a handler has no other access to data.
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
-// Number of InterruptGuards, of calls in several threads, and the handler before the first of them.
-// The interpreter's lock protects both.
+// Number of InterruptGuards that exist, one for each long call in any thread, and the handler of
+// SIGINT before the first of them. The interpreter's lock protects both variables.
 int guards = 0;
 struct sigaction handler_before = {};
 
@@ -68,10 +69,10 @@ InterruptGuard::InterruptGuard() {
   if (guards++ > 0) return;
   interrupted = false;
   sigaction(SIGINT, nullptr, &handler_before);
-  // Without a handler of Python, or of the user, nothing could act after the call.
+  // If there is no handler, nothing could act on the signal after the call, so nothing is changed.
   if (handler_before.sa_handler == SIG_DFL || handler_before.sa_handler == SIG_IGN) return;
   struct sigaction action = {};
-  action.sa_handler = remember_interrupt;  // no SA_RESTART: a system call that waits returns
+  action.sa_handler = remember_interrupt;  // without SA_RESTART, a signal ends a waiting call
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
 }
@@ -79,7 +80,7 @@ InterruptGuard::InterruptGuard() {
 InterruptGuard::~InterruptGuard() {
   if (--guards > 0) return;
   sigaction(SIGINT, &handler_before, nullptr);
-  // A signal that came too late to stop the call.
+  // The signal came too late to stop the call; Python's own handler now acts on it.
   if (interrupted.exchange(false)) PyErr_SetInterrupt();
 }
 

@@ -1,6 +1,8 @@
 // Tables of the lubrication force and their fits in Python: Fit, PairFit, tabulate, fit, fit_pair.
 // Numbers are in the units of the table. The values are those of the libraries, bit for bit. Errors
-// are those of the functions that are called.
+// are those of the functions that are called; a wrong argument is an Error(kWrongUsage). core.cpp
+// adds them to the module. A change must keep the names and arguments, which users' scripts
+// contain; docs/python.md describes them.
 #include <fmt/format.h>
 
 #include <memory>
@@ -32,8 +34,8 @@ namespace fs = std::filesystem;
   throw Error(ErrorKind::kWrongUsage, message);
 }
 
-/// The limits of the drag with these names; without a name, a gap outside the interval of the fit
-/// is an error.
+/// The drag below and above the interval of the fit that these names stand for. Without a name, a
+/// gap there is an error. Throws Error(kWrongUsage) for an unknown name.
 lubrication::OutsideInterval outside_of(const std::optional<std::string>& below,
                                         const std::optional<std::string>& above) {
   lubrication::OutsideInterval outside;
@@ -51,7 +53,8 @@ lubrication::OutsideInterval outside_of(const std::optional<std::string>& below,
   return outside;
 }
 
-/// `value`, which must be > 0, or `other` if there is none.
+/// `value`, or `other` if there is none. Throws Error(kWrongUsage), which names the argument
+/// `name`, unless `value` is finite and > 0.
 double positive_or(const std::optional<double>& value, double other, const char* name) {
   if (value && !(*value > 0 && std::isfinite(*value)))
     refuse(fmt::format("{} is {}; it must be a finite number > 0", name, *value));
@@ -69,6 +72,8 @@ PythonFit read_python_fit(const fs::path& path, const std::optional<std::string>
           outside_of(below, above)};
 }
 
+/// Writes a fit file, unless the file has this text already. Throws the errors of
+/// refuse_other_kind() and write_output().
 void write_to(const fs::path& path, const std::string& text, const char* kind,
               const char* kind_in_words) {
   results::refuse_other_kind(path, kind, kind_in_words);
@@ -136,8 +141,9 @@ motions::PairFit fit_pair_tables(const std::vector<fs::path>& paths, const std::
   return fit;
 }
 
-/// The tables of a case, whatever its kind; those of several motions are files in the folder
-/// `output`.
+/// The tables of a case of one sphere, a rolling sphere or a swimmer. One table is the file
+/// `output`; those of several motions are files in the folder `output`. `asked` names motions in
+/// place of those of the case; empty: those of the case.
 std::vector<pipeline::CaseTable> tables_of(const fs::path& case_file, const fs::path& output,
                                            const std::vector<std::string>& asked) {
   const auto kind = case_file::kind_of_case(case_file);

@@ -1,7 +1,9 @@
 // Many particles in Python: the class Particles, whose caller makes the steps and sets forces
-// between them. Arrays are views of the state of the simulation, without copies. Numbers are in the
-// units of the case; errors are those of particles/run/particle_simulation.hpp. A change must keep
-// that views stay valid: no step may move an array of the state to another place in memory.
+// between them. core.cpp adds it to the module, and python/viscontact/particles.py derives the
+// class of users from it. Arrays are views of the state of the simulation, without copies. Numbers
+// are in the units of the case; errors are those of particles/run/particle_simulation.hpp. A change
+// must keep that views stay valid: no step may move an array of the state to another place in
+// memory.
 #include <fmt/format.h>
 
 #include <limits>
@@ -40,9 +42,9 @@ class PythonParticles {
                   "another thread computes steps of these particles; wait for it");
   }
 
-  /// Calls `step` while other threads of Python run, and refuses other calls meanwhile. Without a
-  /// fluid a step cannot be stopped, so that Python's own handler acts on Ctrl-C after it. To
-  /// replace this handler for each step takes five microseconds, 2 % of a short step of 1000 discs.
+  /// Calls `step` while other threads of Python may run; check_idle() refuses their calls
+  /// meanwhile. Without a fluid, Ctrl-C cannot stop a step, so Python's own handler stays in place
+  /// and acts after the step: to replace it would take 5 us, 2 % of a short step of 1000 discs.
   template <class Step>
   particles::StepReport compute_step(const Step& step) {
     if (simulation_.has_fluid()) return compute([&](const StopToken&) { return step(); });
@@ -52,7 +54,7 @@ class PythonParticles {
     return step();
   }
 
-  /// Calls `compute` as long_call() does, and refuses other calls meanwhile.
+  /// Calls `compute` as long_call() does; check_idle() refuses other calls meanwhile.
   template <class Compute>
   auto compute(const Compute& compute) {
     check_idle();
@@ -66,7 +68,7 @@ class PythonParticles {
   }
 
  private:
-  /// Sets a flag as long as it exists.
+  /// The flag is true while an object of this class exists.
   class Computing {
    public:
     explicit Computing(bool& flag) : flag_(flag) { flag_ = true; }
@@ -91,8 +93,9 @@ std::unique_ptr<PythonParticles> open_case(const fs::path& path, int threads,
       [&](const StopToken&) { return std::make_unique<PythonParticles>(path, threads, restart); });
 }
 
-/// A view of numbers of the simulation that `owner` contains and which it keeps alive. The numbers
-/// are `rows` rows of equal length; the view has one dimension if this length is 1 and `is_flat`.
+/// A NumPy array that views the `size` numbers from `numbers` on, which belong to the simulation in
+/// `owner`, and keeps `owner` alive. The numbers are `rows` rows of equal length; the array has one
+/// dimension if this length is 1 and `is_flat`.
 template <class Number>
 py::array view(const py::object& owner, const Number* numbers, std::size_t size, std::size_t rows,
                bool is_flat, bool is_writeable) {
@@ -104,7 +107,7 @@ py::array view(const py::object& owner, const Number* numbers, std::size_t size,
   return array;
 }
 
-/// A property that views an array of the particles.
+/// A property of the class in Python that views an array of the particles and cannot be written.
 template <class Member>
 auto view_of(Member particles::Particles::*member, bool is_flat = false) {
   return [member, is_flat](const py::object& self) {
@@ -114,10 +117,11 @@ auto view_of(Member particles::Particles::*member, bool is_flat = false) {
   };
 }
 
-/// A part of a step that is too short to be a step [T].
+/// Two times that differ by less than this [T] differ by rounding errors only.
 double tiny_time(const PythonParticles& self) { return 1e-6 * self.case_file().setting.time_step; }
 
-/// `until`, or `otherwise`. Throws Error(kWrongUsage) if it is before the present time.
+/// `until` [T], or `otherwise` if there is none. Throws Error(kWrongUsage) if `until` is NaN or
+/// before the present time.
 double end_of_steps(const PythonParticles& self, const std::optional<double>& until,
                     double otherwise) {
   if (!until) return otherwise;
@@ -134,7 +138,7 @@ particles::StepReport step(PythonParticles& self, const std::optional<double>& u
   return self.compute_step([&] { return self.simulation().step(end); });
 }
 
-/// Steps until a time, by default that of the case. Returns their number.
+/// Makes steps until the time `until`, by default end_time of the case. Returns their number.
 std::int64_t run(PythonParticles& self, const std::optional<double>& until) {
   const double end = end_of_steps(self, until, self.case_file().end_time);
   const double tiny = tiny_time(self);
@@ -148,7 +152,8 @@ std::int64_t run(PythonParticles& self, const std::optional<double>& until) {
   });
 }
 
-/// An array of the vectors of contacts, with as many components as the space has.
+/// An array with the vector value(contact) in the row of each contact, and with `dimension`
+/// columns.
 template <class Value>
 py::array vectors(const std::vector<particles::CurrentContact>& contacts, int dimension,
                   const Value& value) {

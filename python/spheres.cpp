@@ -1,6 +1,8 @@
-// Motions of single spheres in Python: simulate, rolling, swimmer. Each takes a case and what
-// FreeFEM and the fit have made before, and returns arrays. No file is written. Numbers are in the
-// units of the case. Errors are those of the models, with their names.
+// Motions of single spheres in Python: simulate, rolling, swimmer. Each takes a case and a table or
+// fit that was made before, and returns arrays. No file is written. Numbers are in the units of the
+// case. Errors are those of the models, with their names; a wrong argument is an
+// Error(kWrongUsage). core.cpp adds them to the module. A change must keep the names of functions,
+// arguments and columns, which users' scripts contain; docs/python.md describes them.
 #include <fmt/format.h>
 
 #include <limits>
@@ -27,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using Numbers = std::map<std::string, double>;
 
-/// The case in a file with other numbers at some keys.
+/// The case in a file with other numbers at the keys of `numbers`, such as "sphere.radius".
 template <class Case>
 Case read_with(const fs::path& path, const Numbers& numbers) {
   const std::vector<std::pair<std::string, double>> changed(numbers.begin(), numbers.end());
@@ -38,7 +40,8 @@ Case read_with(const fs::path& path, const Numbers& numbers) {
 using GivenFit = std::variant<const PythonFit*, fs::path>;
 using GivenPairFit = std::variant<const motions::PairFit*, fs::path>;
 
-/// The drag that is given, or that the case names, scaled to the case.
+/// The fit that is given, or that the case names, scaled to the case. Throws Error(kWrongUsage) if
+/// there is neither, and the errors of case_file::fit_for().
 lubrication::Fit fit_of(const case_file::Case& c, const std::optional<GivenFit>& given) {
   if (given) {
     if (const auto* object = std::get_if<const PythonFit*>(&*given))
@@ -151,7 +154,8 @@ py::object columns_of(const rolling::RollingTrajectory& rows, const rolling::Rol
   return as_columns(columns, about);
 }
 
-/// The fit of the pair that is given, or that the case names, scaled to the case.
+/// The fit of the resistances of sphere and plane that is given, or that the case names, scaled to
+/// the case. Throws Error(kWrongUsage) if there is neither, and the errors of rolling::fit_for().
 motions::PairFit fit_of(const rolling::RollingCase& c, const std::optional<GivenPairFit>& given) {
   if (given)
     if (const auto* object = std::get_if<const motions::PairFit*>(&*given))
@@ -184,9 +188,9 @@ py::dict roll(const fs::path& path, const std::optional<GivenPairFit>& given,
   return by_model;
 }
 
-/// What a stroke does.
+/// The motion of the swimmer in one stroke, a cycle of the lengths of its arms.
 struct SwumStroke {
-  double period;
+  double period;  // [T], > 0
   swimmer::SwimSums sums;
   swimmer::SwimErrors errors;
   std::vector<swimmer::SwimRow> rows;
@@ -264,7 +268,7 @@ py::dict swim(const fs::path& path, const std::optional<fs::path>& table_path, i
     if (c.optimal)
       optimal = with_place(path.string() + ": [optimal]", [&] {
         const auto search = swimmer::find_optimal_stroke(swimmer, *c.optimal, stop);
-        // The search has the period 1.
+        // The search computes the stroke and its multiplier for the period 1.
         return result(swimmer::stroke_of(search.loop, c.optimal_period),
                       search.multiplier / c.optimal_period);
       });

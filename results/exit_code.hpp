@@ -22,7 +22,7 @@ struct ExitCode {
 /// All exit codes, in increasing order.
 std::span<const ExitCode> exit_codes();
 
-/// The exit code for an error.
+/// The exit code for an error; each kind has one.
 int exit_code_of(ErrorKind kind);
 
 /// The kind of error that has this exit code. Throws std::out_of_range if no kind has it.

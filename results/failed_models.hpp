@@ -1,6 +1,6 @@
-// The record of the models that failed in a simulation, failed_models.json in a run's folder. From
-// this file `compare` and `report` know why these models have no trajectory. A change must keep the
-// keys of the file. Used by pipeline/ and rolling/.
+// The record of the models that failed in a simulation, failed_models.json in a run's folder. It
+// tells the commands `compare` and `report` why these models have no trajectory. A change must keep
+// the keys of the file. Used by pipeline/ and rolling/.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace viscontact::results {
 
 /// A model that failed, and why.
 struct FailedModel {
-  std::string model;                      ///< name of the model, with suffixes
+  std::string model;                      ///< name of the model, as in MODEL.csv
   std::string reason;                     ///< message of the Error, without the name of the model
   ErrorKind kind = ErrorKind::kBadInput;  ///< kind of the Error
   CsvComments made_from;  ///< comments that identify case, fit and version, as in a trajectory
@@ -43,14 +43,14 @@ Error error_of(const std::vector<FailedModel>& failed, std::size_t computed,
 std::vector<reduced_model::ModelWithoutTrajectory> failures_without(
     const std::vector<reduced_model::Trajectory>& trajectories, const RunFolder& run);
 
-/// The reference that `run` compares `models` (at least one) with: reduced_model::reference_of
-/// those that were computed.
+/// The model with which `run` compares the others: reduced_model::reference_of() those of `models`
+/// (at least one) that are not in `failed`.
 std::string reference_without(const std::vector<std::string>& models,
                               const std::vector<FailedModel>& failed);
 
-/// The reference that `compare` uses: `asked`, or if this is empty the usual reference, or if that
-/// failed the model of the first trajectory. Throws Error(kBadInput) with the recorded reason if
-/// the model `asked` failed.
+/// The model with which `compare` compares the others: `asked`; if this is empty,
+/// reduced_model::usual_reference(); if the latter failed, the model of the first trajectory.
+/// Throws Error(kBadInput) with the recorded reason if the model `asked` failed.
 std::string reference_among(const std::vector<reduced_model::Trajectory>& trajectories,
                             const std::vector<reduced_model::ModelWithoutTrajectory>& failed,
                             const std::string& asked);

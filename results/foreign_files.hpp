@@ -1,6 +1,6 @@
 // Protects files that Viscontact did not write, or that are of another kind, from being replaced by
-// an output. All commands that write files call it before their work. A change must keep that it
-// recognises the outputs of earlier versions.
+// an output. All commands that write files, and python/, call it before their work. A change must
+// keep that it recognises the outputs of earlier versions.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace viscontact::results {
 
-/// The first MiB of a file, in which every output of Viscontact has its provenance. Throws
-/// Error(kBadInput) that names the path if the file cannot be read.
+/// The first MiB of a file, in which every output of Viscontact has its provenance, the record of
+/// how it was made. Throws Error(kBadInput) that names the path if the file cannot be read.
 std::string read_head(const std::filesystem::path& path);
 
 /// True if Viscontact wrote the file at `path`, which must exist. Only its first MiB is read,

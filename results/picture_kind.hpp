@@ -1,6 +1,6 @@
 // The kinds of pictures that a user can ask for. The ending of a file's name says which one. The
-// commands with --plot use them; a new kind needs a place for its provenance
-// (results/provenance.cpp).
+// commands with --plot, pipeline/ and report/ use them; a new kind needs a place for its
+// provenance, the record of how it was made (results/provenance.cpp).
 #pragma once
 
 #include <array>
@@ -34,11 +34,11 @@ inline const PictureKind* picture_kind(const std::filesystem::path& path) {
 
 /// How a picture is written.
 struct PictureFormat {
-  TextKind kind = TextKind::kSvg;  ///< of kPictureKinds
-  /// Width in pixels of an SVG; a PDF has a point for each of them, and a PNG two pixels. The
-  /// height follows it. 0: the width that the picture has by itself.
+  TextKind kind = TextKind::kSvg;  ///< the kind of one of kPictureKinds
+  /// Width in pixels of an SVG; for each of them a PDF has a point and a PNG two pixels. The height
+  /// is in proportion. 0: the width that each picture has by default.
   int width = 0;
-  double font_size = 14;  ///< in the same unit, > 0
+  double font_size = 14;  ///< height of the font in the unit of `width`, > 0
 };
 
 /// The picture that the options of a command ask for.

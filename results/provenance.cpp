@@ -1,6 +1,6 @@
-// Writes the provenance line into each kind of file, and finds and reads it again. A damaged line
-// is an Error(kBadInput). The beginning of its JSON (kBegin) must not change, because earlier files
-// are recognised by it.
+// Writes the line of provenance (how a file was made, as JSON) into each kind of file, and finds
+// and reads it again (provenance.hpp). A damaged line is an Error(kBadInput). The beginning of its
+// JSON (kBegin) must not change, because earlier files are recognised by it.
 #include "viscontact/results/provenance.hpp"
 
 #include <ceres/version.h>
@@ -65,7 +65,8 @@ std::string hash_of(const std::filesystem::path& file) {
              : sha256(read_file(file));
 }
 
-/// The provenance as JSON on one line. `is_ascii`: with \\uXXXX for all other characters.
+/// The provenance as JSON on one line. With `is_ascii`, \uXXXX replaces the characters that are not
+/// ASCII.
 std::string as_line(const Provenance& provenance, bool is_ascii = false) {
   Json json;
   json["command"] = provenance.command;
@@ -133,6 +134,7 @@ std::size_t line_after(const std::string& text, std::string_view mark, std::size
   return end < text.size() && text[end] == '\n' ? end + 1 : end;
 }
 
+/// The position in a text of this kind at which with_provenance() inserts the line.
 std::size_t place_in(TextKind kind, const std::string& text) {
   switch (kind) {
     case TextKind::kHashComment:
@@ -150,8 +152,8 @@ std::size_t place_in(TextKind kind, const std::string& text) {
     case TextKind::kXml:
       return line_after(text, "?>");
     case TextKind::kPdf:
-      // The line is added behind the objects of the file, so that the offsets in its table of
-      // offsets stay right.
+      // The line stands behind all objects of the file, so that the table of their offsets stays
+      // right.
       return text.rfind("startxref");
   }
   return 0;
@@ -222,7 +224,7 @@ std::optional<std::filesystem::path> folder_around(const std::filesystem::path& 
   return folder;
 }
 
-/// True if the inputs that the user gave are all at relative paths, and are there in the folder.
+/// True if all inputs that the user gave have relative paths, which lead from `folder` to files.
 bool has_inputs(const std::filesystem::path& folder, const Provenance& provenance) {
   return std::ranges::all_of(provenance.inputs, [&](const InputFile& input) {
     return input.intermediate || (std::filesystem::path(input.file).is_relative() &&
@@ -310,7 +312,7 @@ std::optional<Provenance> provenance_in(const std::string& text, const std::stri
                              ? std::string()
                              : text.substr(line->json, closing + 1 - line->json));
     } else {
-      // A JSON file that another program has written out again.
+      // Without a line, the file may be JSON that another program has read and written again.
       const auto whole = Json::parse(text, nullptr, false);
       if (!whole.is_object() || !whole.contains("provenance")) return {};
       json = whole.at("provenance");

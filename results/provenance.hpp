@@ -1,6 +1,7 @@
 // Provenance: how a file was made. Every output contains its provenance as one line, which
 // `viscontact rerun`, the report and foreign_files.hpp read. It names the versions of the programs
-// and libraries that made the file. A change must keep files of earlier versions readable.
+// and libraries that made the file. All parts that write results use it. A change must keep files
+// of earlier versions readable.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +17,7 @@ namespace viscontact::results {
 
 /// A file that an output was made from.
 struct InputFile {
-  std::string file;           ///< path, relative to the folder of the command
+  std::string file;           ///< path, if relative from the folder of the command
   std::string sha256;         ///< SHA-256 of the file's bytes; empty if it is a pipe
   bool intermediate = false;  ///< true: the same command made the file, as `run` makes its table
 };
@@ -59,9 +60,9 @@ std::size_t path_in_word(const std::string& word);
 Provenance without_folders(Provenance provenance);
 
 /// `text` with the provenance as one line in it. The line is the first key of a kJson file, an
-/// element <metadata> of a kSvg file, a data script in <head> of a kHtml file, a comment before the
-/// last lines of a kPdf file, a chunk of text after the header of a kPng file, and a comment at the
-/// head of any other file. `text` must be a complete file of this kind; for kJson it must be an
+/// element `metadata` of a kSvg file, a data script in the head of a kHtml file, a comment before
+/// the last lines of a kPdf file, a chunk of text after the header of a kPng file, and a comment at
+/// the head of any other file. `text` must be a complete file of this kind; for kJson it must be an
 /// object with at least one key.
 std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance);
 

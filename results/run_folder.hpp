@@ -1,6 +1,6 @@
-// The names of the files in the folder of a run (docs/file-formats.md). The stages of pipeline/,
-// reports and particles/run use them. A change must keep them, because users, scripts and later
-// versions rely on them.
+// The names of the files in the folder of a run (docs/file-formats.md). app/, pipeline/, report/,
+// particles/, rolling/ and swimmer/ use them. A change must keep them, because users, scripts and
+// later versions rely on them. Nothing is thrown.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ inline constexpr const char* kFolderIsLocked =
 
 /// The folder of a run; each function returns the path of a file or sub-folder in it.
 struct RunFolder {
-  std::filesystem::path path;
+  std::filesystem::path path;  ///< of the folder
 
   /// The copy of the case that was run.
   std::filesystem::path case_file() const { return path / "case.toml"; }
@@ -23,20 +23,25 @@ struct RunFolder {
   std::filesystem::path beside_case(const std::filesystem::path& file) const {
     return path / file.filename();
   }
-  std::filesystem::path table() const { return path / "table.csv"; }
-  std::filesystem::path fit() const { return path / "fit.json"; }
+  std::filesystem::path table() const { return path / "table.csv"; }  ///< table of forces
+  std::filesystem::path fit() const { return path / "fit.json"; }     ///< fit of the table
+  /// The folder of the trajectories.
   std::filesystem::path trajectories() const { return path / "trajectories"; }
+  /// The trajectory of a model.
   std::filesystem::path trajectory(std::string_view model) const {
     return trajectories() / (std::string(model) + ".csv");
   }
+  /// The comparison of the trajectories.
   std::filesystem::path comparison() const { return path / "comparison.json"; }
+  /// How the errors of the fit change the smallest and the last gap; not every run has this file.
   std::filesystem::path uncertainty() const { return path / "uncertainty.json"; }
   /// The models that failed, with reasons; exists only if a model failed.
   std::filesystem::path failed_models() const { return path / "failed_models.json"; }
+  /// The picture with this name.
   std::filesystem::path plot(const std::string& name) const {
     return path / "plots" / (name + ".svg");
   }
-  std::filesystem::path report() const { return path / "report.html"; }
+  std::filesystem::path report() const { return path / "report.html"; }  ///< page of the run
 };
 
 }  // namespace viscontact::results

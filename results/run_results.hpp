@@ -18,16 +18,16 @@ namespace viscontact::results {
 
 /// The results of a run.
 struct RunResults {
-  RunFolder folder;
-  case_file::Case c;
-  lubrication::Fit fit;        ///< for the radius and the viscosity of the case
-  bool fit_is_scaled = false;  ///< true: fit.json is that of another radius or viscosity
-  reduced_model::Comparison comparison;
+  RunFolder folder;                      ///< the folder of the run
+  case_file::Case c;                     ///< the case that was run
+  lubrication::Fit fit;                  ///< for the radius and the viscosity of the case
+  bool fit_is_scaled = false;            ///< true: fit.json is that of another radius or viscosity
+  reduced_model::Comparison comparison;  ///< of the trajectories
   /// The trajectories of those models of the comparison whose files exist; at least one.
   std::vector<reduced_model::Trajectory> trajectories;
   /// The table that the fit was made from; nothing if the run needs no table.
   std::optional<lubrication::MotionTable> table;
-  std::optional<reduced_model::FitUncertainty> uncertainty;  ///< nothing if the run has none
+  std::optional<reduced_model::FitUncertainty> uncertainty;  ///< errors by the fit; nothing: none
 };
 
 /// Reads the results of the run in `folder`. Throws Error(kBadInput) if case, fit, comparison or

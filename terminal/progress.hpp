@@ -1,7 +1,8 @@
 // What a person at a terminal sees on standard error: a progress line, and messages with coloured
 // words. If standard error is not a terminal, messages are plain text, and progress is a line of
 // its own once a minute; a change must keep that, because scripts read the messages and logs of
-// long jobs tell how far they are. app, pipeline and report call it.
+// long jobs tell how far they are. app/, pipeline/, particles/, rolling/, swimmer/, motions/ and
+// report/ call it. Nothing is thrown.
 #pragma once
 
 #include <chrono>
@@ -21,7 +22,7 @@ void show_progress(const std::string& text);
 class ProgressLines {
  public:
   using Clock = std::chrono::steady_clock;
-  /// True if a minute has passed between the first call, or the one that last returned true, and
+  /// True if a minute has passed from the first call, or from the last call that returned true, to
   /// `now`.
   bool is_due(Clock::time_point now);
 
@@ -41,8 +42,9 @@ class ProgressTimer {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// The remaining time of a work of which the share `done`, above 0 and at most 1, took `seconds`
-/// [s]: ", about 3 min left". Empty in the first two seconds, which are too short for an estimate.
+/// The remaining time of a work whose share `done`, from 0 to 1, took `seconds` [s], such as ",
+/// about 3 min left". Empty if `done` is 0, and in the first two seconds, which are too short for
+/// an estimate.
 std::string time_left(double seconds, double done);
 
 /// Removes the progress line.
