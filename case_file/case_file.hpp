@@ -24,10 +24,10 @@ namespace viscontact::case_file {
 
 /// The kinds of cases, for commands that take several of them.
 enum class CaseKind {
-  kSphere,     ///< one sphere, read_case()
-  kParticles,  ///< has the section [space], read_particles_case()
-  kRolling,    ///< has the section [rolling], read_rolling_case()
-  kSwimmer     ///< has the section [swimmer], read_swimmer_case()
+  kSphere,     ///< one sphere; read_case() reads it
+  kParticles,  ///< has the section [space]; read_particles_case()
+  kRolling,    ///< has the section [rolling]; read_rolling_case()
+  kSwimmer     ///< has the section [swimmer]; read_swimmer_case()
 };
 
 /// The kind of a case. Throws Error(kBadInput) if the file cannot be read or is not valid TOML.
@@ -65,7 +65,7 @@ struct Case {
   std::optional<FitRequest> fit;                      ///< section [fit]
   /// Section [motion], with the parameters of the models (defaults if the case does not give them).
   std::optional<reduced_model::Motion> motion;
-  /// Names of the models to run; empty: the default models of the registry.
+  /// Names of the models to run; empty: reduced_model::default_models().
   std::vector<std::string> models;
   std::optional<PublishedGap> published;           ///< section [published]
   std::optional<SweepRequest> sweep;               ///< section [sweep]

@@ -98,7 +98,8 @@ CLI::Option* add_json(CLI::App& command, bool& json) {
 }
 
 CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help) {
-  // The default is given in words, because the manual is made on one machine and read on another.
+  // The default is given in words and not as a number of cores, because the manual is made on one
+  // machine and read on another.
   return command.add_option("-j,--jobs", jobs, help)
       ->check(CLI::Range(1, 1024))  // a free limit; few machines have more cores
       ->default_str("one for each core");

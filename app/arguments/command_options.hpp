@@ -55,12 +55,12 @@ void check_models(std::string_view option, const std::vector<std::string>& names
 void check_outputs(const std::vector<std::string>& paths);
 
 /// Throws Error(kWrongUsage) unless the ending of the file that --plot names is that of a kind of
-/// picture (results::kPictureKinds), and Error(kBadInput) if there is such a file that is not a
-/// picture of this kind by Viscontact. Does nothing if `path` is empty.
+/// picture (results::kPictureKinds), and Error(kBadInput) if `path` is a file, but no picture of
+/// this kind that Viscontact wrote. Does nothing if `path` is empty.
 void check_picture(const std::string& path);
 
 /// Adds the options --plot, whose help is `help`, --width (100 to 10000) and --font-size (2 to
-/// 200), which set `picture` and have the unit of results::PictureFormat.
+/// 200), which set `picture`; their unit is a pixel of an SVG, or a point of a PDF.
 void add_picture(CLI::App& command, results::PictureRequest& picture, const std::string& help);
 
 /// The default of --jobs, >= 1: one process or thread for each core.
@@ -88,7 +88,8 @@ struct ArrayOptions {
       task;                        ///< "K/T": rows K, K+T, ...; 0 <= K < T; empty: all
   std::size_t tasks = 0;           ///< tasks of the array job; 0: one for each row, at most 1000
   bool gather = false;             ///< true: writes tables from finished rows, computes none
-  /// CLI11's objects of the options, by which a command excludes them beside other options.
+  /// CLI11's objects of --launcher, --gather and --task, by which a command declares that other
+  /// options exclude them.
   CLI::Option *launcher_option = nullptr, *gather_option = nullptr, *task_option = nullptr;
 
   bool is_slurm() const { return launcher == "slurm"; }  ///< whether a job is submitted

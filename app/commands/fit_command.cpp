@@ -1,8 +1,9 @@
-// The command lines of `fit` (fits a formula to a table, or compares bases), `shift` (finds the
-// shift of a rough wall) and `export` (writes a fit as code or numbers), which main.cpp adds.
-// docs/command-line.md describes them, docs/theory.md the fit. Numbers are in the units of the
-// table; a wrong option is an Error(kWrongUsage). refuse_other_kind() recognises the kind of a file
-// by the text that it is given here; the text must occur in what the writer of that kind writes.
+// The command lines of `fit` (fits a formula to a table, or compares bases, which are lists of
+// terms), `shift` (fits the depth below the crests of a rough wall at which a smooth wall has equal
+// drag) and `export` (writes a fit as code or numbers), which main.cpp adds. docs/command-line.md
+// describes them, docs/theory.md the fit. Numbers are in the units of the table; a wrong option is
+// an Error(kWrongUsage). refuse_other_kind() recognises a kind of file by a text that is given
+// here; a change must keep that the writer of the kind writes this text.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -56,8 +57,8 @@ void read_fix(const std::string& word, fitting::FitSettings& settings) {
                     word));
 }
 
-/// The values of the options of `fit`, which are named after them; add_fit() says what each means.
-/// A path or text is empty if its option was not given.
+/// The values of the options of `fit`. Each member is named after its option, which add_fit()
+/// explains. A path or text is empty if its option was not given.
 struct FitOptions {
   std::string basis{lubrication::default_basis().name};
   std::vector<std::string> tables;

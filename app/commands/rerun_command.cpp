@@ -143,7 +143,8 @@ std::vector<std::string> with_output(const RerunOptions& o, const results::Prove
 /// moved. Absolute paths below the old folder, provenance.folder, become paths below `to`.
 void move_to(results::Provenance& provenance, const fs::path& to) {
   const std::string from = provenance.folder + "/";
-  // results::without_folders() removes the folder and all absolute paths together.
+  // A provenance without its folder has no absolute paths either, because
+  // results::without_folders() removes both.
   const bool tells_folder = !provenance.folder.empty();
   const auto move = [&](std::string& word, std::size_t begin) {
     if (tells_folder && word.compare(begin, from.size(), from) == 0)

@@ -42,8 +42,9 @@ void add_picture_options(CLI::App& command, SweepOptions& o) {
 
 /// What to draw. Options of the command line decide. If they are missing, the section [sweep] of
 /// the case decides, provided that the sweep has the keys and columns that it names. Otherwise the
-/// first varied keys are the axes, and the columns are s.columns. Throws Error(kWrongUsage) if no
-/// key is varied, or if a map of random samples was asked for.
+/// first varied keys are the axes, and the columns are s.columns, the default of the kind of case.
+/// Throws Error(kWrongUsage) if no key is varied, or if a map (colours over two keys) of random
+/// samples was asked for.
 report::SweepPlot picture_of(const SweepOptions& o, const CaseStudy& s) {
   const auto& request = s.request;
   const auto& points = s.study.points;

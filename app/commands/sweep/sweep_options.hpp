@@ -30,11 +30,11 @@ struct SweepOptions {
   results::PictureRequest plot;   ///< the picture
   std::uint64_t samples = 0,      ///< number of random points
       seed = 1,                   ///< seed of the random points
-      draws = 0;                  ///< number of random arrangements at each point
+      draws = 0;                  ///< number of random arrangements of particles at a point
   int jobs = default_jobs();      ///< number of rows at once, >= 1
   ArrayOptions array;             ///< how the rows are divided among the jobs of a cluster
   bool dry_run = false,           ///< true: says how long the rows take, computes none
-      json = false,               ///< true: says it as JSON
+      json = false,               ///< true: says it in JSON
       keep_runs = false;          ///< true: keeps the files of runs of particles
   const CLI::Option* jobs_option = nullptr;  ///< tells whether --jobs was given
 };
@@ -43,8 +43,8 @@ struct SweepOptions {
 struct CaseStudy {
   sweep::Study study{};                        ///< points, and how rows are computed
   std::vector<std::filesystem::path> files{};  ///< the inputs, for the provenance
-  std::string part{};                 ///< name of the parts of a row that may fail, such as "model"
-  case_file::SweepRequest request{};  ///< the section [sweep] of the case
+  std::string part{};                          ///< what may fail in a row, for messages: "model"
+  case_file::SweepRequest request{};           ///< the section [sweep] of the case
   std::vector<std::string> columns{};  ///< columns that are drawn if nothing else is asked for
 };
 

@@ -25,7 +25,7 @@
 namespace viscontact::app {
 namespace {
 
-/// Replaces those points of the case that --vary, --samples and --seed give.
+/// Replaces in `points` what --vary, --samples and --seed give.
 void set_points(const SweepOptions& o, sweep::Points& points) {
   if (!o.vary.empty()) points.variations.clear();
   for (const auto& text : o.vary)
