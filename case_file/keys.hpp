@@ -93,7 +93,7 @@ class Keys {
   explicit Keys(KeyTable& table) : table_(&table) {}                 ///< for describing: adds rows
 
   bool reads() const { return section_ != nullptr; }        ///< true: reads; false: describes
-  const TomlSection& section() const { return *section_; }  ///< only if it reads
+  const TomlSection& section() const { return *section_; }  ///< only if reads()
   /// True if it reads and the section has the key.
   bool has(std::string_view key) const { return reads() && section_->has(key); }
 
@@ -154,7 +154,8 @@ inline constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "
 /// A number as text for the tables, such as "1e-6".
 std::string number_in_words(double number);
 
-// Values of keys. They refer to their arguments, which must live until the key is declared.
+// The functions below make the value of a key. It refers to the `place`, which must live until the
+// key is declared.
 
 /// A value that is described by `words`, and that read(section, key, places...) reads into the
 /// places.
@@ -207,7 +208,7 @@ KeyValue parsed(std::string_view words, Place& place, const Parse& parse) {
   });
 }
 
-/// One of some words, each with its meaning.
+/// A text that must be one of `words`, each of which stands for a value of `place`.
 template <class Meaning>
 KeyValue one_of(Meaning& place, std::initializer_list<std::pair<std::string_view, Meaning>> words) {
   using Word = std::pair<std::string_view, Meaning>;
@@ -232,7 +233,7 @@ KeyValue one_of(Meaning& place, std::initializer_list<std::pair<std::string_view
           }};
 }
 
-/// The section [fluid] of a case of one sphere or of a swimmer: `viscosity` [M/(L T)], > 0.
+/// Declares the key `viscosity` [M/(L T)], > 0, of the section [fluid].
 void viscosity_keys(Keys& keys, double& viscosity);
 
 }  // namespace viscontact::case_file

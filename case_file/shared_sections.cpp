@@ -36,6 +36,7 @@ struct GapGrid {
 void grid_keys(Keys& keys, GapGrid& grid) {
   keys.required("from", number(grid.from, kPositive), {"the smallest gap"});
   keys.required("to", number(grid.to, kPositive), {"the largest gap, greater than `from`"});
+  // The largest number of gaps is a free choice.
   keys.required("count", count(grid.count, 2, 100000), {"the number of gaps"});
   keys.required("spacing", one_of(grid.is_logarithmic, {{"log", true}, {"linear", false}}),
                 {"equal ratios of neighbours, or equal differences"});
@@ -117,7 +118,7 @@ void read_container(const TomlSection& section, std::string_view key, Tabulation
                 container.height, space.container_height);
   // In larger containers FreeFEM's mesh generator cannot make edges that are short enough for the
   // gap (boundary_edges.idp). The drag there is nearly that in unbounded fluid.
-  constexpr double kLargestLength = 2e5;
+  constexpr double kLargestLength = 2e5;  // in radii of the sphere
   for (const auto& [name, length] :
        {std::pair("radius", container.radius), std::pair("height", container.height)})
     table.require(length <= kLargestLength * tabulation.radius, name,

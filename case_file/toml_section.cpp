@@ -113,9 +113,10 @@ void check_dotted_keys(const std::string& text, const std::string& file) {
   }
 }
 
-/// True if the number can be stored as an integer without loss.
+/// True if the number can be stored as an integer without loss; doubles up to 2^53 hold all
+/// integers.
 bool is_integer(double value) {
-  constexpr double kLargestInteger = 1e15;  // any limit up to 2^53 works: doubles hold all integers
+  constexpr double kLargestInteger = 1e15;  // any limit works that is at most 2^53
   return value == std::floor(value) && std::abs(value) <= kLargestInteger &&
          !(value == 0 && std::signbit(value));
 }

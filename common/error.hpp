@@ -16,7 +16,7 @@ enum class ErrorKind {
   /// A file, or a value in a file, is wrong.
   kBadInput,
   /// A computation did not reach the accuracy or tolerance that was asked for, left the range of a
-  /// double, or has missing rows.
+  /// double, or lacks rows that it needs.
   kNotConverged,
   /// An external program (FreeFEM, gnuplot, Slurm) failed or is missing.
   kExternalProgram,

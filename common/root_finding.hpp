@@ -21,8 +21,8 @@ double bisect_first_true(double from, double to, const Condition& holds) {
   return to;
 }
 
-/// Whether Newton's method may step onto an end of the bracket. If not, bisection replaces the
-/// step.
+/// Whether Newton's method may step onto an end of the bracket (kClosed), or bisection replaces
+/// such a step (kOpen).
 enum class Bracket { kOpen, kClosed };
 
 /// The root in [low, high] of an increasing function, by Newton's method from x in [low, high]. A

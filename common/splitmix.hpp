@@ -19,8 +19,8 @@ constexpr std::uint64_t splitmix_hash(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// The number in [0, 1) whose binary digits are the upper 53 of the 64 bits. All values are equally
-/// likely.
+/// The number in [0, 1) whose binary digits are the upper 53 of the 64 bits. All 2^53 values are
+/// equally likely.
 inline double unit_interval_of(std::uint64_t bits) {
   return std::ldexp(static_cast<double>(bits >> 11), -53);
 }

@@ -24,8 +24,8 @@ namespace py = pybind11;
 
 /// While an object of this class exists, SIGINT sets a flag instead of calling the handler of
 /// Python, which could not run before the call returns. The handler of Python runs afterwards. If
-/// SIGINT is ignored or ends the process, this stays so. The thread must hold the interpreter's
-/// lock (GIL) when it makes or destroys an object.
+/// SIGINT is ignored, or ends the process because Python has no handler, nothing changes. The
+/// thread must hold the interpreter's lock (GIL) when it makes or destroys an object.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -104,7 +104,7 @@ class PythonFit {
       : fit_(std::move(fit)),
         force_(with_place(place, [&] { return lubrication::LubricationForce(fit_, outside); })) {}
 
-  const lubrication::Fit& fit() const { return fit_; }                   ///< with its coefficients
+  const lubrication::Fit& fit() const { return fit_; }  ///< the fit with its coefficients
   const lubrication::LubricationForce& force() const { return force_; }  ///< the force of the fit
 
  private:

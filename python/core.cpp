@@ -11,7 +11,7 @@
 namespace viscontact::python {
 namespace {
 
-// Set by the handler of SIGINT. A global variable, because a handler has no other access to data.
+// The handler of SIGINT sets it. It is global, because a handler has no other access to data.
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 // Number of InterruptGuards that exist, one for each long call in any thread, and the handler of

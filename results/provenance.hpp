@@ -17,7 +17,7 @@ namespace viscontact::results {
 
 /// A file that an output was made from.
 struct InputFile {
-  std::string file;           ///< path, if relative from the folder of the command
+  std::string file;           ///< path; a relative one begins at the command's folder
   std::string sha256;         ///< SHA-256 of the file's bytes; empty if it is a pipe
   bool intermediate = false;  ///< true: the same command made the file, as `run` makes its table
 };
@@ -116,7 +116,8 @@ void write_output(const std::filesystem::path& path, TextKind kind, const std::s
 /// The versions of Viscontact and of the libraries it was built with, by name.
 std::map<std::string, std::string> library_versions();
 
-/// The version that FreeFEM reports, or "not found" if FreeFEM cannot be run.
+/// The version that FreeFEM reports, or "not found" if FreeFEM cannot be run. Throws
+/// Error(kInterrupted) if `stop` requests a stop.
 std::string freefem_version_or_not_found(const StopToken& stop = {});
 
 }  // namespace viscontact::results

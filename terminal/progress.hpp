@@ -53,7 +53,7 @@ void clear_progress();
 /// Writes a line to standard error.
 void say(const std::string& text);
 
-/// Writes a line to standard error, with its first word "warning:" in yellow.
+/// Writes a line to standard error, in which the first "warning:" is yellow.
 void warn(const std::string& text);
 
 /// Writes an error message to standard error, with its first word in red.

@@ -54,7 +54,7 @@ class GrowingFile {
   std::string foot_;
   Descriptor file_;
   FileEnd end_;
-  std::string waiting_;  // the last lines of end_, which are not in the file
+  std::string waiting_;  // the last lines up to end_, which are not in the file yet
 };
 
 }  // namespace viscontact

@@ -44,7 +44,7 @@ class LastLines {
 /// The child leads a process group of its own. The group is killed when the object is destroyed,
 /// and the child is ended by the kernel when the thread that made the object ends, even by SIGKILL.
 ///
-/// The functions that wait throw Error(kInterrupted) if `stop` requests a stop.
+/// The functions that wait throw Error(kInterrupted) if `stop` of the constructor requests a stop.
 class ChildProcess {
  public:
   /// The clock of the deadlines.

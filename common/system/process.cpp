@@ -24,8 +24,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Sends `input` to the child and collects its output, until the child closes its output, a stop is
-/// requested, or `deadline` has passed.
+/// Sends `input` to the child and returns its output, which is collected until the child closes its
+/// output, a stop is requested, or `deadline` has passed.
 std::string converse(Descriptor& to_child, int from_child, std::string_view input,
                      Clock::time_point deadline, const StopToken& stop) {
   std::string output;

@@ -51,7 +51,7 @@ std::string write_csv_comments(const CsvComments& comments);
 double csv_comment_number(const CsvComments& comments, const std::string& key,
                           const std::string& file);
 
-/// The fields of a line that has no quotation marks, one more than its commas.
+/// The fields of a line without quotation marks. There is one field more than there are commas.
 std::vector<std::string> csv_fields(const std::string& line);
 
 /// The text for a message: if it has more than 60 characters, the first 60 of them and "...".

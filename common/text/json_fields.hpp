@@ -76,9 +76,10 @@ class JsonFields {
                     fmt::format("{} {}", where.empty() ? "the file" : where, what));
   }
 
-  /// A field. Its type is double (finite), bool, std::size_t, long, std::string, std::optional (an
-  /// empty one is written as null, or left out with kLeftOutIfEmpty), a map of texts, an array of
-  /// two numbers, a struct with fields_of(), or a vector of any of these.
+  /// Reads or writes the member `value` under `key`. Its type is double (finite), bool,
+  /// std::size_t, long, std::string, std::optional (an empty one is written as null, or left out
+  /// with kLeftOutIfEmpty), a map of texts, an array of two numbers, a struct with fields_of(), or
+  /// a vector of any of these.
   template <class Value>
   void operator()(const std::string& key, Value& value, Absence absence = Absence::kRefused) {
     if (!reads()) {
