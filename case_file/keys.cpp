@@ -1,7 +1,7 @@
-// Makes the tables of docs/case-file.md and the case that the command `init` writes from
-// declarations of keys (keys.hpp). Examples have the units of the case. Reading throws the
-// Error(kBadInput) of TomlSection; describing throws nothing. A change alters that page, whose test
-// CaseFilePage then fails.
+// Makes the tables of docs/case-file.md and the case that the command `init` writes from the
+// declarations of keys in case_file/, particles/, rolling/ and swimmer/ (keys.hpp). Examples have
+// the units of the case. Reading throws the Error(kBadInput) of TomlSection; describing throws
+// nothing. A change alters that page, whose test CaseFilePage then fails.
 #include "viscontact/case_file/keys.hpp"
 
 #include <regex>

@@ -1,6 +1,6 @@
 // Recognises files of Viscontact by their provenance, the record of how a file was made
-// (provenance.hpp), in their first MiB. A file that must not be replaced is an Error(kBadInput). A
-// change must still recognise files of earlier versions.
+// (provenance.hpp), in their first MiB, for all commands that write files. A file that must not be
+// replaced is an Error(kBadInput). A change must still recognise files of earlier versions.
 #include "viscontact/results/foreign_files.hpp"
 
 #include <fmt/format.h>

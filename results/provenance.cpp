@@ -1,6 +1,7 @@
 // Writes the line of provenance (how a file was made, as JSON) into each kind of file, and finds
-// and reads it again (provenance.hpp). A damaged line is an Error(kBadInput). The beginning of its
-// JSON (kBegin) must not change, because earlier files are recognised by it.
+// and reads it again (provenance.hpp), for all parts that write results and for `rerun`. A damaged
+// line is an Error(kBadInput). The beginning of its JSON (kBegin) must not change, because earlier
+// files are recognised by it.
 #include "viscontact/results/provenance.hpp"
 
 #include <ceres/version.h>

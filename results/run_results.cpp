@@ -1,6 +1,6 @@
-// Reads case, fit, comparison, trajectories, table and uncertainty of a run (run_folder.hpp).
-// Numbers are in the units of the case. A file that is missing or damaged is an Error(kBadInput). A
-// change must still read the runs of earlier versions.
+// Reads case, fit, comparison, trajectories, table and uncertainty of a run (run_folder.hpp) for
+// report/. Numbers are in the units of the case. A file that is missing or damaged is an
+// Error(kBadInput). A change must still read the runs of earlier versions.
 #include "viscontact/results/run_results.hpp"
 
 #include <utility>

@@ -1,6 +1,7 @@
-// Opens, locks (flock) and appends with system calls (locks.hpp); a failed call becomes an
-// Error(kBadInput) with the path. The locks must remain flocks, because
-// freefem_axi/journal/row_record.cpp locks the same files with flock.
+// Opens, locks (flock) and appends with system calls (locks.hpp), for all commands that write into
+// a folder or a journal. A failed call becomes an Error(kBadInput) with the path. A change must
+// keep the locks flocks, because freefem_axi/journal/row_record.cpp locks the same files with
+// flock.
 #include "viscontact/common/files/locks.hpp"
 
 #include <fcntl.h>

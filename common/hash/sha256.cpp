@@ -1,5 +1,5 @@
-// Computes SHA-256 with OpenSSL (sha256.hpp). A failure of OpenSSL is asserted. A change must keep
-// the digits, which files contain.
+// Computes SHA-256 with OpenSSL (sha256.hpp), for all parts that write results. A failure of
+// OpenSSL is asserted. A change must keep the digits, which files contain.
 #include "viscontact/common/hash/sha256.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
-// Starts a child process by fork and exec (start_process.hpp). Between fork and exec a change may
-// only call functions that POSIX lists as async-signal-safe, which neither allocate memory nor take
-// locks, because another thread may hold a lock at the moment of the fork.
+// Starts a child process by fork and exec (start_process.hpp), for process.cpp and
+// child_process.cpp. Between fork and exec a change may only call functions that POSIX lists as
+// async-signal-safe, which neither allocate memory nor take locks, because another thread may hold
+// a lock at the moment of the fork.
 #include "viscontact/common/system/start_process.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-// Reads CSV files by fast-cpp-csv-parser (csv.hpp). Every fault of a file becomes an
-// Error(kBadInput) with file and line; the messages are not those of the library. A change must
-// keep published files readable.
+// Reads CSV files by fast-cpp-csv-parser (csv.hpp), for all readers of tables, trajectories and
+// particles. Every fault of a file becomes an Error(kBadInput) with file and line; the messages are
+// not those of the library. A change must keep published files readable.
 #include "viscontact/common/text/csv.hpp"
 
 #include <fmt/format.h>

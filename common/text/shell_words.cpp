@@ -1,5 +1,6 @@
-// Splits and quotes words (shell_words.hpp). A change must keep that a POSIX shell reads each
-// quoted word as it was. In split_words() backslashes have no special meaning.
+// Splits and quotes the words of command lines (shell_words.hpp), for messages, scripts of Slurm
+// and records of commands in files. A change must keep that a POSIX shell reads each quoted word as
+// it was. In split_words() backslashes have no special meaning.
 #include "viscontact/common/text/shell_words.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-// Writes and reads flows as VTK files (flow_vtk.hpp). A file that is cut short is an
-// Error(kBadInput). A change must keep the names of the arrays, because the reader and users'
-// pictures refer to them.
+// Writes flows as VTK files for freefem_axi/ and particles/, and reads them for particles/picture/
+// (flow_vtk.hpp). A file that is cut short is an Error(kBadInput). A change must keep the names of
+// the arrays, because the reader and users' pictures refer to them.
 #include "viscontact/common/vtk/flow_vtk.hpp"
 
 #include <algorithm>
