@@ -33,7 +33,7 @@ bool has_provenance(std::string_view text) {
 }  // namespace
 
 std::string read_head(const std::filesystem::path& path) {
-  constexpr std::size_t kMost = std::size_t{1} << 20U;
+  constexpr std::size_t kMost = std::size_t{1} << 20U;  // bytes; longer than any head
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw_bad_input({path.string()}, fmt::format("cannot be read ({})", std::strerror(errno)));

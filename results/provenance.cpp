@@ -189,7 +189,7 @@ std::uint32_t crc_of(std::string_view bytes) {
 /// line of the provenance ends (find_line).
 std::string png_chunk(const Provenance& provenance) {
   const auto content = std::string(kChunk) + as_line(provenance, true) + "\n";
-  constexpr std::size_t kType = 4;
+  constexpr std::size_t kType = 4;  // bytes of the type, which the length does not count
   return as_bytes(static_cast<std::uint32_t>(content.size() - kType)) + content +
          as_bytes(crc_of(content));
 }

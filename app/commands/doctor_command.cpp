@@ -40,7 +40,7 @@ using Report = std::function<void(const Finding&)>;
 /// series of Brenner (1961).
 Finding solve_known_row(const freefem_axi::FreeFem& freefem) {
   constexpr double kBrenner = 11.45915720340955722964;
-  constexpr double kTolerance = 1e-4;
+  constexpr double kTolerance = 1e-4;  // small enough to show a wrong installation
   freefem_axi::Tabulation tabulation;
   tabulation.viscosity = tabulation.radius = 1;
   tabulation.container = freefem_axi::Container{40, 80};

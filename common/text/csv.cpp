@@ -176,7 +176,7 @@ std::vector<std::string> csv_fields(const std::string& line) {
 }
 
 std::string shortened(const std::string& text) {
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kLongest = 60;  // a free choice
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
 }
 

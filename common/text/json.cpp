@@ -150,7 +150,7 @@ class LineRecorder {
 std::string cause_in_words(const Json::exception& error) {
   // The text of an error has this form:
   // "[json.exception.parse_error.101] parse error at line 1, column 2: what is wrong"
-  constexpr std::size_t kLongest = 200;
+  constexpr std::size_t kLongest = 200;  // bytes, a free choice
   const std::string what = error.what();
   std::string cause = what.substr(std::min(what.size(), what.find("] ") + 2));
   if (const auto column = cause.find(", column "); column != std::string::npos)
