@@ -1,6 +1,6 @@
 // Converts numbers to text and back without loss. The locale has no effect. All parts use these
-// functions for the numbers in text files other than JSON. A change must keep the texts, because
-// hashes in files are computed from them. Nothing is thrown.
+// functions for the numbers in text files other than JSON and TOML. A change must keep the texts,
+// because hashes in files are computed from them. Nothing is thrown.
 #pragma once
 
 #include <optional>
