@@ -1,7 +1,7 @@
-// The names of the motions, the head of a table, and the checks of its numbers (table.hpp,
-// docs/file-formats.md). Numbers are in the units of the table. An unknown name is an
-// Error(kBadInput), and a fault of a file one with file and key or line. A change must keep names
-// and keys.
+// The names of the motions of a sphere, and the lines "# key: value" at the head of a table
+// (docs/file-formats.md). Dimensions and ranges are in table.hpp. A fault of a file is an
+// Error(kBadInput) with file and key or line. A change must keep names and keys, which published
+// tables have.
 #include "viscontact/lubrication/table.hpp"
 
 #include <fmt/format.h>
