@@ -38,8 +38,7 @@ struct FittedSystem {
   Eigen::VectorXd weighted_residual;
   /// (fit - table)/(force of the row), or (fit - table)/FitSettings::row_scales if these are given.
   Eigen::VectorXd relative_residual;
-  /// weight * (fit - table)/(scale of all residuals, RobustSolution::scale): the argument of the
-  /// loss.
+  /// The argument of the loss: weight * (fit - table)/RobustSolution::scale.
   Eigen::VectorXd scaled_residual;
   /// The coefficients with ln(q/r) in place of ln q. Their relative standard errors, unlike those
   /// of the fit, are the same in all units of length.
@@ -425,8 +424,7 @@ void shift_logarithms(const FitSettings& settings, double radius, lubrication::F
   }
 }
 
-/// Sets the terms and the covariance of `fit`. A fixed coefficient has a row and a column of zeros in
-/// the covariance.
+/// Sets terms and covariance of `fit`. The covariance of a fixed coefficient is 0.
 void set_coefficients(const LeastSquaresSolution& solution, const FitSettings& settings,
                       double fixed, lubrication::Fit& fit) {
   std::vector<Eigen::Index> columns;  // column in the solution; -1 if fixed

@@ -18,9 +18,8 @@
 namespace viscontact::freefem {
 namespace {
 
-// FreeFEM of Debian 12 (4.11) and 13 (4.15) looks for its own files in the folders that
-// /etc/freefem++.pref names, which do not exist. These are the folders in which Debian installs the
-// files.
+// FreeFEM of Debian 12 (4.11) and 13 (4.15) looks for its own files in folders that do not exist
+// (/etc/freefem++.pref names them). These are the folders in which Debian installs the files.
 constexpr std::string_view kIncludeFolder = "/usr/include/freefem++/idp";
 constexpr std::string_view kLoadFolder = "/usr/lib/freefem++";
 
@@ -97,8 +96,7 @@ std::optional<std::chrono::seconds> time_limit_of_user() {
 }
 
 std::optional<Package> package_of(const std::string& executable, const StopToken& stop) {
-  // dpkg answers within a second. If it takes longer than this, the result is that of a system
-  // without dpkg.
+  // dpkg answers within a second. If it takes longer, the system counts as one without dpkg.
   constexpr std::chrono::seconds kLongest(10);
   const auto file = path_of_program(executable);
   if (!file) return {};

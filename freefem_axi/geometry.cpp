@@ -33,8 +33,7 @@ RequiredSpace space_above_floor(double radius, double gap, Parameters) {
   return {radius, gap + 2 * radius};
 }
 
-/// The space above a rippled floor. Its ripples end at two sphere radii from the axis
-/// (rough_plane.edp).
+/// The space above a rippled floor, whose ripples end at two sphere radii from the axis.
 RequiredSpace space_above_ripples(double radius, double gap, Parameters) {
   return {2 * radius, gap + 2 * radius};
 }

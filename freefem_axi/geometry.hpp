@@ -44,11 +44,9 @@ inline constexpr std::array kApproachAlone = {lubrication::MotionKind::kApproach
 struct Geometry {
   /// The name, which is the key `kind` of `geometry` in the case file.
   std::string_view name;
-  /// File of the FreeFEM script in freefem_axi/scripts/. docs/extending.md says what it reads and
-  /// prints.
+  /// File of the FreeFEM script in freefem_axi/scripts/, which docs/extending.md describes.
   std::string_view script;
-  /// What describes the neighbour. The functions below get the values in this order, as
-  /// `parameters`.
+  /// What describes the neighbour. `parameters` below are the values, in this order.
   std::span<const GeometryParameter> parameters;
   /// True if the fluid is unbounded or in a container; false if the neighbour encloses the fluid.
   bool takes_container;
@@ -65,14 +63,12 @@ struct Geometry {
   bool has_exact_drag = false;
   /// Computing time of a row over that of a row above a plane [1], > 0; only for estimates of time.
   double relative_cost = 1;
-  /// The motions of the sphere that can be tabulated, in the order of MotionKind. For each of them
-  /// the FreeFEM function that solves it must impose the neighbour's boundary condition: solveStokes
-  /// (approach) and solveSwirl (spin) in axisymmetric_stokes.idp, solveSideways (slide, roll) in
-  /// sideways_stokes.idp.
+  /// The motions of the sphere that can be tabulated, in the order of MotionKind. The FreeFEM
+  /// function that solves a motion must impose the neighbour's boundary condition: solveStokes
+  /// (approach), solveSwirl (spin) or solveSideways (slide, roll) in scripts/.
   std::span<const lubrication::MotionKind> motions = kApproachAlone;
-  /// 1 over the neighbour's radius [1/L]: 0 of a plane, < 0 of a cavity. The leading coefficients of
-  /// slide, roll and spin near contact follow from it (lubrication/near_contact.hpp). Null: they are
-  /// not known.
+  /// 1 over the neighbour's radius [1/L]: 0 of a plane, < 0 of a cavity. Null: not known, and so are
+  /// the leading coefficients of slide, roll and spin (lubrication/near_contact.hpp).
   double (*curvature)(std::span<const double> parameters) = nullptr;
   /// True: the tangential stress on the neighbour is 0. False: the fluid does not slip on it.
   bool is_shear_free = false;

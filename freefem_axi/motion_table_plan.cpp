@@ -78,8 +78,7 @@ lubrication::TableHead head_of(const Tabulation& tabulation, MotionKind motion) 
   return head;
 }
 
-/// The row at another velocity: the factors stay, and complete() computes the forces and torques
-/// from them.
+/// The row at another velocity, with NaN for the forces, which complete() computes from the factors.
 MotionRow with_velocity(MotionRow row, double velocity) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   row.reference_velocity = velocity;

@@ -20,8 +20,7 @@ namespace viscontact::freefem_axi {
 namespace {
 
 /// The first numbers of the line "viscontact-result" that a script prints: the force in the units of
-/// solve_scale(), its relative error estimate [1], the number of unknowns, and the observed order of
-/// convergence [1].
+/// solve_scale(), its relative error estimate, number of unknowns, observed order of convergence.
 struct Answer {
   double force = 0, estimate = 0, unknowns = 0, order = 0;
 };

@@ -59,8 +59,7 @@ void prepare(const TableHead& head, MotionRow& row);
 void complete(const TableHead& head, MotionRow& row);
 
 /// Throws Error(kBadInput) with the position `here` if a factor is not finite, or if the neighbour is
-/// at rest and the force on a sphere that moves, or the torque on one that turns, is not opposed to
-/// its velocity.
+/// at rest and the force on a sphere that moves (torque, if it turns) is not opposed to its velocity.
 void check(const TableHead& head, const MotionRow& row, const FilePosition& here);
 
 /// The largest error estimate of sphere and neighbour in the row [1], >= 0.

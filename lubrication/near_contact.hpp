@@ -22,9 +22,8 @@ struct NeighbourSurface {
   double velocity_ratio = 0;
 };
 
-/// The coefficients of one term. Force and torque factors have no dimension: force over
-/// -6 pi mu r u and torque over -8 pi mu r^2 u, with u = r w for angular velocities w
-/// (motion_table.hpp).
+/// The coefficients of one term. Force and torque factors (motion_table.hpp) are force over
+/// -6 pi mu r u and torque over -8 pi mu r^2 u, with u = r w for angular velocities w.
 struct LeadingFactors {
   /// The name of a Term: "ln q" for sliding and rolling, "q ln q" for spinning.
   std::string_view term;

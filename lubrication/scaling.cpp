@@ -25,8 +25,7 @@ std::optional<std::string> power_beside_logarithm(std::string_view term) {
   return std::string(term.substr(0, term.size() - 1));  // without the blank
 }
 
-/// A matrix m: coefficient i of the scaled fit is the sum over j of m[i][j] * coefficient j of the
-/// fit before.
+/// A matrix m: coefficient i of the scaled fit is sum_j m[i][j] * coefficient j of the given fit.
 using Mixing = std::vector<std::vector<double>>;
 
 /// Returns this matrix for the factor `factor` = (mu'/mu) (r'/r)^power and `ratio` = r'/r. Appends a

@@ -1,7 +1,6 @@
 // The names of the motions of a sphere, and the lines "# key: value" at the head of a table
 // (docs/file-formats.md). Dimensions and ranges are in table.hpp. A fault of a file is an
-// Error(kBadInput) with file and key or line. A change must keep names and keys, which published
-// tables have.
+// Error(kBadInput) with file and key. A change must keep names and keys, as published tables have.
 #include "viscontact/lubrication/table.hpp"
 
 #include <fmt/format.h>

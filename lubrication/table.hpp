@@ -40,8 +40,7 @@ std::string_view to_string(MotionKind motion);
 /// The motion with this name. Throws Error(kBadInput), which lists the names, if there is none.
 MotionKind parse_motion(std::string_view name);
 
-/// The names, separated by commas, as in the head of a table: "approach, slide". Empty without
-/// motions.
+/// The names, separated by commas, as in the head of a table: "approach, slide"; or an empty text.
 std::string motions_in_words(const std::vector<MotionKind>& motions);
 /// The motions of a text that motions_in_words() made. Throws the errors of parse_motion().
 std::vector<MotionKind> parse_motions_in_words(const std::string& words);

@@ -1,7 +1,6 @@
 // The names, bases and values of the resistances of a sphere beside a body at rest, and the keys of
 // their file (docs/file-formats.md): an object for each resistance, with the keys of a fit file.
-// Dimensions and errors are in pair_fit.hpp. A change must keep the names, and published files
-// readable.
+// Dimensions and errors are in pair_fit.hpp. A change must keep published files readable.
 #include "viscontact/motions/pair_fit.hpp"
 
 #include <fmt/format.h>

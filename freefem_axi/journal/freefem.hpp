@@ -24,8 +24,7 @@ struct FreeFem {
   /// Time limit for one row of a table. The slowest row that was measured took less than two
   /// minutes; the default leaves a factor of 15 for slower machines.
   std::chrono::seconds row_limit = std::chrono::minutes(30);
-  /// Time limit for FreeFEM to print its version, which takes less than a second; any longer time
-  /// works.
+  /// Time limit for FreeFEM to print its version, which takes it less than a second.
   std::chrono::seconds version_limit = std::chrono::minutes(2);
   /// If `stop` requests a stop, the FreeFEM process is killed and Error(kInterrupted) is thrown.
   StopToken stop{};
@@ -57,8 +56,7 @@ std::string timed_out_in_words(std::chrono::seconds time_limit);
 /// printed, or else the last lines of its output.
 std::string failure_in_words(const ProcessResult& result, std::chrono::seconds time_limit);
 
-/// The first line of `output` that starts with `prefix` and a space, without these; empty if there
-/// is none.
+/// The first line of `output` that starts with `prefix` and a space, without these; or empty.
 std::string line_after(const std::string& output, std::string_view prefix);
 
 /// The version of FreeFEM: that of the Debian package that has installed the executable, and the one

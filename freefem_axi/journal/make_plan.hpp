@@ -2,8 +2,7 @@
 // (lubrication/table.hpp). The caller gives what differs between types: which rows there are, how
 // FreeFEM solves them, and what the numbers depend on. Numbers have the units of the table. Used by
 // motion_table_plan.cpp and swimmer/tabulation/. A change must keep the order of the numbers in a
-// row of a journal (the file of finished rows), because journals of interrupted runs are read with
-// it.
+// row of a journal (the file of finished rows), in which journals of earlier runs are read.
 #pragma once
 
 #include <fmt/format.h>

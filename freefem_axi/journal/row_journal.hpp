@@ -23,8 +23,7 @@ namespace viscontact::freefem_axi {
 using JournalEntry = std::variant<FinishedRow, FailedRow>;
 
 /// The text of a line with its line end. `hash` is TablePlan::hash of the table. The line contains a
-/// checksum, so that a line that a crash, a full disk or a second writer has damaged is not read as
-/// a row.
+/// checksum, by which a line that a crash, a full disk or a second writer has damaged is found.
 std::string write_journal_line(const std::string& hash, const JournalEntry& entry);
 
 /// The hash in a line, which is given without its line end: TablePlan::hash of the table to which

@@ -76,8 +76,7 @@ void add_row(EntryTable& entry, double gap, double value, double scale, double e
   entry.scales.push_back(scale);
 }
 
-/// The table of squeeze, slide, roll or spin: the force of a motion per velocity, or the torque per
-/// angular velocity.
+/// The table of squeeze, slide (force per velocity), roll or spin (torque per angular velocity).
 EntryTable diagonal_entry(const MotionTable& pair, const MotionTable& table) {
   EntryTable entry = empty_table(pair, table);
   if (table.motion == MotionKind::kApproach) {

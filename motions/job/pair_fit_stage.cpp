@@ -65,8 +65,7 @@ std::string reason_and_remedy(const fs::path& folder, const fs::path& file,
 }
 
 /// Throws Error(kBadInput) if the head of one of `files` names a motion whose table is not in the
-/// folder: the computation of the tables was interrupted or has not ended, or only some of the tables
-/// were copied.
+/// folder: the tables are not all computed yet, or only some of them were copied.
 void check_complete(const fs::path& folder, const std::vector<fs::path>& files) {
   for (const auto& file : files) {
     auto comments = read_csv_comments(read_file(file));
