@@ -1,7 +1,8 @@
-// Assembles the equations of a fit, F = sum of coefficient * term(q) for each row of a table, solves
-// them by least squares, and sets the members of the fit and its diagnostics. q is the gap, F the
-// force and u the velocity of a row, and r the radius of the sphere, in the units of the table.
-// Errors, and what a change must keep, are in fit_force_table.hpp.
+// Assembles the equations of a fit, F = sum of coefficient * term(q) for each row of a table,
+// solves them by least squares, and sets the members of the fit and its diagnostics. q is the gap,
+// F the force and u the velocity of a row, and r the radius of the sphere, in the units of the
+// table. A table or a choice of terms that cannot be fitted is an Error(kBadInput) or
+// Error(kNotConverged). What a change must keep is in fit_force_table.hpp.
 #include "viscontact/fitting/fit_force_table.hpp"
 
 #include <fmt/format.h>
@@ -54,8 +55,7 @@ double gap_of_row(const lubrication::MotionTable& table, Eigen::Index row) {
   return table.rows[static_cast<std::size_t>(row)].gap;
 }
 
-/// The 99 % quantile of the chi-squared distribution, in double precision. Code for long double,
-/// Boost's default, would take the compiler longer.
+/// The 99 % quantile of the chi-squared distribution. double compiles faster than long double.
 double chi_squared_quantile(double degrees_of_freedom) {
   using DoublePolicy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
   const boost::math::chi_squared_distribution<double, DoublePolicy> chi_squared(degrees_of_freedom);
@@ -209,8 +209,7 @@ void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
   }
 }
 
-/// The names of the rows that could not be computed; of more than five, the first five. Any number
-/// that keeps the message short works.
+/// The names of the first rows that could not be computed; any number that is short to read works.
 std::string names_of_failed_rows(const lubrication::MotionTable& table) {
   constexpr std::size_t kNamed = 5;
   std::vector<std::string> names;

@@ -1,7 +1,8 @@
 // Iteratively reweighted least squares with the losses of Huber and Cauchy: each step solves a
 // weighted least squares problem, whose weights depend on the residuals of the step before.
-// Dimensions and errors are in robust_least_squares.hpp. A change must keep that with Loss::kSquared
-// the result is that of solve_least_squares(), to the last bit.
+// Residuals and their scale have the unit of the right-hand side. Weights that do not converge are
+// an Error(kNotConverged). A change must keep that with Loss::kSquared the result is that of
+// solve_least_squares(), to the last bit.
 #include "viscontact/fitting/robust_least_squares.hpp"
 
 #include <ceres/loss_function.h>

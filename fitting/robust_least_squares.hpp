@@ -18,9 +18,8 @@ struct RobustSolution {
   LeastSquaresSolution least_squares;
   /// Weight of each row, > 0 and at most 1; all are 1 with Loss::kSquared.
   Eigen::VectorXd row_weights;
-  /// Scale of the residuals A x - b, >= 0, in the unit of b: 1.4826 sqrt(n/(n - p)) times the median
-  /// of their absolute values, which for Gaussian residuals estimates the standard deviation. (n - p
-  /// counts as at least 1.)
+  /// Scale of the residuals A x - b, >= 0, in the unit of b: 1.4826 sqrt(n/max(1, n - p)) times the
+  /// median of their absolute values, which estimates the standard deviation of Gaussian residuals.
   double scale = 0;
 };
 

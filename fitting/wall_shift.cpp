@@ -1,6 +1,7 @@
-// Finds the depth below its crests at which a rough wall acts like a smooth one, the only unknown of
-// a least squares problem, by Gauss-Newton iteration. Dimensions and errors are in wall_shift.hpp. A
-// change must keep the error that names a row whose drag no smooth wall has.
+// Finds the depth below its crests at which a rough wall acts like a smooth one, the only unknown
+// of a least squares problem, by Gauss-Newton iteration. Lengths, masses and times are in the units
+// of the table. A change must keep the Error(kBadInput) that names a row whose resistance no gap of
+// the smooth wall has.
 #include "viscontact/fitting/wall_shift.hpp"
 
 #include <fmt/format.h>

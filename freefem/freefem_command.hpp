@@ -42,8 +42,7 @@ struct Command {
 
 /// The command that runs a script of `script_folder` without graphics and on one thread.
 /// `executable` is a name to look for on PATH, or a path relative to the current folder. `arguments`
-/// are passed to the script: "-name" and "value" alternate, each an element of its own. Throws
-/// nothing of its own.
+/// are passed to the script: "-name" and "value" alternate, each an element of its own.
 Command make_command(const std::string& executable, const std::filesystem::path& script_folder,
                      std::string_view script, const std::vector<std::string>& arguments);
 

@@ -1,5 +1,7 @@
-// The table of the bodies beside a sphere: plane, free surface, sphere, cavity, rough plane. Symbols,
-// dimensions and errors, and what a change must keep, are in geometry.hpp.
+// The table of the bodies beside a sphere, its neighbours: plane, free surface, sphere, cavity,
+// rough plane. q is the gap, r the radius of the sphere, mu the viscosity, R the resistance;
+// lengths are in any one unit. An unknown name or motion is an Error(kBadInput). A change must keep
+// the names, which case files and tables contain, and the flags, which the scripts read.
 #include "viscontact/freefem_axi/geometry.hpp"
 
 #include <fmt/format.h>

@@ -40,7 +40,7 @@ struct RequiredSpace {
 /// The motions of a geometry that lists none in geometry.cpp.
 inline constexpr std::array kApproachAlone = {lubrication::MotionKind::kApproach};
 
-/// A kind of neighbour.
+/// A kind of neighbour and what its tables need.
 struct Geometry {
   /// The name, which is the key `kind` of `geometry` in the case file.
   std::string_view name;

@@ -1,6 +1,7 @@
 // Calls the FreeFEM script of a geometry with the argument -motion, and reads the lines
 // "viscontact-action" that scripts/row.idp prints: forces and torques in units of viscosity, sphere
-// radius and velocity of the motion. Errors, and what a change must keep, are in motion_row.hpp.
+// radius and velocity of the motion. Lines that are missing or contradict each other are an
+// Error(kExternalProgram). A change must agree with scripts/row.idp.
 #include "viscontact/freefem_axi/motion_row.hpp"
 
 #include <fmt/format.h>

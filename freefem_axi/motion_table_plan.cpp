@@ -1,7 +1,7 @@
 // Makes the plans of the tables of one sphere: which rows they have, how FreeFEM solves them, and a
-// text of everything that the numbers depend on, from which a hash is made. Numbers are in the units
-// of the case. Errors are in motion_table_plan.hpp. A change must keep this text: with another hash
-// all tables that users have count as out of date and are computed again.
+// text of everything that the numbers depend on, from which a hash is made. Numbers are in the
+// units of the case. An unknown geometry is an Error(kBadInput). A change must keep this text: with
+// another hash all tables that users have count as out of date and are computed again.
 #include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 #include <fmt/format.h>

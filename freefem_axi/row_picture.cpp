@@ -1,6 +1,6 @@
 // Reads the meshes and the flow that scripts/pictures.idp prints, and writes them for ParaView.
-// Dimensions and errors are in row_picture.hpp. A change must keep that this file reads the format
-// that is described in scripts/pictures.idp.
+// Results are in the units of the case. An incomplete mesh is an Error(kExternalProgram). A change
+// must keep that this file reads the format that is described in scripts/pictures.idp.
 #include "viscontact/freefem_axi/row_picture.hpp"
 
 #include <fmt/format.h>
@@ -76,7 +76,7 @@ class PictureReader {
     return value;
   }
   BoundaryKind boundary_kind() {
-    // In the order of BoundaryKind.
+    // The words that pictures.idp writes, in the order of BoundaryKind.
     constexpr std::array kWords = {"wall", "sphere", "axis", "shear_free", "interface"};
     std::string word;
     stream_ >> word;

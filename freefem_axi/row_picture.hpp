@@ -24,7 +24,7 @@ struct BoundaryEdge {
   std::array<std::size_t, 3> nodes{};       ///< numbers of both ends, then of the middle
 };
 
-/// A row with what a picture shows of it.
+/// The flow of one row of a table, as a picture shows it.
 struct RowPicture {
   lubrication::MotionKind motion = lubrication::MotionKind::kApproach;  ///< of the sphere
   double gap = 0;                                                       ///< q [L]

@@ -1,7 +1,8 @@
 // Computes the force on a sphere at one gap and velocity: makes the arguments of a FreeFEM script,
-// runs it and reads the result. Numbers are in the units of the case, except that FreeFEM writes the
-// force in the units of solve_scale(). Errors are in tabulation.hpp. A change must agree with the
-// flags in scripts/sphere_arguments.idp and with what scripts/row.idp prints.
+// runs it and reads the result. Numbers are in the units of the case, except that FreeFEM writes
+// the force in the units of solve_scale(). A row without a result is an Error(kExternalProgram). A
+// change must agree with the flags in scripts/sphere_arguments.idp and with what scripts/row.idp
+// prints.
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 #include <fmt/format.h>

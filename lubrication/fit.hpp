@@ -103,12 +103,11 @@ struct FitDiagnostics {
   Misfit misfit = Misfit::kUnknown;
   /// Akaike's information criterion with the correction for small samples (Hurvich & Tsai 1989),
   ///     n ln(sum of squares/n) + 2 K + 2 K (K + 1)/(n - K - 1),   K = free coefficients + 1,
-  /// with the number n of rows. A smaller value is better. Only fits of the same rows with the same
-  /// weights can be compared.
-  /// Nothing if n <= K + 1, if all residuals are 0, or for a robust loss, because then the weights
-  /// of the rows depend on the fit.
+  /// with the number n of rows and the residuals that the fit makes small (Fit::weights). A smaller
+  /// value is better. Only fits of the same rows with the same weights can be compared. Nothing if
+  /// n <= K + 1, if all residuals are 0, or for a robust loss, whose weights depend on the fit.
   std::optional<double> information_criterion{};
-  /// Rows with residuals beyond 5 times the scale of the others; only a robust loss has outliers.
+  /// Rows with |residual| > 5 times the scale of all residuals; only a robust loss has outliers.
   std::vector<Outlier> outliers;
   std::vector<std::string> warnings;  ///< sentences for the user
 };

@@ -1,7 +1,8 @@
-// The resistance R(q) of a sphere at the gap q, its derivative, its primitive Gamma, and the inverse
-// of Gamma: by a sum of fitted terms in the interval [q1, q2] of the fit, and by simple formulas for
-// other gaps. Equations, units and errors are in lubrication_force.hpp. A change must keep R and
-// Gamma continuous at q1 and q2, where one formula replaces another one.
+// The resistance R(q) of a sphere at the gap q, its derivative, its primitive Gamma, and the
+// inverse of Gamma: by a sum of fitted terms in the interval [q1, q2] of the fit, and by simple
+// formulas for other gaps. Lengths, masses and times are in any consistent units. A gap that is not
+// allowed is an Error(kBadInput), a result that a double cannot hold an Error(kNotConverged). A
+// change must keep R and Gamma continuous at q1 and q2, where one formula replaces another one.
 #include "viscontact/lubrication/lubrication_force.hpp"
 
 #include <fmt/format.h>

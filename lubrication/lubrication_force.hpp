@@ -15,7 +15,7 @@ namespace viscontact::lubrication {
 
 /// What the force is at gaps below the fitted interval [q1, q2].
 enum class BelowInterval {
-  /// Unknown: a call is an error.
+  /// Not known: functions of such a gap throw Error(kBadInput).
   kError,
   /// R(q) = R(q1) + k (1/q - 1/q1), with the fitted coefficient k of 1/q. In theory R - k/q varies
   /// only as ln q; this limit takes it as constant.
@@ -26,12 +26,12 @@ enum class BelowInterval {
 
 /// What the force is at gaps above the fitted interval [q1, q2].
 enum class AboveInterval {
-  /// Unknown: a call is an error.
+  /// Not known: functions of such a gap throw Error(kBadInput).
   kError,
-  /// R(q) = R_S (1 + c/(q + r)), with R_S = 6 pi mu r and c such that R is continuous at q2. The
-  /// drag tends to Stokes' drag as the first reflection at a wall decays (Happel & Brenner 1983,
-  /// section 7-4: 1 + (9/8) r/h for a plane at distance h). The first reflection at a second sphere
-  /// at rest decays faster, as 1/h^2. The limit neglects all other walls of the container.
+  /// R(q) = R_S (1 + c/(q + r)), with Stokes' R_S = 6 pi mu r and c such that R is continuous at q2.
+  /// So R approaches R_S as it does far from a plane (Happel & Brenner 1983, section 7-4:
+  /// R_S (1 + (9/8) r/h) at the distance h of the centre). Far from a second sphere at rest R - R_S
+  /// falls faster, as 1/h^2. All other walls of a container are neglected.
   kStokesLimit
 };
 
@@ -117,7 +117,7 @@ class LubricationForce {
   std::array<double, 2> fitted_interval_;
   OutsideInterval outside_;
   LubricationLimit limit_ = {};
-  double image_ = 0;  // c [L] of the Stokes limit
+  double image_ = 0;  // c [L] of AboveInterval::kStokesLimit
   // The sum of weight * antiderivative at q = r [M L/T]; it is subtracted so that Gamma(r) = 0.
   double impulse_at_radius_ = 0;
 };

@@ -1,8 +1,8 @@
-// The solution of Reynolds' equation in the film between a sphere and its neighbour, which slide past
-// each other or turn (docs/physics.md (2.9), (2.10)). Lengths are in sphere radii, q is the gap, mu
-// the viscosity, r the radius. kappa, 1 plus the neighbour's curvature, is the curvature of the film:
-// its thickness is q + kappa rho^2/2 at the distance rho from the axis. Nothing is thrown. What a
-// change must keep is in near_contact.hpp.
+// The solution of Reynolds' equation in the film between a sphere and its neighbour, which slide
+// past each other or turn (docs/physics.md (2.9), (2.10)). Lengths are in sphere radii, q is the
+// gap, mu the viscosity, r the radius. kappa, 1 plus the neighbour's curvature, is the curvature of
+// the film: its thickness is q + kappa rho^2/2 at the distance rho from the axis. Nothing is
+// checked or thrown. A change must keep the coefficients, which published tables contain.
 #include "viscontact/lubrication/near_contact.hpp"
 
 #include <numbers>
@@ -47,7 +47,7 @@ LeadingFactors leading_factors(MotionKind motion, const NeighbourSurface& neighb
   }
   const bool moves = motion == MotionKind::kSlide;
   const auto action = across(moves ? 1 : 0, moves ? 0 : 1, neighbour);
-  // ln q = -ln(1/q), and factors have the sign opposite to that of force and torque.
+  // ln q = -ln(1/q), and factors are opposed to force and torque; both changes of sign cancel.
   return {"ln q", action.force / kForceUnit, action.torque / kTorqueUnit};
 }
 

@@ -1,7 +1,7 @@
 // The drag factor K = drag/(6 pi mu r |u|) of a sphere near a plane as a function of eps =
 // gap/radius, both without dimension, by three expansions: near contact, far away, and in the range
-// between. Errors and users are in plane_drag.hpp. The constants are computed from Brenner's series
-// and depend on each other, so that none may be changed alone.
+// between. Nothing is thrown. The constants are computed from Brenner's series and depend on each
+// other, so that none may be changed alone.
 #include "viscontact/lubrication/plane_drag.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace viscontact::lubrication {
 namespace {
 
-// All five functions are computed from R = K - 1/eps. With x = ln eps and S(eps) = int_0^eps R,
+// All functions are computed from R = K - 1/eps. With x = ln eps and S(eps) = int_0^eps R,
 //
 //     K = 1/eps + R,   d K/dx = -1/eps + dR/dx,
 //     int_1^eps K = x + S(eps) - S(1).
@@ -164,9 +164,8 @@ consteval Expansion slope_expansion() {
   return slope;
 }
 
-/// The coefficients of M near contact and between. Far away they are those of S - eps - x/8
-/// instead, which follow from R = 1 + h/8 + ..., int h^(k+1) d eps = -h^k/k and ln(1 + eps) - x =
-/// sum h^k/k.
+/// The coefficients of M near contact and between. Far away they are those of S - eps - x/8 instead,
+/// from R = 1 + h/8 + ..., int h^(k+1) d eps = -h^k/k and ln(1 + eps) - x = sum h^k/k.
 consteval Expansion mean_expansion() {
   Expansion mean = {kConstants, kLogarithms, kMean, {}};
   for (std::size_t k = 0; k < kConstants.size(); ++k) {

@@ -1,5 +1,7 @@
-// Scales the coefficients, errors and lengths of a fit to another radius and viscosity. Units,
-// symbols, errors and what a change must keep are in scaling.hpp.
+// Scales the coefficients, errors and lengths of a fit from radius r and viscosity mu to r' and
+// mu'. Numbers are in any consistent units. An unknown term is an Error(kBadInput). A change must
+// keep all bits of a fit whose radius and viscosity do not change, because results of earlier
+// versions were computed with it.
 #include "viscontact/lubrication/scaling.hpp"
 
 #include <algorithm>

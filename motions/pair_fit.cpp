@@ -1,6 +1,7 @@
 // The names, bases and values of the resistances of a sphere beside a body at rest, and the keys of
 // their file (docs/file-formats.md): an object for each resistance, with the keys of a fit file.
-// Dimensions and errors are in pair_fit.hpp. A change must keep published files readable.
+// Numbers are in the units of the fit. An unknown name, a missing resistance and a fault of the
+// file are an Error(kBadInput). A change must keep published files readable.
 #include "viscontact/motions/pair_fit.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@
 namespace viscontact::motions {
 namespace {
 
-/// A basis of a pair: a named basis, and further terms.
+/// A basis of a pair: the terms of the basis `base` of lubrication/terms.hpp, and further ones.
 struct PairBasis {
   std::string_view name;
   std::string_view base;

@@ -68,8 +68,7 @@ inline std::string elementwise(const std::string& expression) {
 /// Python's function _evaluate(gap, formulas), which each exported module contains. `gap` is a
 /// number or an array. `formulas` are tuples (low, high, f): f(q, log) is the formula for gaps q in
 /// [low, high], with the logarithm of `math` or of NumPy. The first tuple whose interval contains a
-/// gap is used, because neighbouring intervals share an end. Raises ValueError if no interval
-/// contains the gap.
+/// gap is used. Raises ValueError if there is none.
 inline constexpr std::string_view kPythonEvaluate =
     "def _evaluate(gap, formulas):\n"
     "    if isinstance(gap, (int, float)):\n"

@@ -1,8 +1,8 @@
 // Writes a fit as code or numbers: the resistance R of a sphere as a function of the gap q, the sum
-// of weight * term(q), and its primitive Gamma(q) = int_r^q R, with the sphere's radius r. The
-// equations are (3.2), (3.3) and (4.2) of docs/physics.md. Numbers are in the units of the fit.
-// Errors are in export_fit.hpp. A change must keep the names of functions and keys, which programs
-// of users call, and the order of the sums.
+// of weight * term(q), and its primitive Gamma(q) = int_r^q R, with the sphere's radius r
+// (docs/physics.md (3.2), (3.3), (4.2)). Numbers are in the units of the fit. An unknown target or
+// a resistance that is not positive is an Error(kBadInput). A change must keep the names of
+// functions and keys, which programs of users call, and the order of the sums.
 #include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>
@@ -374,7 +374,7 @@ std::span<const ExportTarget> export_targets() { return kTargets; }
 
 std::string export_fit(const lubrication::Fit& fit, std::string_view target,
                        std::string_view source, const Limits& outside) {
-  (void)lubrication::LubricationForce(fit);  // refuses a fit whose drag is not positive
+  (void)lubrication::LubricationForce(fit);  // throws if the resistance is not positive
   return require_named(kTargets, target, "export target").write(fit, source, outside);
 }
 

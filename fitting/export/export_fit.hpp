@@ -14,7 +14,7 @@
 
 namespace viscontact::fitting {
 
-/// A language or format.
+/// A language or format of exported fits.
 struct ExportTarget {
   std::string_view name;         ///< as users type it after `--to`, such as "c-header"
   std::string_view description;  ///< a line for --help

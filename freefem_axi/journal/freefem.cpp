@@ -1,5 +1,6 @@
-// Runs FreeFEM processes to their end and reads what they print. Units and errors, and what a change
-// must keep, are in freefem.hpp.
+// Runs FreeFEM processes to their end and reads what they print. Times are in seconds. A FreeFEM
+// that does not start is an Error(kExternalProgram); if a script fails, the caller decides. A
+// change must keep each process on one thread and within its time limit.
 #include "viscontact/freefem_axi/journal/freefem.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 // Opens, locks and appends to a journal, the file of the rows of a table that FreeFEM has finished,
 // and writes and reads its lines. A line is "HASH row POINT NUMBERS VERSION CHECKSUM" or "HASH
 // failed POINT REASON CHECKSUM": HASH identifies the table, POINT and NUMBERS are numbers in its
-// units, VERSION is that of FreeFEM. Errors are in row_journal.hpp. A change must keep that a
-// line is written in one piece and is on disk when append() returns, and that journals of
-// interrupted runs can be read.
+// units, VERSION is that of FreeFEM. A damaged line is read as nothing; a journal that cannot be
+// written is an Error(kBadInput). A change must keep that a line is written in one piece and is on
+// disk when append() returns, and that journals of interrupted runs can be read.
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 #include <fcntl.h>

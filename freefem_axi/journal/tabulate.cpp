@@ -1,5 +1,6 @@
-// Distributes the rows of a table over threads, each of which runs one FreeFEM process at a time and
-// waits for it. Units and errors are in tabulate.hpp. A change must keep that only one thread at a
+// Distributes the rows of a table over threads, each of which runs one FreeFEM process at a time
+// and waits for it. Times are in seconds. A row that FreeFEM cannot solve is recorded as failed;
+// every other error stops all threads and is thrown. A change must keep that only one thread at a
 // time uses the journal (the file of finished rows) and the progress report.
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
 

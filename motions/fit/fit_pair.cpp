@@ -1,7 +1,7 @@
-// Makes a table of each resistance of a sphere beside a body at rest (entry of pair_fit.hpp) from the
-// tables of force and torque, and fits it. Numbers are in the units of the tables; the factors of
-// force and torque are those of lubrication/motion_table.hpp. Errors, and what a change must keep,
-// are in fit_pair.hpp.
+// Makes a table of each resistance (entry of pair_fit.hpp) of a sphere beside a body at rest from
+// the tables of force and torque, and fits it. Numbers are in the units of the tables; the factors
+// of force and torque are those of lubrication/motion_table.hpp. Tables that do not belong together
+// are an Error(kBadInput). A change must keep the check that slide_roll is the same in both tables.
 #include "viscontact/motions/fit/fit_pair.hpp"
 
 #include <fmt/format.h>

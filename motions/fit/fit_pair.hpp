@@ -27,10 +27,9 @@ struct PairFitSettings {
 /// Fits the resistances (entries) that the tables determine. Residuals are relative to the entry,
 /// but those of slide_roll, which can be 0, are relative to sqrt(slide roll), or, if one of these
 /// tables is missing, to slide r or roll/r, with the radius r of the sphere. Throws Error(kBadInput)
-/// if there is no table, if the tables are of different pairs or have no interval of gaps in common,
-/// if the neighbour moves, if the table of rolling lacks a gap of that of sliding, or if the torque
-/// of sliding and the force of rolling (both are slide_roll) differ by more than their error
-/// estimates; and the errors of fit_force_table().
+/// if there is no table, if the tables are of different pairs or have no gaps in common, if the
+/// neighbour moves, if the table of rolling lacks a gap of that of sliding, or if their values of
+/// slide_roll differ by more than their error estimates; and the errors of fit_force_table().
 PairFit fit_pair(const PairTables& tables, const PairFitSettings& settings,
                  const StopToken& stop = {});
 

@@ -1,5 +1,7 @@
-// Finds and reads the tables of a sphere beside a body at rest, fits them, and prints the residuals.
-// Units, errors and what a change must keep are in pair_fit_stage.hpp.
+// Finds and reads the tables of a sphere beside a body at rest, fits them, and prints the
+// residuals. Numbers are in the units of the tables. A folder in which a table is missing is an
+// Error(kBadInput) with the remedy. A change must keep that a fit that did not change is not
+// written again.
 #include "viscontact/motions/job/pair_fit_stage.hpp"
 
 #include <fmt/format.h>
