@@ -23,9 +23,9 @@ struct BasisResult {
   std::string failure;                    ///< what() of that Error; empty if there is a fit
 };
 
-/// Fits the table in each of all_bases(), in this order, and then in the basis of `settings` if that
-/// is a user's list of terms. Each fit has the other settings of `settings`. An Error of a fit is
-/// stored in its result and not thrown, except Error(kInterrupted) if `stop` requests a stop.
+/// Fits the table in each of all_bases(), in this order, and then in the basis of `settings` if
+/// that is a user's list of terms. Each fit has the other settings of `settings`. An Error of a fit
+/// is stored in its result and not thrown, except Error(kInterrupted) if `stop` requests a stop.
 std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
                                        const FitSettings& settings, const StopToken& stop = {});
 

@@ -30,8 +30,8 @@ namespace viscontact::fitting {
 namespace {
 
 /// The solved least squares problem: a row for each row of the table, a column for each fitted
-/// coefficient. `weight` is that of Equations; `loss weight` is the weight from 0 to 1 that a robust
-/// loss gives a row (1 without a robust loss).
+/// coefficient. `weight` is that of Equations; `loss weight` is the weight from 0 to 1 that a
+/// robust loss gives a row (1 without a robust loss).
 struct FittedSystem {
   /// weight * sqrt(loss weight) * term(gap).
   Eigen::MatrixXd weighted_matrix;
@@ -71,8 +71,8 @@ bool is_outlier(const FittedSystem& system, lubrication::Loss loss, Eigen::Index
   return loss != lubrication::Loss::kSquared && is_far(system.scaled_residual(row));
 }
 
-/// Sets the members of `d` that compare the residual of each row with the error estimate of the same
-/// row. Outliers count only in chi_squared and in largest_error_estimate.
+/// Sets the members of `d` that compare the residual of each row with the error estimate of the
+/// same row. Outliers count only in chi_squared and in largest_error_estimate.
 void compare_with_estimates(const lubrication::MotionTable& table, const FittedSystem& system,
                             lubrication::Loss loss, lubrication::FitDiagnostics& d) {
   bool every_row = true;
@@ -118,8 +118,8 @@ Eigen::VectorXd leverages(const Eigen::MatrixXd& matrix) {
   return q.rowwise().squaredNorm();
 }
 
-/// For each row: true if no other row has its gap, and the gap is the smallest or the largest of the
-/// table. A fit without such a row extrapolates to its gap; a fit without another row interpolates.
+/// For each row: true if it alone has the smallest or the largest gap of the table. A fit without
+/// such a row extrapolates to its gap; a fit without any other row interpolates.
 std::vector<bool> end_rows(const lubrication::MotionTable& table) {
   const auto [smallest, largest] =
       std::ranges::minmax(table.rows, {}, &lubrication::MotionRow::gap);
@@ -147,7 +147,7 @@ void leave_one_out(const lubrication::MotionTable& table, const FittedSystem& sy
   double squares = 0;
   std::optional<lubrication::LeftOutRow> inner, end;
   for (Eigen::Index i = 0; i < leverage.size(); ++i) {
-    // Leverage 1 means that the other rows do not determine the coefficients. No member is set then.
+    // Leverage 1: the other rows do not determine the coefficients, so no member is set.
     if (1 - leverage(i) < round_off) return;
     const double predicted = std::abs(system.relative_residual(i) / (1 - leverage(i)));
     squares += predicted * predicted;
@@ -274,8 +274,8 @@ lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
                     d.failed_rows, d.failed_rows + d.rows, names_of_failed_rows(table)));
   warn_of_shape(fit, shape, d.warnings);
   warn_of_coefficients(fit, system, d, d.warnings);
-  // The warning is for gaps that are too few or terms that do not suit. A sound fit must not get it:
-  // the default basis (1/q, 1, q, q^2, q^3) on forty gaps misses a left-out row by 0.05.
+  // The warning is for gaps that are too few or terms that do not suit. A sound fit must not get
+  // it: the default basis (1/q, 1, q, q^2, q^3) on forty gaps misses a left-out row by 0.05.
   constexpr double kFar = 0.1;
   if (d.left_out_inner && d.left_out_inner->relative_residual > kFar)
     d.warnings.push_back(

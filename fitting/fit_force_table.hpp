@@ -1,5 +1,5 @@
-// The fit of a force table: the coefficients in F(q) = sum of coefficient * term(q), with the force F
-// at the gap q, by linear least squares (docs/physics.md (3.2)). Lengths, masses and times are in
+// The fit of a force table: the coefficients in F(q) = sum of coefficient * term(q), with the force
+// F at the gap q, by linear least squares (docs/physics.md (3.2)). Lengths, masses and times are in
 // the units of the table. Used by pipeline/ (commands `fit` and `run`), motions/fit/fit_pair.cpp
 // (one fit for each resistance of a pair), case_file/, examples/ and the Python module. A change
 // must keep that units and order of the rows change the fit by rounding only.
@@ -28,13 +28,13 @@ struct FitSettings {
   /// the k that the table states (TableHead::leading_coefficient).
   bool fix_leading = false;
   /// The fixed coefficient of 1/q in the force at the velocity u0 of the table's first row
-  /// [M L^2/T^2]; in theory -k u0 if the resistance near contact is k/q. Read only if `fix_leading`.
+  /// [M L^2/T^2]; in theory -k u0 if the resistance is k/q near contact. Needs `fix_leading`.
   std::optional<double> leading_value{};
   /// Empty, or for each row of the table a force > 0 [M L/T^2], by which its residual is divided in
   /// place of the force of the row.
   std::vector<double> row_scales{};
   /// What the fitted resistance must be according to theory: kDrag, positive and decreasing with
-  /// the gap; kPositive, positive; kAny, anything. Another result gets a warning in the diagnostics.
+  /// the gap; kPositive, positive; kAny, anything. Diagnostics warn of another result.
   lubrication::FittedShape shape = lubrication::FittedShape::kDrag;
 };
 
@@ -42,8 +42,8 @@ struct FitSettings {
 /// u0 of the first row, because Stokes flow is linear in the velocity. All members of the fit are
 /// set except table_sha256 and versions. Throws Error(kBadInput) if the table has fewer different
 /// gaps than coefficients to fit or than two, if F/u of two rows of equal gap differs by more than
-/// the sum of their error estimates (unless both are 0: not known), if `fix_leading` is true but the
-/// basis has no other term, lacks 1/q, or there is no value for its coefficient, or if double
+/// the sum of their error estimates (unless both are 0: not known), if `fix_leading` is true but
+/// the basis has no other term, lacks 1/q, or there is no value for its coefficient, or if double
 /// precision cannot hold the result; Error(kNotConverged) if the terms are linearly dependent on
 /// these gaps or the robust loss does not converge; Error(kInterrupted) if `stop` requests a stop
 /// during a robust fit.

@@ -1,8 +1,7 @@
 // Solves min |A x - b| in three steps: the columns of A are divided by powers of two, Ceres solves
 // the scaled problem, and the solution is refined in extended precision. Numbers have any units.
 // Entries that overflow are an Error(kBadInput), dependent columns an Error(kNotConverged). A
-// change must keep the number of correct digits that the tests demand for the reference problems of
-// NIST.
+// change must keep the number of correct digits that tests demand for NIST's reference problems.
 #include "viscontact/fitting/least_squares.hpp"
 
 #include <ceres/ceres.h>

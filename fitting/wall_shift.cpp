@@ -64,8 +64,8 @@ WallShift fit_wall_shift(const lubrication::MotionTable& rough,
   std::ranges::sort(shifts, {}, &ShiftedRow::shift);
   double shift = std::clamp(shifts[shifts.size() / 2].shift, least, most);
   constexpr int kMostSteps = 100;
-  // The iteration ends if the shift changes by at most this fraction of (first gap + |shift|), which
-  // is a change of the size of rounding errors.
+  // The iteration ends if the shift changes by at most this fraction of (first gap + |shift|),
+  // which is a change of the size of rounding errors.
   constexpr double kTolerance = 1e-14;
   for (int step = 0;; ++step) {
     if (step == kMostSteps)

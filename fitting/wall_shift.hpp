@@ -1,6 +1,6 @@
-// The shift of a rough wall: how far below its crests a smooth wall would be that resists the sphere
-// as much (Lefebvre 2008, "Rugosité"; Vinogradova & Yakubov 2006). R is the resistance, drag over
-// velocity, and q the gap. Lengths, masses and times are in the units of the table. Used by
+// The shift of a rough wall: how far below its crests a smooth wall would be that resists the
+// sphere as much (Lefebvre 2008, "Rugosité"; Vinogradova & Yakubov 2006). R is the resistance, drag
+// over velocity, and q the gap. Lengths, masses and times are in the units of the table. Used by
 // pipeline/fit_stages.cpp (command `shift`) and report/. A change must keep the sign: the shift is
 // > 0 if the rough wall resists less than a smooth wall at its crests.
 #pragma once
@@ -35,10 +35,10 @@ struct WallShift {
 };
 
 /// Fits q_s >= 0 in R_rough(q) = R_smooth(q + q_s): minimises the sum over the rows of `rough` of
-/// (R_smooth(q + q_s)/R_rough(q) - 1)^2. `smooth` has no formula for gaps outside its fitted interval
-/// (OutsideInterval), and all q + q_s are in this interval. Throws Error(kBadInput) if viscosity or
-/// radius of table and smooth force differ, or if a resistance of the table is not one of the smooth
-/// force in its interval; Error(kNotConverged) after 100 steps of the iteration.
+/// (R_smooth(q + q_s)/R_rough(q) - 1)^2. `smooth` has no formula for gaps outside its fitted
+/// interval (OutsideInterval), and all q + q_s are in this interval. Throws Error(kBadInput) if
+/// viscosity or radius of table and smooth force differ, or if a resistance of the table is not one
+/// of the smooth force in its interval; Error(kNotConverged) after 100 steps of the iteration.
 WallShift fit_wall_shift(const lubrication::MotionTable& rough,
                          const lubrication::LubricationForce& smooth);
 

@@ -117,8 +117,8 @@ std::filesystem::path find_script_folder(std::string_view part, std::string_view
   namespace fs = std::filesystem;
   const auto program_folder = fs::read_symlink("/proc/self/exe").parent_path();
   std::vector<fs::path> beside = {program_folder, program_folder.parent_path()};
-  // dladdr() gives the file that contains this code: the shared library, or the program. The name of
-  // a program is not used, because it is as the user typed it and may lack the folder.
+  // dladdr() gives the file that contains this code: the shared library, or the program. The name
+  // of a program is not used, because it is as the user typed it and may lack the folder.
   if (Dl_info info; dladdr(reinterpret_cast<const void*>(&find_script_folder), &info) != 0 &&
                     fs::path(info.dli_fname).filename().string().find(".so") != std::string::npos)
     for (auto folder = fs::canonical(info.dli_fname).parent_path();;

@@ -1,5 +1,5 @@
-// How a process of FreeFEM (the finite element program) is started: which program, where its scripts
-// are, with which arguments, environment and working folder. Times are in seconds. Used by
+// How a process of FreeFEM (the finite element program) is started: which program, where its
+// scripts are, with which arguments, environment and working folder. Times are in seconds. Used by
 // freefem_axi/ and freefem_flow/. A change must keep each process on one thread, because as many
 // processes as cores can run at once.
 #pragma once
@@ -27,10 +27,10 @@ std::string executable_of_user();
 std::optional<std::chrono::seconds> time_limit_of_user();
 
 /// The folder share/viscontact/PART that contains the file `script`, where PART is `part`, the name
-/// of a source folder such as freefem_axi. It is looked for beside the running program (build tree),
-/// then one folder above (installed); then, if this code is in a shared library such as the Python
-/// module, beside the library and in all folders above it. Throws Error(kExternalProgram) if there
-/// is no such folder.
+/// of a source folder such as freefem_axi. It is looked for beside the running program (build
+/// tree), then one folder above (installed); then, if this code is in a shared library such as the
+/// Python module, beside the library and in all folders above it. Throws Error(kExternalProgram) if
+/// there is no such folder.
 std::filesystem::path find_script_folder(std::string_view part, std::string_view script);
 
 /// How a process of FreeFEM is started.
@@ -41,8 +41,8 @@ struct Command {
 };
 
 /// The command that runs a script of `script_folder` without graphics and on one thread.
-/// `executable` is a name to look for on PATH, or a path relative to the current folder. `arguments`
-/// are passed to the script: "-name" and "value" alternate, each an element of its own.
+/// `executable` is a name to look for on PATH, or a path relative to the current folder.
+/// `arguments` are passed to the script: "-name" and "value" alternate, each an element of its own.
 Command make_command(const std::string& executable, const std::filesystem::path& script_folder,
                      std::string_view script, const std::vector<std::string>& arguments);
 

@@ -40,8 +40,8 @@ RequiredSpace space_above_ripples(double radius, double gap, Parameters) {
   return {2 * radius, gap + 2 * radius};
 }
 
-/// The space for two spheres, with the middle of their gap at half the height of the container. Each
-/// half of the height must hold half the gap and the larger diameter.
+/// The space for two spheres, with the middle of their gap at half the height of the container.
+/// Each half of the height must hold half the gap and the larger diameter.
 RequiredSpace space_of_pair(double radius, double gap, Parameters parameters) {
   const double larger = std::max(radius, parameters[0]);
   return {larger, gap + 4 * larger};

@@ -67,8 +67,8 @@ struct Geometry {
   /// function that solves a motion must impose the neighbour's boundary condition: solveStokes
   /// (approach), solveSwirl (spin) or solveSideways (slide, roll) in scripts/.
   std::span<const lubrication::MotionKind> motions = kApproachAlone;
-  /// 1 over the neighbour's radius [1/L]: 0 of a plane, < 0 of a cavity. Null: not known, and so are
-  /// the leading coefficients of slide, roll and spin (lubrication/near_contact.hpp).
+  /// 1 over the neighbour's radius [1/L]: 0 of a plane, < 0 of a cavity. Null: not known, and so
+  /// are the leading coefficients of slide, roll and spin (lubrication/near_contact.hpp).
   double (*curvature)(std::span<const double> parameters) = nullptr;
   /// True: the tangential stress on the neighbour is 0. False: the fluid does not slip on it.
   bool is_shear_free = false;

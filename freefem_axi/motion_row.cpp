@@ -36,7 +36,7 @@ struct ActionLine {
   std::array<double, 5> numbers{};
 };
 
-/// All lines "viscontact-action" of the output. Nothing if a number of one is missing or not finite.
+/// All lines "viscontact-action". Nothing if a number of one of them is missing or not finite.
 std::optional<std::vector<ActionLine>> read_action_lines(const std::string& output) {
   std::vector<ActionLine> actions;
   std::istringstream lines(output);

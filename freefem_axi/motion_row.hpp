@@ -1,6 +1,6 @@
 // Force and torque on a sphere that slides or rolls across its axis of symmetry, or spins about it,
-// at one gap, by FreeFEM (docs/physics.md, section 2). Lengths, masses and times are in the units of
-// the case. Used by motion_table_plan.hpp, row_picture.cpp and bench/. A change must agree with
+// at one gap, by FreeFEM (docs/physics.md, section 2). Lengths, masses and times are in the units
+// of the case. Used by motion_table_plan.hpp, row_picture.cpp and bench/. A change must agree with
 // scripts/row.idp, which solves the row.
 #pragma once
 
@@ -11,9 +11,9 @@
 
 namespace viscontact::freefem_axi {
 
-/// The motions whose flows have the same matrix and are solved together: the approach along the axis
-/// (kAlong), sliding and rolling (kAcross), or spinning (kAround). The numbers are the values of
-/// the scripts' argument -motion.
+/// The motions whose flows have the same matrix and are solved together: the approach along the
+/// axis (kAlong), sliding and rolling (kAcross), or spinning (kAround). The numbers are the values
+/// of the scripts' argument -motion.
 enum class MotionGroup { kAlong = 0, kAcross = 1, kAround = 2 };
 
 /// The motions of the group, in the order in which scripts/row.idp numbers its solutions.
@@ -26,8 +26,8 @@ bool neighbour_is_sphere(const Tabulation& tabulation);
 /// [L/T] or angular velocity 1 [1/T] in a FreeFEM process. The rows are in the order of
 /// motions_of(). `further_arguments` are added to the command line of FreeFEM. If `output` is not
 /// null, it is set to everything that FreeFEM printed. Throws Error(kExternalProgram) if FreeFEM
-/// fails or exceeds its time limit, or if the torque of sliding and the force of rolling, which must
-/// agree by the reciprocal theorem (Lorentz 1896), differ by more than their error estimates;
+/// fails or exceeds its time limit, or if the torque of sliding and the force of rolling, which
+/// must agree by the reciprocal theorem (Lorentz 1896), differ by more than their error estimates;
 /// Error(kInterrupted) if freefem.stop requests a stop.
 std::vector<lubrication::MotionRow> solve_motions(
     const FreeFem& freefem, const Tabulation& tabulation, MotionGroup group, double gap,

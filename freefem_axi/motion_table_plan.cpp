@@ -40,8 +40,8 @@ std::string inputs_of(const Tabulation& tabulation, MotionGroup group) {
 }
 
 /// The time of one row on one core [s], from measurements on two cores of 2.1 GHz with one row on
-/// each, at gaps of 0.01 and 0.3 radii. For a relative accuracy of 1e-5 (kKnee) and more the time is
-/// constant, because the coarsest meshes suffice. For smaller values it grows as the power -0.45
+/// each, at gaps of 0.01 and 0.3 radii. For a relative accuracy of 1e-5 (kKnee) and more the time
+/// is constant, because the coarsest meshes suffice. For smaller values it grows as the power -0.45
 /// (-kPower) of the accuracy.
 double typical_seconds(const Tabulation& tabulation, MotionGroup group) {
   constexpr double kKnee = 1e-5, kPower = 0.45;
@@ -78,7 +78,7 @@ lubrication::TableHead head_of(const Tabulation& tabulation, MotionKind motion) 
   return head;
 }
 
-/// The row at another velocity, with NaN for the forces, which complete() computes from the factors.
+/// The row at another velocity, with NaN for forces, which complete() computes from the factors.
 MotionRow with_velocity(MotionRow row, double velocity) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   row.reference_velocity = velocity;

@@ -1,8 +1,8 @@
-// Plans of the tables of force and torque on one sphere that approaches its neighbour, slides, rolls
-// or spins. A row of the approach is computed for each gap [L] and velocity [L/T]; a row of another
-// motion for each gap only, because force and torque are proportional to the velocity. Numbers are
-// in the units of the case. Used by pipeline/tabulate/. A change must keep the order of the rows and
-// that the numbers in a table do not depend on which other tables are made with it.
+// Plans of the tables of force and torque on one sphere that approaches its neighbour, slides,
+// rolls or spins. A row of the approach is computed for each gap [L] and velocity [L/T]; a row of
+// another motion for each gap only, because force and torque are proportional to the velocity.
+// Numbers are in the units of the case. Used by pipeline/tabulate/. A change must keep the order of
+// the rows and that the numbers in a table do not depend on which other tables are made with it.
 #pragma once
 
 #include <filesystem>
@@ -26,8 +26,8 @@ using TablePath = std::function<std::filesystem::path(lubrication::MotionKind)>;
 /// The plan of the tables of a group that has at least one of tabulation.motions. Slide and roll
 /// form one group and are both solved, even if one table only is asked for. The plan itself writes
 /// the table of the first asked motion, to the path that the caller passes on; the other table, if
-/// asked for, is its companion at `path_of(motion)`. A table has for each velocity all gaps, both in
-/// the order of the tabulation. TablePlan::solve throws the errors of solve_row() or solve_motions().
+/// asked for, is its companion at `path_of(motion)`. A table has for each velocity all gaps, both
+/// in the given order. TablePlan::solve throws the errors of solve_row() or solve_motions().
 TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
                             const TablePath& path_of);
 

@@ -22,9 +22,9 @@ class PictureReader {
  public:
   explicit PictureReader(const std::string& output) : stream_(output) {}
 
-  /// Reads the next mesh and its boundary. Each node has `columns` numbers, >= 2: rho, z, and values
-  /// that are stored in `fields`, a vector over the nodes for each. Throws Error(kExternalProgram) if
-  /// a number is missing, not finite or out of range.
+  /// Reads the next mesh and its boundary. Each node has `columns` numbers, >= 2: rho, z, and
+  /// values that are stored in `fields`, a vector over the nodes for each. Throws
+  /// Error(kExternalProgram) if a number is missing, not finite or out of range.
   QuadraticMesh read_mesh(std::size_t columns, std::vector<std::vector<double>>& fields,
                           std::vector<BoundaryEdge>& boundary) {
     std::string line;

@@ -1,8 +1,7 @@
 // Computes the force on a sphere at one gap and velocity: makes the arguments of a FreeFEM script,
 // runs it and reads the result. Numbers are in the units of the case, except that FreeFEM writes
 // the force in the units of solve_scale(). A row without a result is an Error(kExternalProgram). A
-// change must agree with the flags in scripts/sphere_arguments.idp and with what scripts/row.idp
-// prints.
+// change must agree with the flags in scripts/sphere_arguments.idp and the output of row.idp.
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 #include <fmt/format.h>
@@ -20,14 +19,14 @@
 namespace viscontact::freefem_axi {
 namespace {
 
-/// The first numbers of the line "viscontact-result" that a script prints: the force in the units of
+/// The first numbers of the line "viscontact-result" of a script: the force in the units of
 /// solve_scale(), its relative error estimate, number of unknowns, observed order of convergence.
 struct Answer {
   double force = 0, estimate = 0, unknowns = 0, order = 0;
 };
 
-/// Reads that line. Throws Error(kExternalProgram), which names gap and velocity, if FreeFEM failed,
-/// was killed after `time_limit`, or did not print the line.
+/// Reads that line. Throws Error(kExternalProgram), which names gap and velocity, if FreeFEM
+/// failed, was killed after `time_limit`, or did not print the line.
 Answer read_answer(const ProcessResult& result, double gap, double reference_velocity,
                    std::chrono::seconds time_limit) {
   std::istringstream answer(line_after(result.output, "viscontact-result"));

@@ -41,8 +41,8 @@ struct Tabulation {
 };
 
 /// The container in words for the head of a table: "closed cylinder, radius 40, height 80",
-/// "unbounded", or "none" if the neighbour encloses the fluid. This function and the next four throw
-/// Error(kBadInput) if there is no geometry with the name tabulation.geometry.
+/// "unbounded", or "none" if the neighbour encloses the fluid. This function and the next four
+/// throw Error(kBadInput) if there is no geometry with the name tabulation.geometry.
 std::string container_in_words(const Tabulation& tabulation);
 
 /// The neighbour in words for the head of a table: "sphere, radius 2, velocity_ratio 0".
@@ -68,13 +68,13 @@ struct SolveScale {
   double speed = 1;      ///< [L/T], > 0
 };
 
-/// Both units are 1 if viscosity and |velocity| are in [1e-9, 1e9]. Otherwise they are the viscosity
-/// and |velocity|, so that FreeFEM computes with 1 and cannot leave the range of a double.
+/// Both units are 1 if viscosity and |velocity| are in [1e-9, 1e9]. Otherwise they are viscosity
+/// and |velocity|: FreeFEM computes with 1 for both and cannot leave the range of a double.
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity);
 
 /// Solves the approach at the gap `gap` [L] > 0 and the velocity `reference_velocity` [L/T], not 0,
-/// in a FreeFEM process. `further_arguments` are added to its command line. If `output` is not null,
-/// it is set to everything that FreeFEM printed, in the units of solve_scale(). Throws
+/// in a FreeFEM process. `further_arguments` are added to its command line. If `output` is not
+/// null, it is set to everything that FreeFEM printed, in the units of solve_scale(). Throws
 /// Error(kExternalProgram) with the last lines of FreeFEM if it fails or exceeds its time limit,
 /// Error(kBadInput) if the force is outside the range of a double, and Error(kInterrupted).
 lubrication::MotionRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,

@@ -65,8 +65,8 @@ Fit exact_plane_fit(double viscosity, double radius) {
   fit.reference_velocity = -1;
   fit.viscosity = viscosity;
   fit.radius = radius;
-  // A fit file must contain an interval; any two numbers > 0 work. LubricationForce::interval() says
-  // at which gaps the drag can be computed.
+  // A fit file must contain an interval; any two numbers > 0 work. LubricationForce::interval()
+  // says at which gaps the drag can be computed.
   fit.gap_interval = {1e-300, 1e300};
   fit.geometry = "plane, unbounded";
   fit.leading_coefficient = stokes_resistance(viscosity, radius) * radius;

@@ -1,8 +1,8 @@
 // A fit of the lubrication force F_lub(q, u0) = sum of coefficient * term(q), with functions of the
 // gap q (terms.hpp) at one velocity u0 of the sphere (docs/physics.md (3.2)): its coefficients, its
 // interval of gaps, and its diagnostics, which say how far it can be trusted. Lengths, masses and
-// times are in the units of the table of forces. Relative residuals, fit over table minus 1, have no
-// dimension. fitting/ makes fits; lubrication_force.hpp, motions/, case_file/, results/,
+// times are in the units of the table of forces. Relative residuals, fit over table minus 1, have
+// no dimension. fitting/ makes fits; lubrication_force.hpp, motions/, case_file/, results/,
 // reduced_model/ and sweep/ use them. A change must agree with docs/fit.schema.json.
 #pragma once
 
@@ -60,8 +60,8 @@ struct WorstToEstimate {
 };
 
 /// Diagnostics of a fit. Relative residuals are fit/table - 1. Every row counts as an independent
-/// measurement. If a table has rows of one gap at several velocities, whose F/u agree because Stokes
-/// flow is linear, standard errors and leave-one-out residuals are therefore too small.
+/// measurement. If a table has rows of one gap at several velocities, whose F/u agree because
+/// Stokes flow is linear, standard errors and leave-one-out residuals are therefore too small.
 struct FitDiagnostics {
   /// Number of rows of the table, outliers included.
   std::size_t rows = 0;

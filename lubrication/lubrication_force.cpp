@@ -208,9 +208,9 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   const double low = std::log(smallest / radius_);
   const double high = std::log(largest / radius_);
   if (exact_ && impulse_wanted > impulse(smallest) && impulse_wanted < impulse(largest)) {
-    // Gamma/k = int_1^eps K(s) ds with eps = gap/radius and the drag factor K of a plane. K is larger
-    // than 1/s and larger than 1, so Gamma/k < ln eps if eps < 1; if eps > 1, Gamma/k is larger than
-    // ln eps and than eps - 1.
+    // Gamma/k = int_1^eps K(s) ds with eps = gap/radius and the drag factor K of a plane. K is
+    // larger than 1/s and larger than 1, so Gamma/k < ln eps if eps < 1; if eps > 1, Gamma/k is
+    // larger than ln eps and than eps - 1.
     const double scaled = impulse_wanted / leading_;
     if (scaled < 0) return {std::max(scaled, low), 0.0};
     return {0.0, std::min(scaled, std::log1p(scaled))};
@@ -254,8 +254,8 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
 }
 
 double LubricationForce::gap_of_impulse(double impulse_wanted) const {
-  // Near contact Gamma is almost linear in s = ln(q/r), so Newton's method in s converges fast. ln q
-  // instead of ln(q/r) would make rounding errors depend on the unit of length.
+  // Near contact Gamma is almost linear in s = ln(q/r), so Newton's method in s converges fast. ln
+  // q instead of ln(q/r) would make rounding errors depend on the unit of length.
   const auto [low, high] = bracket_of_impulse(impulse_wanted);
   // At an end of the interval, rounding of ln and exp may give a gap just outside it.
   const auto gap_at = [this](double log_gap) {

@@ -1,8 +1,8 @@
-// The lubrication force as a function of gap and velocity, F_lub(q, u) = -R(q) u, with its resistance
-// R and the primitive Gamma of R. R is a sum of fitted terms, or the exact series for a plane
-// (docs/physics.md (2.3), (2.4), (3.2), (4.2)). Lengths, masses and times are in any consistent
-// units. Used by reduced_model/, fitting/, rolling/, pipeline/, report/ and the Python module. A
-// change must keep R continuous at the ends of the interval, and Gamma a primitive of R.
+// The lubrication force as a function of gap and velocity, F_lub(q, u) = -R(q) u, with its
+// resistance R and the primitive Gamma of R. R is a sum of fitted terms, or the exact series for a
+// plane (docs/physics.md (2.3), (2.4), (3.2), (4.2)). Lengths, masses and times are in any
+// consistent units. Used by reduced_model/, fitting/, rolling/, pipeline/, report/ and the Python
+// module. A change must keep R continuous at the ends of the interval, and Gamma a primitive of R.
 #pragma once
 
 #include <array>
@@ -28,9 +28,9 @@ enum class BelowInterval {
 enum class AboveInterval {
   /// Not known: functions of such a gap throw Error(kBadInput).
   kError,
-  /// R(q) = R_S (1 + c/(q + r)), with Stokes' R_S = 6 pi mu r and c such that R is continuous at q2.
-  /// So R approaches R_S as it does far from a plane (Happel & Brenner 1983, section 7-4:
-  /// R_S (1 + (9/8) r/h) at the distance h of the centre). Far from a second sphere at rest R - R_S
+  /// R(q) = R_S (1 + c/(q + r)), with Stokes' R_S = 6 pi mu r and c such that R is continuous at
+  /// q2. So R approaches R_S as it does far from a plane (Happel & Brenner 1983, section 7-4: R_S
+  /// (1 + (9/8) r/h) at the distance h of the centre). Far from a second sphere at rest R - R_S
   /// falls faster, as 1/h^2. All other walls of a container are neglected.
   kStokesLimit
 };
@@ -55,9 +55,9 @@ class LubricationForce {
   /// it. A fit whose basis is kExactPlane gives exact_plane().
   explicit LubricationForce(const Fit& fit, const OutsideInterval& outside = {});
 
-  /// The exact drag of a sphere near a no-slip plane in a half-space (plane_drag.hpp), for gaps from
-  /// 1e-300 to 1e300 radii. A smaller gap throws Error(kNotConverged). `viscosity` [M/(L T)] > 0,
-  /// `radius` [L] > 0.
+  /// The exact drag of a sphere near a no-slip plane in a half-space (plane_drag.hpp), for gaps
+  /// from 1e-300 to 1e300 radii. A smaller gap throws Error(kNotConverged). `viscosity` [M/(L T)] >
+  /// 0, `radius` [L] > 0.
   static LubricationForce exact_plane(double viscosity, double radius);
 
   /// R(q) = -F_lub(q, u)/u [M/T], > 0. Throws Error(kNotConverged) if R is larger than the largest

@@ -1,7 +1,7 @@
 // The table of force and torque on a sphere in one of its motions beside a neighbour (approaching,
-// sliding, rolling, spinning), for several gaps and velocities. Lengths, masses and times are in any
-// consistent units. Used by freefem_axi/ (writes), fitting/ and motions/ (read), and results/. A
-// change must keep the names of the columns, which published tables have.
+// sliding, rolling, spinning), for several gaps and velocities. Lengths, masses and times are in
+// any consistent units. Used by freefem_axi/ (writes), fitting/ and motions/ (read), and results/.
+// A change must keep the names of the columns, which published tables have.
 #pragma once
 
 #include <filesystem>
@@ -47,8 +47,8 @@ struct MotionRow : Action {
 /// A table of one of the motions.
 using MotionTable = Table<MotionRow>;
 
-/// The columns of a row: gap and velocity, force and torque on the sphere, how the row was computed,
-/// and force and torque on the neighbour if `row` has one.
+/// The columns of a row: gap and velocity, force and torque on the sphere, how the row was
+/// computed, and force and torque on the neighbour if `row` has one.
 std::vector<Column> columns_of(const TableHead& head, MotionRow& row);
 
 /// Adds a neighbour unless the motion is the approach.
@@ -58,15 +58,15 @@ void prepare(const TableHead& head, MotionRow& row);
 /// or torque. If factors of the neighbour are still NaN, the neighbour is removed.
 void complete(const TableHead& head, MotionRow& row);
 
-/// Throws Error(kBadInput) with the position `here` if a factor is not finite, or if the neighbour is
-/// at rest and the force on a sphere that moves (torque, if it turns) is not opposed to its velocity.
+/// Throws Error(kBadInput) with the position `here` if a factor is not finite, or if the neighbour
+/// is at rest and the force (torque, if the sphere turns) is not opposed to the velocity.
 void check(const TableHead& head, const MotionRow& row, const FilePosition& here);
 
 /// The largest error estimate of sphere and neighbour in the row [1], >= 0.
 double largest_estimate(const MotionRow& row);
 
-/// Force and torque per velocity v of the sphere [L/T] (approach, slide) or angular velocity v [1/T]
-/// (roll, spin) for factors 1: F = -force * v * (force factor), T = -torque * v * (torque factor).
+/// Force and torque F and T over factors and velocity v [L/T] (approach, slide) or angular velocity
+/// v [1/T] (roll, spin): F = -force * v * (force factor), T = -torque * v * (torque factor).
 struct ActionUnits {
   double force = 0;   ///< 6 pi mu r [M/T] or 6 pi mu r^2 [M L/T]
   double torque = 0;  ///< 8 pi mu r^2 [M L/T] or 8 pi mu r^3 [M L^2/T]

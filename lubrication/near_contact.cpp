@@ -10,8 +10,8 @@
 namespace viscontact::lubrication {
 namespace {
 
-/// The coefficients of ln(1/q) in force along x and torque about y on the sphere, in units of mu r U
-/// and mu r^2 U, where U is the velocity of the sphere, or r times its angular velocity.
+/// The coefficients of ln(1/q) in force along x and torque about y on the sphere, in units of mu r
+/// U and mu r^2 U, where U is the velocity of the sphere, or r times its angular velocity.
 struct FilmAction {
   double force = 0, torque = 0;
 };

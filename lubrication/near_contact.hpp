@@ -1,8 +1,8 @@
-// The coefficients of the terms ln q and q ln q in force and torque on a sphere that slides, rolls or
-// spins at a small gap q beside another body, its neighbour, by lubrication theory (docs/physics.md
-// (2.9) to (2.11)). Lengths, also q, are in sphere radii. Nothing is checked or thrown. Used by
-// freefem_axi/motion_table_plan.cpp, which writes the coefficients into the head of each table. A
-// change must keep the coefficients, which published tables contain.
+// The coefficients of the terms ln q and q ln q in force and torque on a sphere that slides, rolls
+// or spins at a small gap q beside another body, its neighbour, by lubrication theory
+// (docs/physics.md (2.9) to (2.11)). Lengths, also q, are in sphere radii. Nothing is checked or
+// thrown. Used by freefem_axi/motion_table_plan.cpp, which writes the coefficients into the head of
+// each table. A change must keep the coefficients, which published tables contain.
 #pragma once
 
 #include <string_view>

@@ -57,8 +57,8 @@ constexpr double kFar = 2;
 constexpr int kPieces = 8;
 // Coefficients of M in powers of t, computed with mpmath in 45 digits in these steps: Brenner's
 // series gives R at 30 Chebyshev nodes on each piece, and so a Chebyshev series of R. Its integral,
-// from the value of S at x = -8 by the expansion near contact, divided by eps is M. The powers above
-// t^19 are left out; they are below 1e-21.
+// from the value of S at x = -8 by the expansion near contact, divided by eps is M. The powers
+// above t^19 are left out; they are below 1e-21.
 // clang-format off
 constexpr std::array<Polynomial<20>, kPieces> kMean = {{
     {2.272204722152662, -0.099586393365349857, 9.1175197429165688e-05, 1.3149216755474393e-05,
@@ -115,14 +115,14 @@ constexpr Polynomial<18> kFarRegular = {
     -0.088984817950404249, 0.07118790284039278, 0.0211582797930987, -0.036068701833045225,
     0.061473599154115988, -0.0055992376740436889};
 // clang-format on
-// The limit of S - eps - ln(1 + eps)/8 for large eps, from S at x = 4, which is computed in the same
-// way as kMean.
+// The limit of S - eps - ln(1 + eps)/8 for large eps, from S at x = 4, which is computed in the
+// same way as kMean.
 constexpr double kFarConstant = 0.30139129923623441053;
 // S(1), computed in the same way as kMean.
 constexpr double kRegularIntegralToOne = 1.26158388768896730636;
 
-/// A function of eps, by its coefficients in the three ranges: near contact (constants, logarithms),
-/// between (pieces) and far away (far).
+/// A function of eps, by its coefficients in the three ranges: near contact (constants,
+/// logarithms), between (pieces) and far away (far).
 struct Expansion {
   Polynomial<5> constants, logarithms;
   std::array<Polynomial<20>, kPieces> pieces;
@@ -164,8 +164,8 @@ consteval Expansion slope_expansion() {
   return slope;
 }
 
-/// The coefficients of M near contact and between. Far away they are those of S - eps - x/8 instead,
-/// from R = 1 + h/8 + ..., int h^(k+1) d eps = -h^k/k and ln(1 + eps) - x = sum h^k/k.
+/// The coefficients of M near contact and between. Far away they are those of S - eps - x/8
+/// instead, from R = 1 + h/8 + ..., int h^(k+1) d eps = -h^k/k and ln(1 + eps) - x = sum h^k/k.
 consteval Expansion mean_expansion() {
   Expansion mean = {kConstants, kLogarithms, kMean, {}};
   for (std::size_t k = 0; k < kConstants.size(); ++k) {
@@ -183,8 +183,8 @@ constexpr Expansion kRegular = regular_expansion();
 constexpr Expansion kSlope = slope_expansion();
 constexpr Expansion kMeanRegular = mean_expansion();
 
-/// The value at eps, with x = ln eps. If eps < 0, x is NaN: both comparisons are false, and the last
-/// line returns NaN.
+/// The value at eps, with x = ln eps. If eps < 0, x is NaN: both comparisons are false, and the
+/// last line returns NaN.
 double value(const Expansion& f, double eps, double x) {
   if (x >= kFar) return value(f.far, 1 / (1 + eps));
   if (x >= kNear) {

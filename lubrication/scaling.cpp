@@ -30,8 +30,8 @@ std::optional<std::string> power_beside_logarithm(std::string_view term) {
 /// A matrix m: coefficient i of the scaled fit is sum_j m[i][j] * coefficient j of the given fit.
 using Mixing = std::vector<std::vector<double>>;
 
-/// Returns this matrix for the factor `factor` = (mu'/mu) (r'/r)^power and `ratio` = r'/r. Appends a
-/// term q^n to `terms` if they contain q^n ln q but not q^n.
+/// Returns this matrix for the factor `factor` = (mu'/mu) (r'/r)^power and `ratio` = r'/r. Appends
+/// a term q^n to `terms` if they contain q^n ln q but not q^n.
 Mixing mixing_of(std::vector<FitTerm>& terms, double factor, double ratio) {
   const auto place = [&](const std::string& name) {
     const auto found = std::ranges::find(terms, name, &FitTerm::name);

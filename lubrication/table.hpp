@@ -1,7 +1,7 @@
 // The common part of all tables that FreeFEM computes and fits read: a head, and rows with named
-// columns; and the motions of a sphere beside another body, its neighbour. Lengths, masses and times
-// are in any consistent units. Used by motion_table.hpp, freefem_axi/ and swimmer/. A change must
-// keep the keys of the head and the names of the motions, which published tables have.
+// columns; and the motions of a sphere beside another body, its neighbour. Lengths, masses and
+// times are in any consistent units. Used by motion_table.hpp, freefem_axi/ and swimmer/. A change
+// must keep the keys of the head and the names of the motions, which published tables have.
 //
 // A kind of table is a struct Row and four functions beside it: columns_of(), prepare(), complete()
 // and check() (table_codec.hpp). A new column needs a member of the row and a line in columns_of(),
@@ -61,8 +61,8 @@ struct TableHead {
   std::string container;      ///< walls around the fluid, in words; may be empty
   /// True if the neighbour moves. The force may then be along the sphere's velocity.
   bool neighbour_moves = false;
-  /// Theory's coefficient k [M L/T] in the resistance R = k/q + ... of the approach at a small gap q,
-  /// where R is -force/velocity; nothing if not known.
+  /// Theory's coefficient k [M L/T] in the resistance R = k/q + ... of the approach at a small gap
+  /// q, where R is -force/velocity; nothing if not known.
   std::optional<double> leading_coefficient;
   /// Theory's coefficient of ln q (sliding, rolling) or q ln q (spinning) in the force factor and
   /// in the torque factor of MotionRow, with q in the unit of the table; nothing if not known.
@@ -85,9 +85,9 @@ struct Table : TableHead {
   std::vector<Row> rows;  ///< at least one in a file
 };
 
-/// What a number is if a file lacks it: kRefused, an error; kZero, 0; kComputed, NaN until complete()
-/// computes it from others; kAlwaysComputed, the same, and complete() computes it even if the file
-/// has it, so that the journal of an unfinished table does not contain it.
+/// What a number is if a file lacks it: kRefused, an error; kZero, 0; kComputed, NaN until
+/// complete() computes it from others; kAlwaysComputed, the same, and complete() computes it even
+/// if the file has it, so that the journal of an unfinished table does not contain it.
 enum class IfAbsent { kRefused, kZero, kComputed, kAlwaysComputed };
 
 /// A column of a table, and its number in one row.

@@ -1,7 +1,7 @@
 // Reads and writes the files of tables (docs/file-formats.md) for any struct Row of their rows.
-// Numbers are in the units of the table. Used by motion_table.cpp, table.cpp, swimmer/resistance/ and
-// freefem_axi/journal/make_plan.hpp. A change must keep published tables readable. For a Row there
-// must be, in its namespace:
+// Numbers are in the units of the table. Used by motion_table.cpp, table.cpp, swimmer/resistance/
+// and freefem_axi/journal/make_plan.hpp. A change must keep published tables readable. For a Row
+// there must be, in its namespace:
 //   static constexpr bool Row::kIsOfLine: true if the head has the radii of several spheres;
 //   void prepare(const TableHead&, Row&): gives the vectors and optional members of a row the sizes
 //     that columns_of() needs;
@@ -22,7 +22,7 @@
 namespace viscontact::lubrication {
 
 /// Reads the head in the text of a file; `file` is its name in messages, `is_of_line` is
-/// Row::kIsOfLine. Throws Error(kBadInput), which names file and key, if a line is missing or wrong.
+/// Row::kIsOfLine. Throws Error(kBadInput) with file and key if a line is missing or wrong.
 TableHead read_head(const std::string& text, const std::string& file, bool is_of_line);
 
 /// The lines of the head of a table with `rows` rows.

@@ -1,7 +1,7 @@
 // The functions of the gap q that a fit of a force may combine, and named lists of them, the bases
 // (docs/physics.md (3.2)). q is a number > 0 in the unit of length of the fit. Used by fitting/,
-// lubrication/, motions/, rolling/, case_file/ and app/. A change must keep names and formulas, which
-// fit files and exports contain.
+// lubrication/, motions/, rolling/, case_file/ and app/. A change must keep names and formulas,
+// which fit files and exports contain.
 #pragma once
 
 #include <cmath>
@@ -12,12 +12,11 @@
 
 namespace viscontact::lubrication {
 
-/// A function of the gap q > 0 and of l = ln q. The logarithm is an argument, so that it is computed
-/// only once for a sum of terms.
+/// A function of the gap q > 0 and of l = ln q. The logarithm is an argument, so that it is
+/// computed only once for a sum of terms.
 struct Formula {
   /// The expression in q and l, with + - * / ( ) and numbers. Exported code of C, Fortran, Python
-  /// and MATLAB contains it. Fortran reads the numbers in single precision, in which they must
-  /// therefore be exact.
+  /// and MATLAB contains it. The numbers must be exact in single precision, as Fortran reads them.
   std::string_view text;
   double (*at)(double gap, double log_gap);  ///< the value at q = gap > 0 and l = log_gap
 
@@ -25,9 +24,9 @@ struct Formula {
   double operator()(double gap) const { return at(gap, std::log(gap)); }
 };
 
-/// A function phi of the gap q > 0. Its coefficient in a force has the unit of a force [M L/T^2] over
-/// that of phi. In another unit of length ln q differs by a constant; the coefficients of 1, q, ...
-/// then change by multiples of those of ln q, q ln q, ...
+/// A function phi of the gap q > 0. Its coefficient in a force has the unit of a force [M L/T^2]
+/// over that of phi. In another unit of length ln q differs by a constant; the coefficients of 1,
+/// q, ... then change by multiples of those of ln q, q ln q, ...
 struct Term {
   std::string_view name;  ///< as fit files and `--terms` give it: "q ln q"
   Formula value;          ///< phi(q)

@@ -30,8 +30,7 @@ enum class PairEntry { kSqueeze, kSlide, kRoll, kSlideRoll, kSpin };
 struct NamedEntry {
   std::string_view name;         ///< such as "slide_roll", in files and in exported code
   std::string_view description;  ///< one line for the comment of exported code
-  /// Terms of the bases that this entry does not contain near contact, by lubrication theory. They
-  /// are not fitted.
+  /// Terms that by lubrication theory this entry does not have near contact; they are not fitted.
   std::vector<std::string_view> absent_terms;
   std::string_view leading_term;  ///< the most singular term near contact, by lubrication theory
   /// What the fitted entry must be; a fit of another shape has a warning.
@@ -45,8 +44,8 @@ std::span<const NamedEntry> pair_entries();
 inline constexpr std::string_view kDefaultPairBasis = "asymptotic_cubic";
 
 /// The names of the bases for the entries of a pair: asymptotic and asymptotic_extended of
-/// all_bases() (lubrication/terms.hpp); asymptotic_cubic, which is asymptotic_extended and q^3 ln q;
-/// asymptotic_quartic, which is asymptotic_cubic, q^4 ln q and q^4.
+/// all_bases() (lubrication/terms.hpp); asymptotic_cubic, which is asymptotic_extended and q^3 ln
+/// q; asymptotic_quartic, which is asymptotic_cubic, q^4 ln q and q^4.
 std::vector<std::string_view> pair_bases();
 
 /// The basis for an entry: the terms of the basis `name` without entry.absent_terms, and without
@@ -60,8 +59,8 @@ struct EntryFit {
   /// A fit at the reference velocity -1, so that its sum of coefficients times terms is the
   /// resistance itself: [M/T] squeeze and slide, [M L/T] slide_roll, [M L^2/T] roll and spin.
   lubrication::Fit fit;
-  /// Lubrication theory's coefficient of NamedEntry::leading_term, if it is known, in the unit of the
-  /// entry over that of the term.
+  /// Lubrication theory's coefficient of NamedEntry::leading_term, if it is known, in the unit of
+  /// the entry over that of the term.
   std::optional<double> theory;
 };
 
@@ -79,8 +78,8 @@ struct PairFit {
 /// is also used outside fit.gap_interval. Throws Error(kBadInput) if the fit lacks the entry.
 double entry_value(const PairFit& fit, PairEntry entry, double gap);
 
-/// The fit for another viscosity [M/(L T)] > 0 and radius [L] > 0 of the sphere, beside a neighbour of
-/// the same size in radii (lubrication/scaling.hpp).
+/// The fit for another viscosity [M/(L T)] > 0 and radius [L] > 0 of the sphere, beside a neighbour
+/// of the same size in radii (lubrication/scaling.hpp).
 PairFit scaled_to(PairFit fit, double viscosity, double radius);
 
 /// True if the path is a regular file with a PairFit. False for a pipe, which is not read, because

@@ -1,6 +1,6 @@
 // Numbers and sums of terms as code of C, Fortran, Python and MATLAB. Numbers have the units of the
-// fit. Nothing is thrown. Used by export_fit.cpp and motions/fit/export_pair.cpp. A change must keep
-// that a compiler reads each literal as the double that was written.
+// fit. Nothing is thrown. Used by export_fit.cpp and motions/fit/export_pair.cpp. A change must
+// keep that a compiler reads each literal as the double that was written.
 #pragma once
 
 #include <fmt/format.h>

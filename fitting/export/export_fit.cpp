@@ -78,8 +78,8 @@ Outside outside_of(const lubrication::Fit& fit, const lubrication::OutsideInterv
 }
 
 /// R or Gamma as expressions of a language: `inside` for gaps in the fitted interval, in the
-/// variables q and l = ln q; `below` and `above` for smaller and larger gaps, in q alone. `below` or
-/// `above` is empty if the user chose no formula there.
+/// variables q and l = ln q; `below` and `above` for smaller and larger gaps, in q alone. `below`
+/// or `above` is empty if the user chose no formula there.
 struct Expressions {
   std::string inside, below, above;
 };

@@ -14,11 +14,11 @@
 namespace viscontact::freefem_axi {
 namespace {
 
-// Each row is solved on a sequence of kLevels meshes (the error estimate needs three), each twice as
-// fine as the one before. The coarsest has kCoarsestCells cells across the gap; with fewer than two
-// the gap would be a single layer of triangles. At most kAttempts sequences with other numbers of
-// cells are solved until the accuracy is reached (extrapolation.idp). The first sequence reaches an
-// accuracy of 1e-5 for gaps of 1e-6 to 10 radii in about a second (bench/README.md).
+// Each row is solved on a sequence of kLevels meshes (the error estimate needs three), each twice
+// as fine as the one before. The coarsest has kCoarsestCells cells across the gap; with fewer than
+// two the gap would be a single layer of triangles. At most kAttempts sequences with other numbers
+// of cells are solved until the accuracy is reached (extrapolation.idp). The first sequence reaches
+// an accuracy of 1e-5 for gaps of 1e-6 to 10 radii in about a second (bench/README.md).
 constexpr int kCoarsestCells = 2;
 constexpr int kLevels = 3;
 constexpr int kAttempts = 3;

@@ -33,8 +33,8 @@ struct FreeFem {
 /// The FreeFEM of the user: the executable is the value of the environment variable
 /// VISCONTACT_FREEFEM if it is set, else FreeFem++-nw. VISCONTACT_FREEFEM_TIME_LIMIT [s], if set,
 /// replaces both time limits. Throws Error(kExternalProgram) if the scripts are not found
-/// (freefem::find_script_folder()), and Error(kWrongUsage) if the limit is not a whole number from 1
-/// to 10 million.
+/// (freefem::find_script_folder()), and Error(kWrongUsage) if the limit is not a whole number from
+/// 1 to 10 million.
 FreeFem default_freefem(const StopToken& stop = {});
 
 /// Runs a script on one thread to its end. `arguments` are "-name" and "value" in turn. After
@@ -59,11 +59,10 @@ std::string failure_in_words(const ProcessResult& result, std::chrono::seconds t
 /// The first line of `output` that starts with `prefix` and a space, without these; or empty.
 std::string line_after(const std::string& output, std::string_view prefix);
 
-/// The version of FreeFEM: that of the Debian package that has installed the executable, and the one
-/// that FreeFEM states, such as "4.11+dfsg1-3 (Debian package freefem++; FreeFEM says 4.9)". If
+/// The version of FreeFEM: that of the Debian package that has installed the executable, and the
+/// one that FreeFEM states, such as "4.11+dfsg1-3 (Debian package freefem++; FreeFEM says 4.9)". If
 /// there is no package, only the latter, "4.9", which may differ from the number of the release.
-/// Throws Error(kExternalProgram) if FreeFEM does not run or does not answer within version_limit,
-/// and Error(kInterrupted).
+/// Throws Error(kInterrupted), and Error(kExternalProgram) if FreeFEM does not answer in time.
 std::string freefem_version(const FreeFem& freefem);
 
 }  // namespace viscontact::freefem_axi

@@ -31,8 +31,7 @@ struct PlannedRow {
 /// The argument of make_plan().
 template <class Row>
 struct PlanParts {
-  /// A text with everything that the numbers depend on. A table that was computed with another text
-  /// is computed again.
+  /// A text with everything that the numbers depend on. Tables of another text are computed again.
   std::string inputs;
   /// Where rows are computed, in the order of computation; at least one point. The first columns of
   /// a row are its point.
@@ -51,8 +50,8 @@ struct PlanParts {
   std::function<std::vector<Row>(const Computed&)> arrange{};
 };
 
-/// The addresses of the numbers of `row` that a journal stores after those of its point: all columns
-/// but the first `size_of_point` and those that complete() computes.
+/// The addresses of the numbers of `row` that a journal stores after those of its point: all
+/// columns but the first `size_of_point` and those that complete() computes.
 template <class Row>
 std::vector<double*> stored_numbers(const lubrication::TableHead& head, Row& row,
                                     std::size_t size_of_point) {
@@ -108,8 +107,8 @@ TablePlan make_plan(PlanParts<Row> given) {
     complete(head, row);
     return row;
   };
-  // Adds the rows in the file of the table of given.rows[i] to the record. Returns false if the file
-  // is not the planned table.
+  // Adds the rows in the file of the table of given.rows[i] to the record. Returns false if the
+  // file is not the planned table.
   const auto add_rows = [=](std::size_t i, const std::filesystem::path& path, RowRecord& record) {
     const auto& planned = parts->rows[i];
     const auto table = lubrication::read_table<Row>(path);

@@ -1,8 +1,8 @@
-// A journal is a file that stores the finished and failed rows of a table while FreeFEM computes the
-// others, so that no row is lost or computed twice if the program is interrupted. Beside TABLE.csv
-// there is TABLE.csv.rows for a computation on this machine, and a TABLE.csv.rows.WRITER for each
-// process of a cluster. Each file has one writer, because some file systems do not support locks.
-// A line is one row; its numbers have the units of the table. Used by tabulate.cpp (writes),
+// A journal is a file that stores the finished and failed rows of a table while FreeFEM computes
+// the others, so that no row is lost or computed twice if the program is interrupted. Beside
+// TABLE.csv there is TABLE.csv.rows for a computation on this machine, and a TABLE.csv.rows.WRITER
+// for each process of a cluster. Each file has one writer, because some file systems do not support
+// locks. A line is one row; its numbers have the units of the table. Used by tabulate.cpp (writes),
 // row_record.cpp (reads) and pipeline/tabulate/. A change must only append to a journal, and must
 // keep journals of interrupted runs readable.
 #pragma once
@@ -22,8 +22,8 @@ namespace viscontact::freefem_axi {
 /// What a line of the journal records: a row of the table, or the failure to compute it.
 using JournalEntry = std::variant<FinishedRow, FailedRow>;
 
-/// The text of a line with its line end. `hash` is TablePlan::hash of the table. The line contains a
-/// checksum, by which a line that a crash, a full disk or a second writer has damaged is found.
+/// The text of a line with its line end. `hash` is TablePlan::hash of the table. The line contains
+/// a checksum, by which a line that a crash, a full disk or a second writer has damaged is found.
 std::string write_journal_line(const std::string& hash, const JournalEntry& entry);
 
 /// The hash in a line, which is given without its line end: TablePlan::hash of the table to which

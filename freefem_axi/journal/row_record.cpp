@@ -68,7 +68,7 @@ RowRecord read_row_record(const fs::path& table_path, const TablePlan& plan) {
       else if (const auto* failed = std::get_if<FailedRow>(&*entry))
         record.failed[failed->point] = failed->reason;
     });
-  // The table must be read last, because the process that writes it removes the journals afterwards.
+  // The table must be read last, because the process that writes it then removes the journals.
   auto in_table = plan.read(table_path);
   record.finished.merge(in_table.finished);
   record.failed.merge(in_table.failed);

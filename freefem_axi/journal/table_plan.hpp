@@ -66,11 +66,11 @@ struct TablePlan {
   RowShape shape;                ///< of every row
   double relative_accuracy = 0;  ///< largest relative error that the user allows a row [1], > 0
   double typical_seconds = 0;    ///< time of a row on one core [s], > 0, only for estimates of time
-  /// Computes the numbers of the row at a point. Throws Error(kExternalProgram) if FreeFEM fails for
-  /// this row. An Error of another kind ends the computation of all rows.
+  /// Computes the numbers of the row at a point. Throws Error(kExternalProgram) if FreeFEM fails
+  /// for this row. An Error of another kind ends the computation of all rows.
   std::function<std::vector<double>(const FreeFem&, const RowPoint&)> solve;
-  /// Reads the finished rows in the file of the table, and the failed rows that it names. No rows if
-  /// there is no such file or if it was computed with other inputs.
+  /// Reads the finished rows in the file of the table, and the failed rows that it names. No rows
+  /// if there is no such file or if it was computed with other inputs.
   std::function<RowRecord(const std::filesystem::path&)> read;
   /// Makes the text of the file from the finished rows; its head names the failed ones.
   std::function<std::string(const RowRecord&, const Versions&)> write;

@@ -33,8 +33,7 @@ std::string version_for(const RowWorker& worker, const std::vector<RowPoint>& po
   }
 }
 
-/// Solves one row. Returns the row, or the reason why FreeFEM failed. Throws errors of other kinds
-/// than kExternalProgram.
+/// Solves one row. Returns the row, or what() of Error(kExternalProgram). Throws other errors.
 JournalEntry solve(const FreeFem& freefem, const std::string& version, const TablePlan& plan,
                    const RowPoint& point) {
   try {
@@ -71,7 +70,7 @@ void compute_rows(const RowWorker& worker, const TablePlan& plan,
           journal.append(entry);
         }
       } catch (...) {
-        // The cause is not this row but Ctrl-C or a full disk, say, so the others would fail as well.
+        // The cause is not this row but Ctrl-C or a full disk, say, so the others would fail, too.
         const std::scoped_lock lock(mutex);
         if (!fatal) fatal = std::current_exception();
         next = missing.size();

@@ -31,12 +31,13 @@ struct RowWorker {
 };
 
 /// Computes the rows at `points` that are not finished. Before each row the files are read again,
-/// because another process may have finished it meanwhile. Each finished row, and the reason of each
-/// failed one, is written at once to the worker's journal (row_journal.hpp) beside `table_path`.
-/// `report` is called after each row, by one thread at a time. A row that fails does not stop the
-/// others and is not thrown; read_row_record() returns it. Throws Error(kExternalProgram) if FreeFEM
-/// cannot be run at all, Error(kBadInput) if the journal cannot be written, and Error(kInterrupted)
-/// if worker.freefem.stop requests a stop. The caller writes the table and removes the journals.
+/// because another process may have finished it meanwhile. Each finished row, and the reason of
+/// each failed one, is written at once to the worker's journal (row_journal.hpp) beside
+/// `table_path`. `report` is called after each row, by one thread at a time. A row that fails does
+/// not stop the others and is not thrown; read_row_record() returns it. Throws
+/// Error(kExternalProgram) if FreeFEM cannot be run at all, Error(kBadInput) if the journal cannot
+/// be written, and Error(kInterrupted) if worker.freefem.stop requests a stop. The caller writes
+/// the table and removes the journals.
 void compute_rows(const RowWorker& worker, const TablePlan& plan,
                   const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report);

@@ -1,7 +1,6 @@
 // Writes each resistance of a pair, a sphere beside a body at rest, as a function of the gap in C,
 // Fortran, Python, MATLAB, JSON or CSV. Numbers are in the units of the fit. An unknown target is
-// an Error(kBadInput). A change must keep the names of functions and keys, which programs of users
-// call.
+// an Error(kBadInput). A change must keep the names of functions and keys, which users rely on.
 #include "viscontact/motions/fit/export_pair.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
-// Writes the fit of a pair, the resistances of a sphere beside a body at rest (pair_fit.hpp), as code
-// or data with a function of the gap for each resistance. Lengths, masses and times are in the units
-// of the fit. Used by the command `export` (app/commands/). A change must keep the names of functions
-// and keys, which programs of users call.
+// Writes the fit of a pair, the resistances of a sphere beside a body at rest (pair_fit.hpp), as
+// code or data with a function of the gap for each resistance. Lengths, masses and times are in the
+// units of the fit. Used by the command `export` (app/commands/). A change must keep the names of
+// functions and keys, which programs of users call.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace viscontact::motions {
 
-/// The text for `target`, one of export_targets() (fitting/export/export_fit.hpp). For each resistance
-/// that the fit has, code contains a function of the gap [L]: viscontact_squeeze [M/T],
+/// The text for `target`, one of export_targets() (fitting/export/export_fit.hpp). For each
+/// resistance that the fit has, code contains a function of the gap [L]: viscontact_squeeze [M/T],
 /// viscontact_slide [M/T], viscontact_roll [M L^2/T], viscontact_slide_roll [M L/T] and
 /// viscontact_spin [M L^2/T], without the prefix in Python and MATLAB. Outside the interval of gaps
 /// it returns NaN (C, Fortran, MATLAB) or raises ValueError (Python). json and csv contain 201

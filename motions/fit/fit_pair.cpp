@@ -136,8 +136,8 @@ void check_symmetry(double gap, const Coupling& slide, const Coupling& roll) {
                     gap, slide.value, roll.value, allowed));
 }
 
-/// The table of slide_roll, from the tables of sliding and rolling (the mean of both values) or from
-/// the one that exists.
+/// The table of slide_roll, from the tables of sliding and rolling (the mean of both values) or
+/// from the one that exists.
 EntryTable coupling_entry(const MotionTable& pair, const PairTables& tables) {
   const auto slide = tables.find(MotionKind::kSlide), roll = tables.find(MotionKind::kRoll);
   const bool slides = slide != tables.end(), both = slides && roll != tables.end();

@@ -1,7 +1,7 @@
 // Fits all resistances of a pair, a sphere beside a body at rest (pair_fit.hpp), to the tables of
-// force and torque in its motions: approach, slide, roll, spin. Lengths, masses and times are in the
-// units of the tables. Used by motions/job/ (commands `fit` and `rolling`) and the Python module. A
-// change must keep the check that the matrix of resistances is symmetric.
+// force and torque in its motions: approach, slide, roll, spin. Lengths, masses and times are in
+// the units of the tables. Used by motions/job/ (commands `fit` and `rolling`) and the Python
+// module. A change must keep the check that the matrix of resistances is symmetric.
 #pragma once
 
 #include <map>
@@ -26,10 +26,10 @@ struct PairFitSettings {
 
 /// Fits the resistances (entries) that the tables determine. Residuals are relative to the entry,
 /// but those of slide_roll, which can be 0, are relative to sqrt(slide roll), or, if one of these
-/// tables is missing, to slide r or roll/r, with the radius r of the sphere. Throws Error(kBadInput)
-/// if there is no table, if the tables are of different pairs or have no gaps in common, if the
-/// neighbour moves, if the table of rolling lacks a gap of that of sliding, or if their values of
-/// slide_roll differ by more than their error estimates; and the errors of fit_force_table().
+/// tables is missing, to slide r or roll/r, with the radius r of the sphere. Throws
+/// Error(kBadInput) if there is no table, if the tables are of different pairs or have no gaps in
+/// common, if the neighbour moves, if the table of rolling lacks a gap of that of sliding, or if
+/// their slide_roll differ by more than their error estimates; and errors of fit_force_table().
 PairFit fit_pair(const PairTables& tables, const PairFitSettings& settings,
                  const StopToken& stop = {});
 

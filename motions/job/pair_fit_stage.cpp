@@ -1,7 +1,6 @@
 // Finds and reads the tables of a sphere beside a body at rest, fits them, and prints the
 // residuals. Numbers are in the units of the tables. A folder in which a table is missing is an
-// Error(kBadInput) with the remedy. A change must keep that a fit that did not change is not
-// written again.
+// Error(kBadInput) with the remedy. A change must not write a fit again that did not change.
 #include "viscontact/motions/job/pair_fit_stage.hpp"
 
 #include <fmt/format.h>
@@ -48,8 +47,8 @@ bool is_where_made(const fs::path& file) {
          fs::weakly_canonical(file);
 }
 
-/// Part of a message: why `folder` may lack a table that was asked for together with `file`, and what
-/// the user can do. `motions` are the motions that were asked for.
+/// Part of a message: why `folder` may lack a table that was asked for together with `file`, and
+/// what the user can do. `motions` are the motions that were asked for.
 std::string reason_and_remedy(const fs::path& folder, const fs::path& file,
                               const std::string& motions) {
   const auto name = file.filename().string();

@@ -1,9 +1,9 @@
 // Reads the tables of force and torque on a sphere beside a body at rest, fits all its resistances,
 // writes the fit and reports to the user (docs/motions.md). Lengths, masses and times are in the
-// units of the tables. Used by the command `fit` (app/commands/), rolling/job/ and the Python module.
-// Besides the errors below, functions that read or fit throw those of read_motion_table() and
-// fit_pair(); if `stop` requests a stop, Error(kInterrupted). A change must keep that a fit that did
-// not change is not written again.
+// units of the tables. Used by the command `fit` (app/commands/), rolling/job/ and the Python
+// module. Besides the errors below, functions that read or fit throw those of read_motion_table()
+// and fit_pair(); if `stop` requests a stop, Error(kInterrupted). A change must keep that a fit
+// that did not change is not written again.
 #pragma once
 
 #include <filesystem>
@@ -20,9 +20,9 @@ namespace viscontact::motions {
 /// that lacks a table which, by the head of another one, was asked for together with it.
 std::vector<std::filesystem::path> pair_table_files(const std::vector<std::string>& paths);
 
-/// True if the tables are to be fitted by fit_pair_stage() and not as a single table of the approach:
-/// one of `paths` is a folder, there are several tables, or the only one is of another motion than
-/// the approach. `files` is the result of pair_table_files(paths).
+/// True if the tables are to be fitted by fit_pair_stage() and not as a single table of the
+/// approach: one of `paths` is a folder, there are several tables, or the only one is of another
+/// motion than the approach. `files` is the result of pair_table_files(paths).
 bool are_of_pair(const std::vector<std::string>& paths,
                  const std::vector<std::filesystem::path>& files);
 
