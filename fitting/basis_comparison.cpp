@@ -1,6 +1,7 @@
-// Makes one fit for each basis (docs/theory.md). A basis that cannot be fitted is kept with its
-// error. A change must keep all other settings equal, because only then the criteria can be
-// compared.
+// Fits one force table in each basis (list of functions of the gap), and picks the fit with the
+// smallest value of Akaike's criterion. Numbers are in the units of the table. The Error of a basis
+// that cannot be fitted is stored, not thrown. A change must fit the same rows with the same
+// weights in each basis, because the values of the criterion cannot be compared otherwise.
 #include "viscontact/fitting/basis_comparison.hpp"
 
 #include "viscontact/common/error.hpp"

@@ -1,7 +1,8 @@
-// Fits of one table in several bases, and the choice between them by Akaike's information criterion
-// (FitDiagnostics::information_criterion). Lengths, masses and times are in the units of the table.
-// `fit --compare-bases` and the report print and draw these fits. A change must keep that one basis
-// that fails does not stop the others. Used by report/.
+// Fits of one force table in several bases (a basis is a list of functions of the gap, which a fit
+// combines linearly), and the choice between them by Akaike's information criterion. Lengths,
+// masses and times are in the units of the table. Used by pipeline/fit_stages.cpp and report/ for
+// the command `fit --compare-bases`. A change must keep that a basis that cannot be fitted does not
+// prevent the fits in the others.
 #pragma once
 
 #include <optional>
@@ -16,18 +17,20 @@ namespace viscontact::fitting {
 
 /// A fit in one basis, or the reason why there is none.
 struct BasisResult {
-  std::string basis;                      ///< its name, or its terms separated by commas
-  std::optional<lubrication::Fit> fit{};  ///< nothing if the basis failed
-  std::string failure;                    ///< message of the error if there is no fit
+  /// Name of the basis; kOwnTerms ("terms") for a user's list of terms.
+  std::string basis;
+  std::optional<lubrication::Fit> fit{};  ///< nothing if the fit threw an Error
+  std::string failure;                    ///< what() of that Error; empty if there is a fit
 };
 
-/// Fits the table in every named basis, and in the basis of `settings` if that is a user's list of
-/// terms. All other settings are the same. The error of a basis that fails is kept in its result.
-/// Throws Error(kInterrupted) if `stop` requests a stop.
+/// Fits the table in each of all_bases(), in this order, and then in the basis of `settings` if
+/// that is a user's list of terms. Each fit has the other settings of `settings`. An Error of a fit
+/// is stored in its result and not thrown, except Error(kInterrupted) if `stop` requests a stop.
 std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
                                        const FitSettings& settings, const StopToken& stop = {});
 
-/// The result with the smallest information criterion; null if no result has a criterion.
+/// The element of `results` whose fit has the smallest FitDiagnostics::information_criterion; null
+/// if no fit has a criterion. Every fit must have diagnostics, as those of compare_bases() do.
 const BasisResult* best_basis(const std::vector<BasisResult>& results);
 
 }  // namespace viscontact::fitting

@@ -1,7 +1,8 @@
-// Assembles the equations of a fit, physics.md (3.2), from the rows of a table, solves them, and
-// sets the members of the fit. Numbers are in the units of the table; q is the gap, r the radius of
-// the sphere, F the force and u the velocity of a row. Errors and what a change must keep are in
-// fit_force_table.hpp.
+// Assembles the equations of a fit, F = sum of coefficient * term(q) for each row of a table,
+// solves them by least squares, and sets the members of the fit and its diagnostics. q is the gap,
+// F the force and u the velocity of a row, and r the radius of the sphere, in the units of the
+// table. A table or a choice of terms that cannot be fitted is an Error(kBadInput) or
+// Error(kNotConverged). What a change must keep is in fit_force_table.hpp.
 #include "viscontact/fitting/fit_force_table.hpp"
 
 #include <fmt/format.h>
@@ -28,25 +29,24 @@
 namespace viscontact::fitting {
 namespace {
 
-/// The least squares problem of a fit: a row for each row of the table, a column for each
-/// coefficient.
+/// The solved least squares problem: a row for each row of the table, a column for each fitted
+/// coefficient. `weight` is that of Equations; `loss weight` is the weight from 0 to 1 that a
+/// robust loss gives a row (1 without a robust loss).
 struct FittedSystem {
-  /// Row weight times term(gap), times the square root of the weight that the loss gives the row.
+  /// weight * sqrt(loss weight) * term(gap).
   Eigen::MatrixXd weighted_matrix;
-  /// Fit minus table, times the same two factors.
+  /// weight * sqrt(loss weight) * (fit - table).
   Eigen::VectorXd weighted_residual;
-  /// Fit/table - 1, or the residual over another scale (FitSettings::row_scales).
+  /// (fit - table)/(force of the row), or (fit - table)/FitSettings::row_scales if these are given.
   Eigen::VectorXd relative_residual;
-  /// The argument of the loss: weight * (fit - table), without the loss's own weight, divided by
-  /// the scale of all residuals.
+  /// The argument of the loss: weight * (fit - table)/RobustSolution::scale.
   Eigen::VectorXd scaled_residual;
   /// The coefficients with ln(q/r) in place of ln q. Their relative standard errors, unlike those
   /// of the fit, are the same in all units of length.
   std::vector<lubrication::FitTerm> fitted_terms{};
 };
 
-/// The diagnostics of a fit whose other members are complete. They contain a warning if the fitted
-/// resistance does not have the shape that theory demands (FitSettings::shape).
+/// The diagnostics of a fit whose other members are complete.
 lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
                                      const FittedSystem& system, const lubrication::Fit& fit,
                                      lubrication::FittedShape shape);
@@ -55,26 +55,24 @@ double gap_of_row(const lubrication::MotionTable& table, Eigen::Index row) {
   return table.rows[static_cast<std::size_t>(row)].gap;
 }
 
-/// The 99 % quantile of the chi-squared distribution. It is computed in double precision, because
-/// Boost's default, long double, takes longer to compile.
+/// The 99 % quantile of the chi-squared distribution. double compiles faster than long double.
 double chi_squared_quantile(double degrees_of_freedom) {
   using DoublePolicy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
   const boost::math::chi_squared_distribution<double, DoublePolicy> chi_squared(degrees_of_freedom);
   return boost::math::quantile(chi_squared, 0.99);
 }
 
-/// True for a residual above 5 times the scale, which only one of two million Gaussian residuals
-/// exceeds.
+/// True for an outlier: |residual| > 5 times the scale of all residuals. Of Gaussian residuals only
+/// one in two million is so large.
 bool is_far(double scaled_residual) { return std::abs(scaled_residual) > 5; }
 
-/// True for a row that a robust loss sets aside.
+/// True for an outlier of a fit with a robust loss. Plain least squares has no outliers.
 bool is_outlier(const FittedSystem& system, lubrication::Loss loss, Eigen::Index row) {
   return loss != lubrication::Loss::kSquared && is_far(system.scaled_residual(row));
 }
 
-/// Compares the residual of each row with the error estimate of the same row, because the estimate
-/// of another row may be much larger. Outliers count only in chi_squared and in
-/// largest_error_estimate.
+/// Sets the members of `d` that compare the residual of each row with the error estimate of the
+/// same row. Outliers count only in chi_squared and in largest_error_estimate.
 void compare_with_estimates(const lubrication::MotionTable& table, const FittedSystem& system,
                             lubrication::Loss loss, lubrication::FitDiagnostics& d) {
   bool every_row = true;
@@ -120,8 +118,8 @@ Eigen::VectorXd leverages(const Eigen::MatrixXd& matrix) {
   return q.rowwise().squaredNorm();
 }
 
-/// True for each row that is alone at the smallest or largest gap of the table. The fit of the
-/// other rows extrapolates to such a row and interpolates to every other one.
+/// For each row: true if it alone has the smallest or the largest gap of the table. A fit without
+/// such a row extrapolates to its gap; a fit without any other row interpolates.
 std::vector<bool> end_rows(const lubrication::MotionTable& table) {
   const auto [smallest, largest] =
       std::ranges::minmax(table.rows, {}, &lubrication::MotionRow::gap);
@@ -138,6 +136,8 @@ void take_largest(std::optional<lubrication::LeftOutRow>& largest,
   if (!largest || row.relative_residual > largest->relative_residual) largest = row;
 }
 
+/// Sets the members of `d` on the residual that each row has in the fit of the other rows. It
+/// follows from the one fit of all rows: residual/(1 - leverage).
 void leave_one_out(const lubrication::MotionTable& table, const FittedSystem& system,
                    lubrication::FitDiagnostics& d) {
   if (d.degrees_of_freedom == 0) return;
@@ -147,7 +147,7 @@ void leave_one_out(const lubrication::MotionTable& table, const FittedSystem& sy
   double squares = 0;
   std::optional<lubrication::LeftOutRow> inner, end;
   for (Eigen::Index i = 0; i < leverage.size(); ++i) {
-    // Without this row the coefficients are not determined, so that the other rows have no fit.
+    // Leverage 1: the other rows do not determine the coefficients, so no member is set.
     if (1 - leverage(i) < round_off) return;
     const double predicted = std::abs(system.relative_residual(i) / (1 - leverage(i)));
     squares += predicted * predicted;
@@ -183,7 +183,8 @@ std::vector<lubrication::Outlier> outliers(const lubrication::MotionTable& table
   return found;
 }
 
-/// Warns if the fitted resistance is not positive or not decreasing, if `shape` demands this.
+/// Adds a warning if `shape` demands that the resistance be positive, or decrease with the gap, and
+/// the fitted resistance does not.
 void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
                    std::vector<std::string>& warnings) {
   bool positive = shape != lubrication::FittedShape::kAny,
@@ -208,7 +209,7 @@ void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
   }
 }
 
-/// The names of the table's failed rows; if there are many, only the first ones.
+/// The names of the first rows that could not be computed; any number that is short to read works.
 std::string names_of_failed_rows(const lubrication::MotionTable& table) {
   constexpr std::size_t kNamed = 5;
   std::vector<std::string> names;
@@ -237,8 +238,8 @@ void warn_of_coefficients(const lubrication::Fit& fit, const FittedSystem& syste
       continue;
     const double theory = -*fit.leading_coefficient * fit.reference_velocity;
     const double departure = term.coefficient - theory;
-    // Two standard errors, because random errors exceed them in only one fit of twenty. The error
-    // estimates of the table count, too, because they limit what the fit can know.
+    // Random errors exceed two standard errors in only one fit of twenty. A difference below the
+    // relative error of the forces themselves gets no warning either.
     const double error =
         std::max(2 * term.standard_error, d.largest_error_estimate * std::abs(theory));
     if (d.degrees_of_freedom > 0 && std::abs(departure) > error)
@@ -273,8 +274,8 @@ lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
                     d.failed_rows, d.failed_rows + d.rows, names_of_failed_rows(table)));
   warn_of_shape(fit, shape, d.warnings);
   warn_of_coefficients(fit, system, d, d.warnings);
-  // A formula that misses a row by more than a tenth does not describe lubrication theory. The
-  // lecture's five terms on forty gaps miss a row by 0.05, for which there is no warning.
+  // The warning is for gaps that are too few or terms that do not suit. A sound fit must not get
+  // it: the default basis (1/q, 1, q, q^2, q^3) on forty gaps misses a left-out row by 0.05.
   constexpr double kFar = 0.1;
   if (d.left_out_inner && d.left_out_inner->relative_residual > kFar)
     d.warnings.push_back(
@@ -285,9 +286,9 @@ lubrication::FitDiagnostics diagnose(const lubrication::MotionTable& table,
   return d;
 }
 
-/// Throws Error(kBadInput) if F/u differs between rows of equal gap by more than their error
-/// estimates. F/u must be equal there, because Stokes flow is linear in the velocity. Rows without
-/// an estimate are not checked.
+/// Throws Error(kBadInput) if F/u of two rows of equal gap differs by more than the sum of their
+/// relative error estimates. F/u is equal there in theory, because Stokes flow is linear in the
+/// velocity. Two rows without error estimates (0) are not compared.
 void check_linearity(const lubrication::MotionTable& table) {
   std::map<double, const lubrication::MotionRow*> first_at;
   for (const auto& row : table.rows) {
@@ -318,6 +319,8 @@ double fixed_leading(const lubrication::MotionTable& table, const FitSettings& s
   return -*table.leading_coefficient * table.rows.front().reference_velocity;
 }
 
+/// Throws Error(kBadInput) if the table has fewer different gaps than coefficients to fit, or fewer
+/// than two, or if the only coefficient is fixed.
 void check_gaps(const lubrication::MotionTable& table, const FitSettings& settings) {
   if (settings.fix_leading && settings.basis.terms.size() == 1)
     throw Error(ErrorKind::kBadInput,
@@ -336,23 +339,25 @@ void check_gaps(const lubrication::MotionTable& table, const FitSettings& settin
                                               table.failed_rows.size())));
 }
 
-/// The equations of the least-squares problem, with a row for each row of the table.
+/// The least squares problem: minimise the sum over the rows of (weight (terms x - left))^2, with
+/// the coefficients x. There is a row for each row of the table.
 struct Equations {
-  // The forces [M L/T^2], scaled to the velocity of the first row.
+  // F u0/u [M L/T^2]: the force at the velocity u0 of the first row.
   Eigen::VectorXd force;
-  // The forces minus the fixed term.
+  // `force` minus the fixed coefficient times 1/q, if that coefficient is fixed.
   Eigen::VectorXd left;
-  // A column for each fitted term.
+  // The values of the fitted terms, a column for each.
   Eigen::MatrixXd terms;
-  // The force to which the relative residual of each row refers [M L/T^2], > 0.
+  // The force [M L/T^2] by which the residual of the row is divided to make it relative, not 0:
+  // FitSettings::row_scales, or else `force`.
   Eigen::VectorXd scale;
-  // The weight of each row: 1/|scale| or 1.
+  // 1/|scale| for relative weights, 1 for absolute ones.
   Eigen::VectorXd weight;
 };
 
-/// If `term` is f(q) ln q, the place of the term f(q) in the basis. `term` is fitted as
-/// f(q) ln(q/r) = f(q) ln q - ln r f(q), so that the coefficient of f(q) changes by a multiple of
-/// ln r. Nothing if the term has no logarithm or the basis lacks f(q).
+/// If `term` is f(q) ln q and the basis contains f(q), the index of f(q) in the basis; otherwise
+/// nothing. Such a term is fitted as f(q) ln(q/r) = f(q) ln q - ln r f(q), and the coefficient of
+/// f(q) is corrected afterwards.
 std::optional<std::size_t> partner_of(const lubrication::Term& term, const lubrication::Basis& b) {
   constexpr std::string_view kLogarithm = "ln q";
   if (!term.name.ends_with(kLogarithm)) return std::nullopt;
@@ -367,6 +372,7 @@ bool is_fixed(const lubrication::Term& term, const FitSettings& settings) {
   return settings.fix_leading && term.name == lubrication::kLeadingTerm;
 }
 
+/// `fixed` [M L^2/T^2] is the coefficient of 1/q, without effect unless the settings fix it.
 Equations assemble(const lubrication::MotionTable& table, const FitSettings& settings,
                    double fixed) {
   const auto rows = static_cast<Eigen::Index>(table.rows.size());
@@ -381,7 +387,7 @@ Equations assemble(const lubrication::MotionTable& table, const FitSettings& set
     equations.force(i) = equations.left(i) = row.force * (u0 / row.reference_velocity);
     Eigen::Index column = 0;
     for (const auto& term : settings.basis.terms) {
-      // With ln(q/r) the condition number does not depend on the unit of length.
+      // With ln(q/r) in place of ln q the condition number is the same in all units of length.
       const double unit = partner_of(term, settings.basis) ? table.radius : 1;
       const double value = term.value.at(row.gap, std::log(row.gap / unit));
       if (is_fixed(term, settings))
@@ -398,7 +404,8 @@ Equations assemble(const lubrication::MotionTable& table, const FitSettings& set
   return equations;
 }
 
-/// Converts coefficients of f(q) ln(q/r), and their covariance, to those of f(q) ln q.
+/// Converts the coefficients and the covariance of the fitted terms f(q) ln(q/r) to those of the
+/// terms f(q) ln q that the fit file contains.
 void shift_logarithms(const FitSettings& settings, double radius, lubrication::Fit& fit) {
   const double shift = std::log(radius);
   if (shift == 0) return;
@@ -416,7 +423,7 @@ void shift_logarithms(const FitSettings& settings, double radius, lubrication::F
   }
 }
 
-/// Sets coefficients and covariance. A fixed coefficient has a row and a column of zeros.
+/// Sets terms and covariance of `fit`. The covariance of a fixed coefficient is 0.
 void set_coefficients(const LeastSquaresSolution& solution, const FitSettings& settings,
                       double fixed, lubrication::Fit& fit) {
   std::vector<Eigen::Index> columns;  // column in the solution; -1 if fixed

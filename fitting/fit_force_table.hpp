@@ -1,7 +1,8 @@
-// The fit of a force table (physics.md (3.2)): linear least squares for the coefficients of a
-// basis. Lengths, masses and times are in the units of the table. The commands `fit` and `run` use
-// it, and fit_pair.hpp for each entry of a pair. A change must keep that the fit does not depend on
-// the units or on the order of the rows, but for rounding.
+// The fit of a force table: the coefficients in F(q) = sum of coefficient * term(q), with the force
+// F at the gap q, by linear least squares (docs/physics.md (3.2)). Lengths, masses and times are in
+// the units of the table. Used by pipeline/ (commands `fit` and `run`), motions/fit/fit_pair.cpp
+// (one fit for each resistance of a pair), case_file/, examples/ and the Python module. A change
+// must keep that units and order of the rows change the fit by rounding only.
 #pragma once
 
 #include <optional>
@@ -17,37 +18,40 @@ namespace viscontact::fitting {
 
 /// The choices of a fit.
 struct FitSettings {
-  /// The terms that are combined, at least one.
+  /// The terms (functions of the gap) that the fit combines, at least one.
   lubrication::Basis basis = lubrication::default_basis();
-  /// Whether residuals count relative to the force or absolutely.
+  /// kRelative minimises the residuals (fit - force)/force, kAbsolute the residuals fit - force.
   lubrication::Weights weights = lubrication::Weights::kRelative;
-  /// Whether large residuals count less than in least squares (a robust loss).
+  /// kSquared is plain least squares; with kHuber and kCauchy large residuals count less.
   lubrication::Loss loss = lubrication::Loss::kSquared;
-  /// True: the coefficient of 1/q is fixed. Its value is `leading_value`, or else that of theory
-  /// (TableHead::leading_coefficient).
+  /// True: the coefficient of 1/q is not fitted. Its value is `leading_value`, or else -k u0 with
+  /// the k that the table states (TableHead::leading_coefficient).
   bool fix_leading = false;
-  /// Fixed coefficient of 1/q in the force at the table's first velocity u0 [M L^2/T^2], as in the
-  /// fit file: -k u0 with the k of the resistance k/q. Nothing: that of theory. Without effect
-  /// unless `fix_leading`.
+  /// The fixed coefficient of 1/q in the force at the velocity u0 of the table's first row
+  /// [M L^2/T^2]; in theory -k u0 if the resistance is k/q near contact. Needs `fix_leading`.
   std::optional<double> leading_value{};
-  /// For each row of the table the force > 0 [M L/T^2] to which its residual is relative; empty:
-  /// the force of the row.
+  /// Empty, or for each row of the table a force > 0 [M L/T^2], by which its residual is divided in
+  /// place of the force of the row.
   std::vector<double> row_scales{};
-  /// What the fitted resistance must be according to theory. A fit of another shape gets a warning.
+  /// What the fitted resistance must be according to theory: kDrag, positive and decreasing with
+  /// the gap; kPositive, positive; kAny, anything. Diagnostics warn of another result.
   lubrication::FittedShape shape = lubrication::FittedShape::kDrag;
 };
 
-/// Fits a table. The force F in a row of another velocity u than the first row's u0 counts as
-/// F (u0/u), because Stokes flow is linear. The caller sets table_sha256 and versions. Throws
-/// Error(kBadInput) if there are fewer different gaps than fitted coefficients or than two, if rows
-/// of equal gap have values of F/u that differ by more than their error estimates, or if
-/// `fix_leading` is true but the basis lacks 1/q or there is no value for its coefficient; and the
-/// errors of solve_robust_least_squares(). A row without error estimate (0) is allowed.
+/// Fits a table with at least one row. A force F at the velocity u counts as F u0/u at the velocity
+/// u0 of the first row, because Stokes flow is linear in the velocity. All members of the fit are
+/// set except table_sha256 and versions. Throws Error(kBadInput) if the table has fewer different
+/// gaps than coefficients to fit or than two, if F/u of two rows of equal gap differs by more than
+/// the sum of their error estimates (unless both are 0: not known), if `fix_leading` is true but
+/// the basis has no other term, lacks 1/q, or there is no value for its coefficient, or if double
+/// precision cannot hold the result; Error(kNotConverged) if the terms are linearly dependent on
+/// these gaps or the robust loss does not converge; Error(kInterrupted) if `stop` requests a stop
+/// during a robust fit.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const FitSettings& settings,
                                  const StopToken& stop = {});
 
-/// As above with a basis by name and the loss kSquared. Throws Error(kBadInput) for an unknown
-/// basis.
+/// The same with the basis of this name, these weights, and otherwise default settings. Throws also
+/// Error(kBadInput) for an unknown name.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, std::string_view basis,
                                  lubrication::Weights weights);
 

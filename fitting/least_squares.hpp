@@ -1,6 +1,6 @@
-// Linear least squares by Ceres, with scaled columns, refined solution, covariance and condition
-// number. Numbers have any units. Every fit uses it; a change must keep the digits of the NIST
-// reference problems in the tests.
+// Linear least squares, min |A x - b|, with covariance of x and condition number of A. Numbers have
+// any units. Used by robust_least_squares.hpp, and so by every fit of a table. A change must keep
+// the number of correct digits that tests/fitting/ demands for the reference problems of NIST.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,18 +9,19 @@ namespace viscontact::fitting {
 
 /// The solution x of a least squares problem, with its uncertainty.
 struct LeastSquaresSolution {
-  Eigen::VectorXd coefficients;  ///< x; the unit of x_i is that of b over that of column i of A
-  /// Covariance of the coefficients, with the variance s^2 = |A x - b|^2/(rows - columns) of the
-  /// residuals; zero if rows == columns.
+  /// x, with an entry for each column of A; its unit is that of b over that of the column.
+  Eigen::VectorXd coefficients;
+  /// Covariance matrix of x: s^2 (A^T A)^-1 with s^2 = |A x - b|^2/(rows - columns), the variance
+  /// of a residual. All entries are 0 if rows == columns.
   Eigen::MatrixXd covariance;
   /// Condition number of A with its columns scaled to length 1, >= 1.
   double condition_number = 0;
 };
 
-/// The x that minimises |A x - b|_2, with A = `matrix`, which must have at least as many rows as
-/// columns, and b = `right_hand_side`. Throws
+/// The x that minimises |A x - b|_2, with A = `matrix` and b = `right_hand_side`. A has at least
+/// one column and at least as many rows as columns, and b an entry for each row (asserted). Throws
 /// Error(kBadInput) if an entry is not finite or if |b|^2 overflows, and Error(kNotConverged) if
-/// the columns are linearly dependent to working precision or if Ceres fails.
+/// the columns are linearly dependent in double precision or if Ceres fails.
 LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
                                          const Eigen::VectorXd& right_hand_side);
 

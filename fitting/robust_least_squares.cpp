@@ -1,7 +1,8 @@
-// Iteratively reweighted least squares with the losses of Huber and Cauchy. Residuals are in the
-// unit of the right-hand side. The constants 1.345 and 2.385 are those of Loss in
-// lubrication/fit.hpp. Weights that do not settle are an Error(kNotConverged). A change must keep
-// that without a robust loss the result is that of least_squares.cpp.
+// Iteratively reweighted least squares with the losses of Huber and Cauchy: each step solves a
+// weighted least squares problem, whose weights depend on the residuals of the step before.
+// Residuals and their scale have the unit of the right-hand side. Weights that do not converge are
+// an Error(kNotConverged). A change must keep that with Loss::kSquared the result is that of
+// solve_least_squares(), to the last bit.
 #include "viscontact/fitting/robust_least_squares.hpp"
 
 #include <ceres/loss_function.h>
@@ -18,6 +19,8 @@
 namespace viscontact::fitting {
 namespace {
 
+/// The constants make the standard errors on Gaussian residuals nearly those of least squares (95 %
+/// efficiency). The comment of Loss in lubrication/fit.hpp repeats them.
 std::unique_ptr<ceres::LossFunction> make_loss(lubrication::Loss loss) {
   switch (loss) {
     case lubrication::Loss::kHuber:
@@ -30,8 +33,8 @@ std::unique_ptr<ceres::LossFunction> make_loss(lubrication::Loss loss) {
   return std::make_unique<ceres::TrivialLoss>();
 }
 
-/// The scale of the residuals. The factor 1.4826 makes the median of |z| the standard deviation of
-/// Gaussian z.
+/// RobustSolution::scale of the residuals of a fit with `columns` coefficients. 1.4826 is the ratio
+/// of the standard deviation to the median of |z| for Gaussian z.
 double scale_of(const Eigen::VectorXd& residual, Eigen::Index columns) {
   std::vector<double> sizes(static_cast<std::size_t>(residual.size()));
   std::ranges::transform(residual, sizes.begin(), [](double r) { return std::abs(r); });
@@ -42,17 +45,19 @@ double scale_of(const Eigen::VectorXd& residual, Eigen::Index columns) {
   return 1.4826 * *middle * std::sqrt(rows / freedom);
 }
 
-/// Reweights the rows, starting from `solution`, until the residuals do not change.
+/// Reweights the rows and solves again, from the coefficients in `solution`, until the residuals no
+/// longer change. Sets all members of `solution` but the covariance of the M-estimate. Throws the
+/// errors of solve_robust_least_squares().
 void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side,
              const ceres::LossFunction& loss, const StopToken& stop, RobustSolution& solution) {
-  // At first the scale is computed again in each step. Then it is constant, because only with a
-  // constant scale the sum of losses falls in every step.
+  // In the first 20 steps the scale follows the residuals. Then it is kept, because the sum of the
+  // losses falls in every step, so that the iteration converges, only if the scale is constant.
   constexpr int kStepsWithScale = 20;
   constexpr int kMostSteps = 1000;
-  // The iteration ends when no residual changes by more than this fraction of the scale, which is
-  // far smaller than any difference that matters.
+  // The iteration ends when no residual changes by more than this fraction of the scale. Any value
+  // that is far below the scatter of the residuals (1) and far above rounding errors works.
   constexpr double kSettled = 1e-9;
-  // Residuals as small as round-off must not be taken for outliers.
+  // The scale is at least this number, so that rounding errors of an exact fit are no outliers.
   const double round_off = 1e-14 * right_hand_side.cwiseAbs().maxCoeff();
   Eigen::VectorXd residual = matrix * solution.least_squares.coefficients - right_hand_side;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -63,7 +68,7 @@ void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_si
       std::array<double, 3> rho{};
       const double z = residual(i) / solution.scale;
       loss.Evaluate(z * z, rho.data());
-      // A row with an extreme residual keeps a tiny weight, so that no division by zero follows.
+      // rho[1], the derivative of the loss, can underflow to 0, but row_weights are > 0.
       solution.row_weights(i) = std::max(rho[1], std::numeric_limits<double>::min());
     }
     const Eigen::VectorXd root = solution.row_weights.cwiseSqrt();
@@ -77,8 +82,9 @@ void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_si
   throw Error(ErrorKind::kNotConverged, "the robust fit does not converge; try another loss");
 }
 
-/// The covariance of the M-estimate, from that of least squares, which is s^2 (A^T A)^-1 with
-/// s^2 = |r|^2/(n - p).
+/// The covariance of the coefficients with the weights of the loss, from the least squares solution
+/// `plain` without them. `plain` has the covariance s^2 (A^T A)^-1 with s^2 = |A x - b|^2/(rows -
+/// columns); here another variance takes the place of s^2 (Huber 1981, section 7.6).
 Eigen::MatrixXd robust_covariance(const Eigen::MatrixXd& matrix,
                                   const Eigen::VectorXd& right_hand_side,
                                   const LeastSquaresSolution& plain,
@@ -112,8 +118,9 @@ RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
   solution.scale =
       scale_of(matrix * solution.least_squares.coefficients - right_hand_side, matrix.cols());
   if (loss == lubrication::Loss::kSquared) return solution;
-  // The sum of Huber's losses has one minimum, that of Cauchy's losses may have several. With
-  // Cauchy's loss the iteration starts from Huber's solution, near which most rows agree.
+  // The sum of Huber's losses has one minimum, but that of Cauchy's losses may have several. The
+  // iteration with Cauchy's loss therefore starts from the solution with Huber's loss, which fits
+  // the majority of the rows.
   const auto function = make_loss(loss);
   const auto plain = solution.least_squares;
   iterate(matrix, right_hand_side, *make_loss(lubrication::Loss::kHuber), stop, solution);

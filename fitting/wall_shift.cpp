@@ -1,6 +1,7 @@
-// Finds the shift of a rough wall by Gauss-Newton iteration in this one unknown (wall_shift.hpp).
-// Lengths are in the units of the table. A drag outside the range of the smooth force is an
-// Error(kBadInput); a change must keep that check, which names the row.
+// Finds the depth below its crests at which a rough wall acts like a smooth one, the only unknown
+// of a least squares problem, by Gauss-Newton iteration. Lengths, masses and times are in the units
+// of the table. A change must keep the Error(kBadInput) that names a row whose resistance no gap of
+// the smooth wall has.
 #include "viscontact/fitting/wall_shift.hpp"
 
 #include <fmt/format.h>
@@ -18,8 +19,9 @@ double resistance_of(const lubrication::MotionRow& row) {
   return -row.force / row.reference_velocity;
 }
 
-/// The gap at which the smooth wall has this resistance, by bisection in ln q. The resistance
-/// decreases with the gap.
+/// The gap [L] at which the smooth wall has this resistance [M/T], by bisection of ln(gap) to
+/// round-off, for a resistance that decreases with the gap. `row` is for the message of
+/// Error(kBadInput), which is thrown if no gap of the fitted interval has this resistance.
 double smooth_gap_of(const lubrication::LubricationForce& smooth, double resistance,
                      const lubrication::MotionRow& row) {
   auto [low, high] = smooth.interval();
@@ -57,14 +59,13 @@ WallShift fit_wall_shift(const lubrication::MotionTable& rough,
     most = std::min(most, smooth.interval()[1] - row.gap);
   }
 
-  // Gauss-Newton in one unknown, from the median of the shifts of single rows. The residual of each
-  // row is a monotone function of the shift.
+  // Gauss-Newton starts at the median of the shifts that single rows need, within the bounds.
   auto shifts = result.rows;
   std::ranges::sort(shifts, {}, &ShiftedRow::shift);
   double shift = std::clamp(shifts[shifts.size() / 2].shift, least, most);
   constexpr int kMostSteps = 100;
-  // The iteration ends if the shift changes by no more than this fraction of the first gap plus
-  // |shift|; such a change is round-off.
+  // The iteration ends if the shift changes by at most this fraction of (first gap + |shift|),
+  // which is a change of the size of rounding errors.
   constexpr double kTolerance = 1e-14;
   for (int step = 0;; ++step) {
     if (step == kMostSteps)

@@ -1,7 +1,8 @@
-// The shift of a rough wall: how far below its crests it acts like a smooth one (Lefebvre 2008,
-// "Rugosité"; Vinogradova & Yakubov 2006). R is the resistance (drag over velocity), q the gap.
-// Lengths, masses and times are in the units of the table. The command `shift` uses it. A change
-// must keep the sign: the shift is > 0 if the rough wall resists less.
+// The shift of a rough wall: how far below its crests a smooth wall would be that resists the
+// sphere as much (Lefebvre 2008, "Rugosité"; Vinogradova & Yakubov 2006). R is the resistance, drag
+// over velocity, and q the gap. Lengths, masses and times are in the units of the table. Used by
+// pipeline/fit_stages.cpp (command `shift`) and report/. A change must keep the sign: the shift is
+// > 0 if the rough wall resists less than a smooth wall at its crests.
 #pragma once
 
 #include <vector>
@@ -13,9 +14,9 @@ namespace viscontact::fitting {
 
 /// The result for one row of the rough wall's table.
 struct ShiftedRow {
-  /// Gap from the crests of the roughness, q [L].
+  /// Gap q [L] between sphere and crests of the roughness, > 0.
   double gap = 0;
-  /// The shift s [L] of this row alone, from R_smooth(q + s) = R_rough(q).
+  /// The shift s [L] of this row alone: the solution of R_smooth(q + s) = R_rough(q).
   double shift = 0;
   /// R_smooth(q + q_s)/R_rough(q) - 1 [1], with the common shift q_s.
   double relative_residual = 0;
@@ -33,10 +34,11 @@ struct WallShift {
   std::vector<ShiftedRow> rows;  ///< in the order of the table
 };
 
-/// Fits q_s in R_rough(q) = R_smooth(q + q_s) to a table by relative least squares: the drag near a
-/// rough wall is that near a smooth wall at a larger distance. Throws Error(kBadInput) if viscosity
-/// or radius of table and smooth force differ, or if the drag of a row is outside the range of the
-/// smooth force in its interval; Error(kNotConverged) if the least squares fail.
+/// Fits q_s >= 0 in R_rough(q) = R_smooth(q + q_s): minimises the sum over the rows of `rough` of
+/// (R_smooth(q + q_s)/R_rough(q) - 1)^2. `smooth` has no formula for gaps outside its fitted
+/// interval (OutsideInterval), and all q + q_s are in this interval. Throws Error(kBadInput) if
+/// viscosity or radius of table and smooth force differ, or if a resistance of the table is not one
+/// of the smooth force in its interval; Error(kNotConverged) after 100 steps of the iteration.
 WallShift fit_wall_shift(const lubrication::MotionTable& rough,
                          const lubrication::LubricationForce& smooth);
 

@@ -1,6 +1,7 @@
-// The command line and the environment of FreeFEM processes (freefem_command.hpp). A missing script
-// folder is an Error(kExternalProgram). A change must keep that a user's folder and settings of
-// FreeFEM have no effect on a script.
+// Makes the command line and the environment of FreeFEM processes, and finds the scripts and the
+// Debian package of FreeFEM. Times are in seconds. Missing scripts are an Error(kExternalProgram),
+// a wrong time limit an Error(kWrongUsage). A change must keep that files in a user's folder and a
+// user's settings of FreeFEM have no effect on a script.
 #include "viscontact/freefem/freefem_command.hpp"
 
 #include <dlfcn.h>
@@ -18,13 +19,13 @@
 namespace viscontact::freefem {
 namespace {
 
-// The packages of Debian 12 (FreeFEM 4.11) and 13 (4.15) look for their own files in folders that
-// do not exist (/etc/freefem++.pref names them). Viscontact therefore names the folders in which
-// Debian installs these files.
+// FreeFEM of Debian 12 (4.11) and 13 (4.15) looks for its own files in folders that do not exist
+// (/etc/freefem++.pref names them). These are the folders in which Debian installs the files.
 constexpr std::string_view kIncludeFolder = "/usr/include/freefem++/idp";
 constexpr std::string_view kLoadFolder = "/usr/lib/freefem++";
 
-/// The file of a program, without symbolic links; nothing if there is none.
+/// The path of the file of a program, with symbolic links resolved. `name` is a path, or a name to
+/// look for on PATH. Nothing if there is no such file.
 std::optional<std::filesystem::path> path_of_program(const std::string& name) {
   std::vector<std::filesystem::path> candidates = {name};
   if (name.find('/') == std::string::npos) {
@@ -42,7 +43,7 @@ std::optional<std::filesystem::path> path_of_program(const std::string& name) {
   return {};
 }
 
-/// A path as a pattern of dpkg-query that matches this path only.
+/// A pattern for dpkg-query that only `path` matches: its wildcards are escaped.
 std::string pattern_of(const std::string& path) {
   std::string pattern;
   for (const char c : path) {
@@ -52,10 +53,10 @@ std::string pattern_of(const std::string& path) {
   return pattern;
 }
 
-/// The package to which a path belongs by the answer of dpkg-query --search; empty if none is
-/// named. A line of the answer is "PACKAGE: PATH", "PACKAGE:ARCHITECTURE: PATH", "PACKAGE, PACKAGE:
-/// PATH" if several packages have the file, or "diversion by PACKAGE from: PATH" if a package has
-/// put its own file in place of that of another one.
+/// The package that owns `path` according to `answer`, the output of dpkg-query --search; empty if
+/// it names none. A line of the output is "PACKAGE: PATH", "PACKAGE:ARCHITECTURE: PATH", "PACKAGE,
+/// PACKAGE: PATH" if several packages own the file, or "diversion by PACKAGE from: PATH" if PACKAGE
+/// has replaced the file of another package.
 std::string owner_in(const std::string& answer, const std::string& path) {
   constexpr std::string_view kDiversion = "diversion by ", kFrom = " from";
   const std::string end = ": " + path;
@@ -66,7 +67,7 @@ std::string owner_in(const std::string& answer, const std::string& path) {
     const auto names = line.substr(0, line.size() - end.size());
     if (names.starts_with(kDiversion) && names.ends_with(kFrom))
       return names.substr(kDiversion.size(), names.size() - kDiversion.size() - kFrom.size());
-    // A diversion has further lines, whose first word is no package; they are skipped.
+    // The other lines of a diversion have several words before the colon; they are skipped.
     const auto first = names.substr(0, names.find(", "));
     if (owner.empty() && first.find(' ') == std::string::npos) owner = first;
   }
@@ -81,7 +82,8 @@ std::string executable_of_user() {
 }
 
 std::optional<std::chrono::seconds> time_limit_of_user() {
-  constexpr int kLongest = 10'000'000;  // four months
+  // Four months; the check finds typing errors, and any longer time works too.
+  constexpr int kLongest = 10'000'000;
   const char* text = std::getenv(kTimeLimit);
   if (text == nullptr || *text == '\0') return {};
   const std::string_view word = text;
@@ -95,7 +97,7 @@ std::optional<std::chrono::seconds> time_limit_of_user() {
 }
 
 std::optional<Package> package_of(const std::string& executable, const StopToken& stop) {
-  // dpkg answers at once; a system on which it hangs is treated as one without it.
+  // dpkg answers within a second. If it takes longer, the system counts as one without dpkg.
   constexpr std::chrono::seconds kLongest(10);
   const auto file = path_of_program(executable);
   if (!file) return {};
@@ -115,7 +117,8 @@ std::filesystem::path find_script_folder(std::string_view part, std::string_view
   namespace fs = std::filesystem;
   const auto program_folder = fs::read_symlink("/proc/self/exe").parent_path();
   std::vector<fs::path> beside = {program_folder, program_folder.parent_path()};
-  // Of a program, dladdr gives the name by which it was called, which may be no path.
+  // dladdr() gives the file that contains this code: the shared library, or the program. The name
+  // of a program is not used, because it is as the user typed it and may lack the folder.
   if (Dl_info info; dladdr(reinterpret_cast<const void*>(&find_script_folder), &info) != 0 &&
                     fs::path(info.dli_fname).filename().string().find(".so") != std::string::npos)
     for (auto folder = fs::canonical(info.dli_fname).parent_path();;

@@ -1,6 +1,7 @@
-// How a FreeFEM process is started: which program, where its scripts are, with which arguments,
-// environment and working folder. Times are in seconds. freefem_axi/ and freefem_flow/ use it. A
-// change must keep each process on one thread, because as many processes as cores run at once.
+// How a process of FreeFEM (the finite element program) is started: which program, where its
+// scripts are, with which arguments, environment and working folder. Times are in seconds. Used by
+// freefem_axi/ and freefem_flow/. A change must keep each process on one thread, because as many
+// processes as cores can run at once.
 #pragma once
 
 #include <chrono>
@@ -14,7 +15,7 @@
 
 namespace viscontact::freefem {
 
-/// Name of the environment variable that sets the time limit of FreeFEM.
+/// Name of the environment variable with the time limit of a FreeFEM process [s].
 inline constexpr const char* kTimeLimit = "VISCONTACT_FREEFEM_TIME_LIMIT";
 
 /// The value of the environment variable VISCONTACT_FREEFEM if it is set, else FreeFem++-nw: a name
@@ -25,11 +26,11 @@ std::string executable_of_user();
 /// Error(kWrongUsage) if it is not a whole number from 1 to 10 million.
 std::optional<std::chrono::seconds> time_limit_of_user();
 
-/// The folder share/viscontact/PART that contains the file `script`, where PART is the name of a
-/// source folder, such as freefem_axi. It is looked for beside this program (build tree), then one
-/// folder above (installed); then, if this code is in a shared library such as the Python module,
-/// beside the library and in all folders above. Throws Error(kExternalProgram) if there is no such
-/// folder.
+/// The folder share/viscontact/PART that contains the file `script`, where PART is `part`, the name
+/// of a source folder such as freefem_axi. It is looked for beside the running program (build
+/// tree), then one folder above (installed); then, if this code is in a shared library such as the
+/// Python module, beside the library and in all folders above it. Throws Error(kExternalProgram) if
+/// there is no such folder.
 std::filesystem::path find_script_folder(std::string_view part, std::string_view script);
 
 /// How a process of FreeFEM is started.
@@ -39,8 +40,9 @@ struct Command {
   std::string folder;                    ///< working folder
 };
 
-/// FreeFEM with a script of `script_folder`, without graphics and on one thread. `arguments`
-/// are passed to the script: "-name" and "value" alternate, each an element of its own.
+/// The command that runs a script of `script_folder` without graphics and on one thread.
+/// `executable` is a name to look for on PATH, or a path relative to the current folder.
+/// `arguments` are passed to the script: "-name" and "value" alternate, each an element of its own.
 Command make_command(const std::string& executable, const std::filesystem::path& script_folder,
                      std::string_view script, const std::vector<std::string>& arguments);
 

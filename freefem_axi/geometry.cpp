@@ -1,6 +1,7 @@
-// The registry of geometries (geometry.hpp). Lengths are in any one unit, and q is the gap. An
-// unknown name or motion is an Error(kBadInput). A change must keep the names, which cases and
-// tables contain.
+// The table of the bodies beside a sphere, its neighbours: plane, free surface, sphere, cavity,
+// rough plane. q is the gap, r the radius of the sphere, mu the viscosity, R the resistance;
+// lengths are in any one unit. An unknown name or motion is an Error(kBadInput). A change must keep
+// the names, which case files and tables contain, and the flags, which the scripts read.
 #include "viscontact/freefem_axi/geometry.hpp"
 
 #include <fmt/format.h>
@@ -34,30 +35,33 @@ RequiredSpace space_above_floor(double radius, double gap, Parameters) {
   return {radius, gap + 2 * radius};
 }
 
-/// The space above a rippled floor, which must have two radii of ripples around the axis.
+/// The space above a rippled floor, whose ripples end at two sphere radii from the axis.
 RequiredSpace space_above_ripples(double radius, double gap, Parameters) {
   return {2 * radius, gap + 2 * radius};
 }
 
-/// The space for two spheres whose gap has its middle at half the height of the container.
+/// The space for two spheres, with the middle of their gap at half the height of the container.
+/// Each half of the height must hold half the gap and the larger diameter.
 RequiredSpace space_of_pair(double radius, double gap, Parameters parameters) {
   const double larger = std::max(radius, parameters[0]);
   return {larger, gap + 4 * larger};
 }
 
+/// The rotation_ratio for motions about an axis, the velocity_ratio for the others.
 double ratio_of_pair(MotionKind motion, Parameters parameters) {
   return parameters[motion == MotionKind::kRoll || motion == MotionKind::kSpin ? 2 : 1];
 }
 
-/// The gap is that to the nearest wall, so it is largest if sphere and cavity are concentric.
+/// The gap is the distance to the nearest wall; it is largest if sphere and cavity are concentric.
 RequiredSpace space_in_cavity(double radius, double, Parameters parameters) {
   return {0, 0, parameters[0] - radius};
 }
 
-// Lubrication theory (Cox & Brenner 1967; Jeffrey & Onishi 1984) gives k = 6 pi mu r_eff^2 with
-// 1/r_eff = 1/r + 1/r_neighbour, where the radius of a cavity is negative. If the neighbour moves,
-// k is multiplied by the velocity of approach over that of the sphere. At a shear-free neighbour k
-// is a quarter of this.
+// Geometry::leading_factor, k/(6 pi mu r^2) with the resistance R = k/q + ... near contact. Theory
+// (Cox & Brenner 1967; Jeffrey & Onishi 1984) gives k = 6 pi mu r_eff^2 with
+// 1/r_eff = 1/r + 1/r_neighbour, where the radius of a cavity counts as negative. If the neighbour
+// moves, k is multiplied by the rate of change of the gap over the velocity of the sphere. Beside a
+// shear-free plane k is a quarter of that beside a plane without slip.
 double leading_of_plane(double, Parameters) { return 1; }
 double leading_of_free_surface(double, Parameters) { return 0.25; }
 double leading_of_pair(double radius, Parameters parameters) {
@@ -77,7 +81,7 @@ double flat(Parameters) { return 0; }
 double curvature_of_sphere(Parameters parameters) { return 1 / parameters[0]; }
 double curvature_of_cavity(Parameters parameters) { return -1 / parameters[0]; }
 
-// The first row is the geometry of a case that names none.
+// The first row is default_geometry().
 constexpr std::array kGeometries = {
     Geometry{"plane",
              "plane.edp",
@@ -106,9 +110,9 @@ constexpr std::array kGeometries = {
              space_of_pair, false, 2.5, kAllMotions, curvature_of_sphere},
     Geometry{"cavity", "cavity.edp", kCavityParameters, false, nullptr, leading_in_cavity,
              space_in_cavity, false, 1, kAllMotions, curvature_of_cavity},
-    // k is not known for this geometry, because the ripples under the middle of the film change R
-    // as the gap goes to 0. The ripples are circles about the axis, so that a sphere that slides or
-    // rolls has no flow of one azimuthal mode.
+    // k is not known for this geometry, because R depends on the ripples even as the gap goes to 0.
+    // Sliding and rolling are left out: a sphere that slides or rolls leaves the axis of the
+    // circular ripples, and its resistance depends on its distance from this axis.
     Geometry{"rough_plane", "rough_plane.edp", kRoughPlaneParameters, true, nullptr, nullptr,
              space_above_ripples, false, 1, kAlongAndAroundTheAxis},
 };

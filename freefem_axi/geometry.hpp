@@ -1,7 +1,9 @@
-// The registry of geometries: what the sphere approaches. q is the gap, r the radius of the sphere,
-// mu the viscosity, R the resistance. Lengths are in any one unit. A new geometry needs a script
-// and a row in geometry.cpp; docs/extending.md shows how. Case files and tabulation.hpp use the
-// registry. A change must keep names, keys (of case files) and flags (of scripts).
+// The table of geometries: the kinds of bodies beside a sphere, its neighbour, for which FreeFEM
+// computes the force on the sphere. q is the gap between both, r the radius of the sphere, mu the
+// viscosity, and R the resistance (force over velocity). Lengths are in any one unit. Used by
+// tabulation.hpp, case_file/ and rolling/. A new geometry needs a FreeFEM script and a row in
+// geometry.cpp (docs/extending.md). A change must keep names and keys, which case files and tables
+// contain, and flags, which the scripts read.
 #pragma once
 
 #include <array>
@@ -17,76 +19,76 @@
 
 namespace viscontact::freefem_axi {
 
-/// A parameter of a geometry: a key of `geometry` in the case file and a flag of the script.
+/// A number that describes a neighbour: a length, or a ratio without dimension.
 struct GeometryParameter {
-  std::string_view key;   ///< in the case file
-  std::string_view flag;  ///< of the script
+  std::string_view key;   ///< its key in the table `geometry` of a case file, such as "radius"
+  std::string_view flag;  ///< its argument of the script, such as "-neighbourRadius"
   Allowed allowed;        ///< the values that are accepted
   /// Value for a case without this key; nothing if the key is required.
   std::optional<double> fallback;
-  /// True: a table names the parameter only if it differs from the fallback.
+  /// True: the head of a table names the parameter only if it differs from the fallback.
   bool is_named_if_given = false;
 };
 
-/// The space that a sphere at some gap and its neighbour need [L].
+/// The space that a sphere at one gap and its neighbour need [L].
 struct RequiredSpace {
   double container_radius = 0;  ///< the container's radius must be larger
   double container_height = 0;  ///< the container's height must be larger
   double largest_gap = std::numeric_limits<double>::infinity();  ///< largest gap that is allowed
 };
 
-/// The motion of a geometry that declares no others.
+/// The motions of a geometry that lists none in geometry.cpp.
 inline constexpr std::array kApproachAlone = {lubrication::MotionKind::kApproach};
 
-/// A kind of neighbour.
+/// A kind of neighbour and what its tables need.
 struct Geometry {
-  /// The name, which is `kind` in the case file.
+  /// The name, which is the key `kind` of `geometry` in the case file.
   std::string_view name;
-  /// The script in the folder scripts/. docs/extending.md says what it gets and prints.
+  /// File of the FreeFEM script in freefem_axi/scripts/, which docs/extending.md describes.
   std::string_view script;
-  /// The parameters, in the order of all spans of parameters below.
+  /// What describes the neighbour. `parameters` below are the values, in this order.
   std::span<const GeometryParameter> parameters;
-  /// False if the geometry is closed and needs no container.
+  /// True if the fluid is unbounded or in a container; false if the neighbour encloses the fluid.
   bool takes_container;
   /// The neighbour's velocity (approach, slide) or angular velocity (roll, spin) over that of the
   /// sphere [1]. Null: the neighbour is always at rest.
   double (*neighbour_ratio)(lubrication::MotionKind motion, std::span<const double> parameters);
-  /// Coefficient k of R ~ k/q near contact in theory, over that of a plane, 6 pi mu r^2 [1]. It
-  /// depends on curvature and velocity of the neighbour. Null: not known.
+  /// Lubrication theory's k in R = k/q + ... near contact, over that of a plane, 6 pi mu r^2 [1].
+  /// It depends on curvature and velocity of the neighbour. Null: not known.
   double (*leading_factor)(double radius, std::span<const double> parameters);
-  /// The space for a sphere of radius r [L] at a gap [L].
+  /// The space that a sphere of radius `radius` [L] at the gap `gap` [L] needs.
   RequiredSpace (*required_space)(double radius, double gap, std::span<const double> parameters);
-  /// True if the exact drag near a plane (lubrication/plane_drag.hpp) is the drag of this geometry.
+  /// True if the series for the drag near a plane (lubrication/plane_drag.hpp) is the drag of this
+  /// geometry in unbounded fluid.
   bool has_exact_drag = false;
-  /// Computing time of a row over that of a row above a plane [1], for estimates.
+  /// Computing time of a row over that of a row above a plane [1], > 0; only for estimates of time.
   double relative_cost = 1;
-  /// The motions for which the script imposes the right conditions on the neighbour, in the order
-  /// of MotionKind. A script that changes a condition changes it for the approach alone
-  /// (solveStokes in axisymmetric_stokes.idp); solveSideways in sideways_stokes.idp and solveSwirl
-  /// in axisymmetric_stokes.idp have conditions of their own.
+  /// The motions of the sphere that can be tabulated, in the order of MotionKind. The FreeFEM
+  /// function that solves a motion must impose the neighbour's boundary condition: solveStokes
+  /// (approach), solveSwirl (spin) or solveSideways (slide, roll) in scripts/.
   std::span<const lubrication::MotionKind> motions = kApproachAlone;
-  /// 1 over the neighbour's radius [1/L]: 0 of a plane, < 0 of a cavity. It gives theory's leading
-  /// terms of sliding, rolling and spinning. Null: they are not known.
+  /// 1 over the neighbour's radius [1/L]: 0 of a plane, < 0 of a cavity. Null: not known, and so
+  /// are the leading coefficients of slide, roll and spin (lubrication/near_contact.hpp).
   double (*curvature)(std::span<const double> parameters) = nullptr;
-  /// True: no tangential stress on the neighbour.
+  /// True: the tangential stress on the neighbour is 0. False: the fluid does not slip on it.
   bool is_shear_free = false;
 };
 
-/// All geometries.
+/// All geometries, at least one.
 std::span<const Geometry> all_geometries();
 
-/// The geometries whose drag is the exact one near a plane.
+/// The geometries with has_exact_drag.
 std::vector<Geometry> geometries_with_exact_drag();
 
-/// The geometry of a case that names none.
+/// The geometry of a case that names none: the plane.
 const Geometry& default_geometry();
 
-/// True if the geometry declares this motion.
+/// True if `motion` is one of geometry.motions.
 bool has_motion(const Geometry& geometry, lubrication::MotionKind motion);
 
-/// The motions with these names, in the order of MotionKind; "all" stands for every motion that the
-/// geometry has. Throws Error(kBadInput) for an unknown name, a name that stands twice, and a
-/// motion that the geometry lacks.
+/// The motions with these names, in the order of MotionKind; {"all"} stands for all motions of the
+/// geometry with the name `geometry`. Throws Error(kBadInput) for an unknown name, a name that
+/// stands twice, and a motion that the geometry lacks.
 std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string>& names,
                                                    std::string_view geometry);
 

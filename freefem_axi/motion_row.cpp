@@ -1,6 +1,7 @@
-// Calls the script of a geometry with -motion and reads its lines "viscontact-action"
-// (scripts/row.idp), in which viscosity, radius and the velocity of the motion are 1. Lines that
-// are missing or contradict each other are an Error(kExternalProgram).
+// Calls the FreeFEM script of a geometry with the argument -motion, and reads the lines
+// "viscontact-action" that scripts/row.idp prints: forces and torques in units of viscosity, sphere
+// radius and velocity of the motion. Lines that are missing or contradict each other are an
+// Error(kExternalProgram). A change must agree with scripts/row.idp.
 #include "viscontact/freefem_axi/motion_row.hpp"
 
 #include <fmt/format.h>
@@ -23,16 +24,19 @@ using lubrication::Action;
 using lubrication::MotionKind;
 using lubrication::MotionRow;
 
+// Force and torque of a sphere alone in units of viscosity, radius and velocity: Action's factors
+// are relative to them.
 constexpr double kForceUnit = 6 * std::numbers::pi, kTorqueUnit = 8 * std::numbers::pi;
 
-/// A line "viscontact-action": solution, body, and the numbers after them.
+/// A line "viscontact-action".
 struct ActionLine {
+  /// The solution is the index in motions_of(); body 0 is the sphere, 1 the neighbour.
   std::size_t solution = 0, body = 0;
-  /// Force, torque, their error estimates, observed order.
+  /// Force, torque, estimates of their relative errors, observed order of convergence.
   std::array<double, 5> numbers{};
 };
 
-/// All lines "viscontact-action". Nothing if a number is missing or not finite.
+/// All lines "viscontact-action". Nothing if a number of one of them is missing or not finite.
 std::optional<std::vector<ActionLine>> read_action_lines(const std::string& output) {
   std::vector<ActionLine> actions;
   std::istringstream lines(output);
@@ -52,9 +56,10 @@ std::optional<std::vector<ActionLine>> read_action_lines(const std::string& outp
   return actions;
 }
 
-/// The factors of force and torque, and the estimates of their errors.
+/// The factors of force and torque, and the estimates of their errors. Force and torque themselves
+/// are not a number; complete() computes them from the factors.
 Action action_of(const ActionLine& line) {
-  // 0 - x is 0 where x is 0, while -x would be written as -0.
+  // 0 - x is 0 if x is 0, whereas -x is -0 and would be written as "-0".
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   return {kUnknown,
           kUnknown,
@@ -64,7 +69,8 @@ Action action_of(const ActionLine& line) {
           line.numbers[3]};
 }
 
-/// Copies the lines into `rows`. Returns false if one is missing or occurs twice.
+/// Copies the lines into `rows`, which has an element for each solution. Returns false if the lines
+/// are not one for each solution and body, in this order.
 bool take(const std::vector<ActionLine>& lines, std::size_t bodies, std::vector<MotionRow>& rows) {
   if (lines.size() != rows.size() * bodies) return false;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -80,9 +86,10 @@ bool take(const std::vector<ActionLine>& lines, std::size_t bodies, std::vector<
   return true;
 }
 
-/// By the reciprocal theorem the power of the forces of rolling at the velocities of sliding equals
-/// that of the forces of sliding at the velocities of rolling. Returns the difference of both,
-/// divided by the difference that the error estimates allow.
+/// The reciprocal theorem says: the forces and torques of rolling, multiplied by the velocities of
+/// sliding, give the same power as the forces and torques of sliding, multiplied by the velocities
+/// of rolling. Returns |difference of both powers| over what the error estimates allow, >= 0; more
+/// than 1 contradicts the theorem. `rows` are those of sliding and rolling.
 double asymmetry(const Tabulation& tabulation, const std::vector<MotionRow>& rows) {
   const auto& slide = rows.at(0);
   const auto& roll = rows.at(1);

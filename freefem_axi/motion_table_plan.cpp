@@ -1,6 +1,7 @@
-// The rows of the tables of motions, and what they depend on (motion_table_plan.hpp). Numbers are
-// in the units of the case. The text of all inputs is hashed; a change of this text makes every
-// table out of date.
+// Makes the plans of the tables of one sphere: which rows they have, how FreeFEM solves them, and a
+// text of everything that the numbers depend on, from which a hash is made. Numbers are in the
+// units of the case. An unknown geometry is an Error(kBadInput). A change must keep this text: with
+// another hash all tables that users have count as out of date and are computed again.
 #include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 #include <fmt/format.h>
@@ -19,8 +20,9 @@ namespace {
 using lubrication::MotionKind;
 using lubrication::MotionRow;
 
-// Revisions of the scripts. Raise one when a change of the scripts alters results by more than
-// their error estimates: tables of another revision are then computed again.
+// Revisions of the FreeFEM scripts for the approach and for the other motions. If a change of the
+// scripts alters results by more than their error estimates, raise the number: tables of the lower
+// number are then computed again.
 constexpr int kDragMethod = 3, kMotionMethod = 2;
 
 std::string inputs_of(const Tabulation& tabulation, MotionGroup group) {
@@ -38,9 +40,9 @@ std::string inputs_of(const Tabulation& tabulation, MotionGroup group) {
 }
 
 /// The time of one row on one core [s], from measurements on two cores of 2.1 GHz with one row on
-/// each, at gaps of 0.01 and 0.3. The time is constant down to a relative accuracy of 1e-5 (kKnee),
-/// because the coarsest meshes suffice there. Below, it grows by a factor of 2.8 = 10^kPower for
-/// each decade of the accuracy. The geometry's relative_cost multiplies it.
+/// each, at gaps of 0.01 and 0.3 radii. For a relative accuracy of 1e-5 (kKnee) and more the time
+/// is constant, because the coarsest meshes suffice. For smaller values it grows as the power -0.45
+/// (-kPower) of the accuracy.
 double typical_seconds(const Tabulation& tabulation, MotionGroup group) {
   constexpr double kKnee = 1e-5, kPower = 0.45;
   const double coarse = group == MotionGroup::kAlong    ? 1.3
@@ -67,8 +69,8 @@ lubrication::TableHead head_of(const Tabulation& tabulation, MotionKind motion) 
     const auto leading = lubrication::leading_factors(
         motion, {tabulation.radius * geometry.curvature(tabulation.geometry_parameters),
                  geometry.is_shear_free, ratio});
-    // In theory's coefficient q is in sphere radii; the coefficient of q ln q with q in the unit of
-    // the table is smaller by the radius.
+    // leading_factors() has q in sphere radii. With q in the unit of the table the coefficient of
+    // ln q (slide, roll) is the same, and that of q ln q (spin) is divided by the radius.
     const double unit = motion == MotionKind::kSpin ? tabulation.radius : 1;
     head.leading_force_factor = leading.force / unit;
     head.leading_torque_factor = leading.torque / unit;
@@ -76,7 +78,7 @@ lubrication::TableHead head_of(const Tabulation& tabulation, MotionKind motion) 
   return head;
 }
 
-/// A row at another velocity. complete() computes its forces and torques from the factors.
+/// The row at another velocity, with NaN for forces, which complete() computes from the factors.
 MotionRow with_velocity(MotionRow row, double velocity) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   row.reference_velocity = velocity;

@@ -1,7 +1,8 @@
-// The tables of the motions of one sphere as TablePlans. A row's point is { gap [L], velocity [L/T]
-// } in the approach and { gap } in the other motions, whose forces and torques are taken as
-// proportional to viscosity and velocity. Numbers are in the units of the case. The stage
-// `tabulate` uses it.
+// Plans of the tables of force and torque on one sphere that approaches its neighbour, slides,
+// rolls or spins. A row of the approach is computed for each gap [L] and velocity [L/T]; a row of
+// another motion for each gap only, because force and torque are proportional to the velocity.
+// Numbers are in the units of the case. Used by pipeline/tabulate/. A change must keep the order of
+// the rows and that the numbers in a table do not depend on which other tables are made with it.
 #pragma once
 
 #include <filesystem>
@@ -13,20 +14,20 @@
 
 namespace viscontact::freefem_axi {
 
-/// The groups that contain one of the tabulation's motions.
+/// The groups that contain at least one of tabulation.motions, in the order of MotionGroup.
 std::vector<MotionGroup> motion_groups(const Tabulation& tabulation);
 
-/// The group's motions that the tabulation asks for.
+/// The motions of the group that are among tabulation.motions, in the order of motions_of().
 std::vector<lubrication::MotionKind> asked_motions(const Tabulation& tabulation, MotionGroup group);
 
-/// The file of the table of a motion.
+/// A function that returns the path of the table of a motion.
 using TablePath = std::function<std::filesystem::path(lubrication::MotionKind)>;
 
-/// The plan of the group's tables, and their files. The first motion of the tabulation that is in
-/// the group is in the file that callers give to the plan, and the other one, if it is asked for,
-/// in the plan's companion `path_of(motion)`. Both motions are solved in any case, so that the rows
-/// do not depend on which of them is asked for. The rows are in the order of the table: for each
-/// velocity, the gaps in the given order.
+/// The plan of the tables of a group that has at least one of tabulation.motions. Slide and roll
+/// form one group and are both solved, even if one table only is asked for. The plan itself writes
+/// the table of the first asked motion, to the path that the caller passes on; the other table, if
+/// asked for, is its companion at `path_of(motion)`. A table has for each velocity all gaps, both
+/// in the given order. TablePlan::solve throws the errors of solve_row() or solve_motions().
 TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
                             const TablePath& path_of);
 

@@ -1,6 +1,6 @@
-// Reads the meshes and the flow that scripts/pictures.idp prints, and writes them for ParaView
-// (row_picture.hpp). Numbers are in the units of the case. An incomplete mesh is an
-// Error(kExternalProgram). A change of the format must be made in both files.
+// Reads the meshes and the flow that scripts/pictures.idp prints, and writes them for ParaView.
+// Results are in the units of the case. An incomplete mesh is an Error(kExternalProgram). A change
+// must keep that this file reads the format that is described in scripts/pictures.idp.
 #include "viscontact/freefem_axi/row_picture.hpp"
 
 #include <fmt/format.h>
@@ -17,13 +17,14 @@
 namespace viscontact::freefem_axi {
 namespace {
 
-/// Reads the meshes that pictures.idp writes.
+/// Reads the meshes in the output of FreeFEM, one after the other.
 class PictureReader {
  public:
   explicit PictureReader(const std::string& output) : stream_(output) {}
 
-  /// Reads the next mesh, with `columns` numbers for each node, and its boundary. The numbers after
-  /// (rho, z) are stored in `fields`.
+  /// Reads the next mesh and its boundary. Each node has `columns` numbers, >= 2: rho, z, and
+  /// values that are stored in `fields`, a vector over the nodes for each. Throws
+  /// Error(kExternalProgram) if a number is missing, not finite or out of range.
   QuadraticMesh read_mesh(std::size_t columns, std::vector<std::vector<double>>& fields,
                           std::vector<BoundaryEdge>& boundary) {
     std::string line;
@@ -44,7 +45,8 @@ class PictureReader {
       mesh.y[i] = number();
       for (auto& field : fields) field[i] = number();
     }
-    // FreeFEM's node 3 + i is the middle of the side opposite to corner i.
+    // FreeFEM's node 3 + i is the middle of the side opposite to corner i; QuadraticMesh lists the
+    // middles of the sides 0-1, 1-2 and 2-0.
     for (auto& triangle : mesh.triangles)
       for (const std::size_t place : {0, 1, 2, 4, 5, 3})
         triangle.at(place) = static_cast<std::int32_t>(node_below(nodes));
@@ -61,8 +63,8 @@ class PictureReader {
                 "the mesh and flow that FreeFEM wrote for a picture are incomplete");
   }
   static std::size_t size_from(std::istream& stream) {
-    // A larger number can only come from a damaged line; it would exhaust the memory. The limit is
-    // a free choice, far above the number of nodes for which FreeFEM could solve.
+    // A larger number comes from a damaged line, and would exhaust the memory. Any limit far above
+    // the number of nodes for which FreeFEM can solve (some 1e5) works.
     constexpr std::size_t kLargest = 100'000'000;
     std::size_t size = 0;
     if (!(stream >> size) || size > kLargest) fail();
@@ -74,7 +76,7 @@ class PictureReader {
     return value;
   }
   BoundaryKind boundary_kind() {
-    // In the order of BoundaryKind.
+    // The words that pictures.idp writes, in the order of BoundaryKind.
     constexpr std::array kWords = {"wall", "sphere", "axis", "shear_free", "interface"};
     std::string word;
     stream_ >> word;
@@ -91,7 +93,8 @@ class PictureReader {
   std::istringstream stream_;
 };
 
-/// The factors by which velocities, pressure and the last column of FreeFEM are multiplied.
+/// The factors from FreeFEM's units to those of the case, of u_rho, u_z, pressure and the last
+/// column: stream function (approach) or u_phi (other motions).
 std::array<double, 4> factors_of_approach(const Tabulation& tabulation, double velocity) {
   const auto scale = solve_scale(tabulation, velocity);
   return {scale.speed, scale.speed, scale.viscosity * scale.speed, scale.speed};
@@ -103,7 +106,7 @@ std::array<double, 4> factors_of_motion(const Tabulation& tabulation,
   return {speed, speed, tabulation.viscosity * speed / tabulation.radius, speed};
 }
 
-/// The output of FreeFEM for a motion across the axis or around it.
+/// The output of FreeFEM for a sphere that slides, rolls or spins.
 std::string picture_of_motion(const FreeFem& freefem, const Tabulation& tabulation,
                               lubrication::MotionKind motion, double gap) {
   const bool spins = motion == lubrication::MotionKind::kSpin;

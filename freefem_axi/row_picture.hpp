@@ -1,7 +1,7 @@
-// The flow of one row of a table (one gap and one velocity of the sphere) with its meshes, for the
-// pictures of report/flow. rho is the distance from the axis, z the height, phi the angle about the
-// axis. Lengths, masses and times are in the units of the case. A change must agree with
-// scripts/pictures.idp. Used by report/.
+// The flow around a sphere at one gap and one velocity, with its meshes, for pictures. rho is the
+// distance from the axis of symmetry, z the height, phi the angle about the axis. Lengths, masses
+// and times are in the units of the case. Used by report/flow/ and pipeline/tabulate/. A change
+// must agree with scripts/pictures.idp, which writes what this file reads.
 #pragma once
 
 #include <array>
@@ -20,11 +20,11 @@ enum class BoundaryKind { kWall, kSphere, kAxis, kShearFree, kInterface };
 
 /// A curved edge of a boundary.
 struct BoundaryEdge {
-  BoundaryKind kind = BoundaryKind::kWall;  ///< what the edge bounds
+  BoundaryKind kind = BoundaryKind::kWall;  ///< what is on the other side of the edge
   std::array<std::size_t, 3> nodes{};       ///< numbers of both ends, then of the middle
 };
 
-/// A row with what a picture shows of it.
+/// The flow of one row of a table, as a picture shows it.
 struct RowPicture {
   lubrication::MotionKind motion = lubrication::MotionKind::kApproach;  ///< of the sphere
   double gap = 0;                                                       ///< q [L]
@@ -34,18 +34,19 @@ struct RowPicture {
   /// far away in unbounded fluid. If the sphere slides or rolls, the flow is (u_rho cos phi,
   /// u_phi sin phi, u_z cos phi) and the pressure p cos phi; `flow` has u_rho, u_z and p.
   FlowField flow;
-  std::vector<BoundaryEdge> boundary;  ///< of the fluid, and interfaces in it
+  std::vector<BoundaryEdge> boundary;  ///< of the fluid; also lines inside it (kInterface)
   /// Of the approach: the stream function psi [L^3/T] at the nodes, with u_rho = -(1/rho) dpsi/dz
   /// and u_z = (1/rho) dpsi/drho, 0 on the axis. Empty for other motions.
   std::vector<double> stream_function;
   /// Of the other motions: u_phi [L/T] at the nodes. Empty for the approach.
   std::vector<double> azimuthal_velocity;
-  /// The mesh that the finest mesh was made from, by repeated division of triangles into four.
+  /// The mesh from which the finest mesh was made, by repeated division of triangles into four.
   QuadraticMesh coarsest;
 };
 
-/// Solves one row again for its picture. Throws the errors of solve_row(), and
-/// Error(kExternalProgram) if the mesh or the flow that FreeFEM wrote is incomplete.
+/// Solves the flow at the gap `gap` [L] > 0 and the velocity `reference_velocity` [L/T], or angular
+/// velocity [1/T] for kRoll and kSpin, not 0. Throws Error(kExternalProgram) if FreeFEM fails or
+/// writes an incomplete mesh, and the other errors of solve_row().
 RowPicture solve_row_for_picture(
     const FreeFem& freefem, const Tabulation& tabulation, double gap, double reference_velocity,
     lubrication::MotionKind motion = lubrication::MotionKind::kApproach);

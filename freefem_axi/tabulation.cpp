@@ -1,7 +1,7 @@
-// The arguments of a row, the call of FreeFEM, and the result (tabulation.hpp). Numbers are in the
-// units of the case, except that FreeFEM writes the force in the units of solve_scale(). A row
-// without a result is an Error(kExternalProgram). A change must agree with the flags in
-// scripts/sphere_arguments.idp.
+// Computes the force on a sphere at one gap and velocity: makes the arguments of a FreeFEM script,
+// runs it and reads the result. Numbers are in the units of the case, except that FreeFEM writes
+// the force in the units of solve_scale(). A row without a result is an Error(kExternalProgram). A
+// change must agree with the flags in scripts/sphere_arguments.idp and the output of row.idp.
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 #include <fmt/format.h>
@@ -19,13 +19,14 @@
 namespace viscontact::freefem_axi {
 namespace {
 
-/// The first numbers of the script's line "viscontact-result".
+/// The first numbers of the line "viscontact-result" of a script: the force in the units of
+/// solve_scale(), its relative error estimate, number of unknowns, observed order of convergence.
 struct Answer {
   double force = 0, estimate = 0, unknowns = 0, order = 0;
 };
 
-/// Reads these numbers. Throws Error(kExternalProgram), which names the row, if FreeFEM failed, was
-/// killed after `time_limit`, or did not print the line.
+/// Reads that line. Throws Error(kExternalProgram), which names gap and velocity, if FreeFEM
+/// failed, was killed after `time_limit`, or did not print the line.
 Answer read_answer(const ProcessResult& result, double gap, double reference_velocity,
                    std::chrono::seconds time_limit) {
   std::istringstream answer(line_after(result.output, "viscontact-result"));

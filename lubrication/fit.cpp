@@ -1,8 +1,7 @@
-// The names of weights, losses and misfits in fit files, the fit object that stands for the exact
-// drag of a plane, the fit for another viscosity, and the fit file. Numbers are in the units of the
-// table. Keys, types and ranges are those of docs/fit.schema.json, and a change of one must be made
-// in the other. A fault of a file is an Error(kBadInput). A change must keep the names, because fit
-// files contain them.
+// Reads and writes fit files, names the choices that they contain, and makes the fit object for the
+// exact drag of a plane and for another viscosity. Numbers are in the units of the fit. A fault of
+// a file or an unknown word is an Error(kBadInput). A change must keep names and keys, which fit
+// files contain, and agree with docs/fit.schema.json, which repeats keys, types and ranges.
 #include "viscontact/lubrication/fit.hpp"
 
 #include <fmt/format.h>
@@ -66,8 +65,8 @@ Fit exact_plane_fit(double viscosity, double radius) {
   fit.reference_velocity = -1;
   fit.viscosity = viscosity;
   fit.radius = radius;
-  // These numbers only have to be valid in a fit file. The gaps at which the drag can be computed
-  // are LubricationForce::interval(), which depends on the radius.
+  // A fit file must contain an interval; any two numbers > 0 work. LubricationForce::interval()
+  // says at which gaps the drag can be computed.
   fit.gap_interval = {1e-300, 1e300};
   fit.geometry = "plane, unbounded";
   fit.leading_coefficient = stokes_resistance(viscosity, radius) * radius;
@@ -91,7 +90,7 @@ Fit with_viscosity(Fit fit, double viscosity) {
 
 namespace {
 
-constexpr auto kAllowed = Absence::kAllowed;  // files of earlier versions lack the key
+constexpr auto kAllowed = Absence::kAllowed;  // for keys that files of earlier versions lack
 constexpr Allowed kAtLeast1 = {[](double v) { return v >= 1; }, ">= 1"};
 constexpr auto kLeftOutIfEmpty = Absence::kLeftOutIfEmpty;
 
@@ -122,7 +121,7 @@ void check_covariance(const JsonFields& json, const Fit& fit) {
           fmt::format("is {}; it must be >= 0, since it is a variance", fit.covariance[i][i]));
 }
 
-/// The left-out row of this kind: `which` is "inner" or "end".
+/// Reads or writes the two keys of a left-out row: `which` is "inner" or "end".
 void left_out_row(JsonFields& json, const std::string& which, std::optional<LeftOutRow>& row) {
   std::optional<double> residual, gap;
   if (row) std::tie(residual, gap) = std::tuple(row->relative_residual, row->gap);

@@ -1,8 +1,9 @@
-// A fit of the lubrication force F_lub(q, u0): the coefficients of a basis (terms.hpp) of functions
-// of the gap q at one velocity u0 (physics.md (3.2)), its interval of gaps, and its diagnostics,
-// which say how far it can be trusted. Lengths, masses and times are in the units of the table.
-// Relative residuals, fit over table minus 1, have no dimension. fitting/ makes fits and their
-// diagnostics, and every model of motion reads them. A change must agree with docs/fit.schema.json.
+// A fit of the lubrication force F_lub(q, u0) = sum of coefficient * term(q), with functions of the
+// gap q (terms.hpp) at one velocity u0 of the sphere (docs/physics.md (3.2)): its coefficients, its
+// interval of gaps, and its diagnostics, which say how far it can be trusted. Lengths, masses and
+// times are in the units of the table of forces. Relative residuals, fit over table minus 1, have
+// no dimension. fitting/ makes fits; lubrication_force.hpp, motions/, case_file/, results/,
+// reduced_model/ and sweep/ use them. A change must agree with docs/fit.schema.json.
 #pragma once
 
 #include <array>
@@ -23,10 +24,10 @@ namespace viscontact::lubrication {
 
 /// The cause of the residuals.
 enum class Misfit {
-  /// The basis: the residuals are larger than the error estimates explain, by chi-squared and in at
-  /// least one row, so that another basis can fit better.
+  /// The basis: the residuals are larger than the error estimates of the rows explain, both in the
+  /// sum of squares (chi-squared) and in at least one row. Another basis can fit better.
   kBasis,
-  /// The data: the error estimates explain the residuals, so only a better table can reduce them.
+  /// The data: the error estimates explain the residuals. Only a better table can reduce them.
   kData,
   /// Not known: a row of the table has no error estimate, or no degrees of freedom are left.
   kUnknown
@@ -38,14 +39,14 @@ std::string_view to_string(Misfit misfit);
 /// The inverse of to_string(). Throws Error(kBadInput) for another word.
 Misfit parse_misfit(std::string_view word);
 
-/// A row that a robust loss sets aside.
+/// A row with a residual so large that a robust loss reduces its weight (FitDiagnostics::outliers).
 struct Outlier {
   double gap = 0;                 ///< [L]
   double reference_velocity = 0;  ///< [L/T]
   double relative_residual = 0;   ///< fit / table - 1
 };
 
-/// A row, compared with the prediction of a fit to all other rows.
+/// A row, compared with the prediction of the fit of all other rows.
 struct LeftOutRow {
   double gap = 0;                ///< [L]
   double relative_residual = 0;  ///< |prediction / table - 1|, >= 0
@@ -58,15 +59,15 @@ struct WorstToEstimate {
   double ratio = 0;              ///< |relative_residual| / error estimate of this row, >= 0
 };
 
-/// Diagnostics of a fit. Relative residuals are fit/table - 1. Every row counts as a separate
-/// measurement. Rows of one gap at several velocities are therefore counted several times, although
-/// a linear solver makes them equal; standard errors and leave-one-out residuals are too small.
+/// Diagnostics of a fit. Relative residuals are fit/table - 1. Every row counts as an independent
+/// measurement. If a table has rows of one gap at several velocities, whose F/u agree because
+/// Stokes flow is linear, standard errors and leave-one-out residuals are therefore too small.
 struct FitDiagnostics {
   /// Number of rows of the table, outliers included.
   std::size_t rows = 0;
   /// Number of rows that the table lacks because they could not be computed.
   std::size_t failed_rows = 0;
-  /// Number of coefficients that were fitted, not fixed.
+  /// Number of fitted coefficients; a fixed coefficient does not count.
   std::size_t free_coefficients = 0;
   /// Gap [L] of the row with the largest relative residual.
   double worst_gap = 0;
@@ -83,16 +84,16 @@ struct FitDiagnostics {
       leave_one_out_largest{};                ///< the largest size, >= 0
   /// Gap [L] of the row with the residual leave_one_out_largest.
   std::optional<double> leave_one_out_gap{};
-  /// The inner row and the end row with the largest of these residuals. The fit of the other rows
-  /// interpolates to an inner row and extrapolates to an end row, which is alone at the smallest or
-  /// largest gap. Only the inner row shows how large the error of the formula may be between the
-  /// rows. Nothing if leave_one_out_rms is nothing, or if the table has no such row.
+  /// The inner row and the end row with the largest of these residuals. An end row is the only row
+  /// at the smallest or largest gap, to which the fit of the other rows extrapolates; to all other,
+  /// inner rows it interpolates. The inner row shows how large the error of the formula may be
+  /// between rows. Nothing if leave_one_out_rms is nothing, or if the table has no such row.
   std::optional<LeftOutRow> left_out_inner{},  ///< the inner row
       left_out_end{};                          ///< the end row
   /// Number of rows, without outliers, whose |residual| is larger than their own error estimate.
   std::size_t rows_beyond_estimate = 0;
-  /// The row with the largest ratio among those that are not outliers. Nothing if none of them has
-  /// an error estimate, or if an earlier version of Viscontact wrote the file.
+  /// The row with the largest ratio among the rows that are not outliers. Nothing if none of them
+  /// has an error estimate, or in fit files of earlier versions, which lack it.
   std::optional<WorstToEstimate> worst_to_estimate{};
   /// Sum of (relative residual/error estimate)^2 over the rows; nothing if a row has no estimate.
   std::optional<double> chi_squared{};
@@ -102,17 +103,16 @@ struct FitDiagnostics {
   Misfit misfit = Misfit::kUnknown;
   /// Akaike's information criterion with the correction for small samples (Hurvich & Tsai 1989),
   ///     n ln(sum of squares/n) + 2 K + 2 K (K + 1)/(n - K - 1),   K = free coefficients + 1,
-  /// with the number n of rows. A smaller value is better. Only fits of the same rows with the same
-  /// weights can be compared.
-  /// Nothing if n <= K + 1, if all residuals are 0, or for a robust loss, because then the weights
-  /// of the rows depend on the fit.
+  /// with the number n of rows and the residuals that the fit makes small (Fit::weights). A smaller
+  /// value is better. Only fits of the same rows with the same weights can be compared. Nothing if
+  /// n <= K + 1, if all residuals are 0, or for a robust loss, whose weights depend on the fit.
   std::optional<double> information_criterion{};
-  /// Rows with residuals beyond 5 times the scale of the others; only a robust loss has outliers.
+  /// Rows with |residual| > 5 times the scale of all residuals; only a robust loss has outliers.
   std::vector<Outlier> outliers;
   std::vector<std::string> warnings;  ///< sentences for the user
 };
 
-/// Which residuals the least squares minimises: kRelative, fit/force - 1; kAbsolute, fit - force.
+/// The residuals that the fit makes small: kRelative, fit/force - 1; kAbsolute, fit - force.
 enum class Weights { kRelative, kAbsolute };
 
 /// The word for the weights in fit files: "relative" or "absolute".
@@ -126,8 +126,8 @@ Weights parse_weights(std::string_view word);
 ///   kSquared  z^2/2
 ///   kHuber    z^2/2, and linear in |z| for |z| > 1.345 (Huber 1964)
 ///   kCauchy   (c^2/2) ln(1 + (z/c)^2), c = 2.385
-/// With these constants the efficiency on Gaussian residuals is 95 % of that of least squares
-/// (Holland & Welsch 1977).
+/// With the constants 1.345 and 2.385, which robust_least_squares.cpp repeats, the efficiency on
+/// Gaussian residuals is 95 % of that of least squares (Holland & Welsch 1977).
 enum class Loss { kSquared, kHuber, kCauchy };
 
 /// The word for the loss in fit files: "none", "huber" or "cauchy".
@@ -143,9 +143,9 @@ enum class FittedShape { kDrag, kPositive, kAny };
 /// One term of a fit with its coefficient.
 struct FitTerm {
   std::string name;        ///< name of a Term
-  double coefficient = 0;  ///< [M L/T^2 over the dimension of the term]
-  /// Standard error of the coefficient, in the same dimension, >= 0. Its formula treats the
-  /// residuals as independent random noise, although the misfit of a basis is not random.
+  double coefficient = 0;  ///< in units of a force [M L/T^2] over that of the term
+  /// Standard error of the coefficient, in the same unit, >= 0. Its formula treats the residuals as
+  /// independent random noise, which the misfit of a basis is not.
   double standard_error = 0;
   /// True for a fixed coefficient: it was given and not fitted, and its standard error is 0.
   bool is_fixed = false;
@@ -161,7 +161,7 @@ struct Fit {
   std::array<double, 2> gap_interval = {};  ///< [L], 0 < first < second
   /// The residuals that the least squares minimised.
   Weights weights = Weights::kRelative;
-  /// The loss function that was applied to them.
+  /// The loss function of these residuals.
   Loss loss = Loss::kSquared;
   /// The terms with their coefficients, at least one.
   std::vector<FitTerm> terms;
@@ -174,15 +174,15 @@ struct Fit {
   /// Covariance matrix of the coefficients, in the order of `terms`; entry (i, j) has the dimension
   /// of coefficient i times coefficient j. Empty if the file has none.
   std::vector<std::vector<double>> covariance;
-  /// What the sphere approaches, as the table says it; may be empty.
+  /// What the sphere approaches, in the words of the table; may be empty.
   std::string geometry;
-  /// Walls around the fluid, as the table says them; may be empty.
+  /// The walls around the fluid, in the words of the table; may be empty.
   std::string container;
   /// Coefficient k of 1/q in the resistance -F_lub/u0 by lubrication theory [M L/T], > 0, if the
   /// table states it.
   std::optional<double> leading_coefficient{};
   std::optional<FitDiagnostics> diagnostics{};  ///< nothing in a fit that was written by hand
-  std::string table_sha256;                     ///< checksum of the table file; may be empty
+  std::string table_sha256;                     ///< SHA-256 of the table file; may be empty
   std::map<std::string, std::string> versions;  ///< program name to version
 };
 
@@ -190,18 +190,18 @@ struct Fit {
 /// half-space (plane_drag.hpp). A fit with this name has no terms, and a force at every gap > 0.
 inline constexpr std::string_view kExactPlane = "exact_plane";
 
-/// A fit without terms and residuals that stands for the exact drag of a plane. Its interval is the
-/// range of gaps for which doubles represent the drag. `viscosity` [M/(L T)] > 0, `radius` [L] > 0.
+/// A fit without terms and residuals that stands for the exact drag of a plane. Its gap_interval
+/// has no meaning. `viscosity` [M/(L T)] > 0, `radius` [L] > 0.
 Fit exact_plane_fit(double viscosity, double radius);
 
 /// True if `fit` stands for the exact drag of a plane.
 bool is_exact_plane(const Fit& fit);
 
-/// The fit for a fluid of another viscosity [M/(L T)] > 0. Stokes flow is linear in the viscosity,
-/// so all coefficients are multiplied by the same factor.
+/// The fit for a fluid of another viscosity [M/(L T)] > 0. The force is proportional to the
+/// viscosity, so all coefficients are multiplied by the same factor.
 Fit with_viscosity(Fit fit, double viscosity);
 
-/// The fields of a fit file (common/text/json_fields.hpp).
+/// Reads or writes the keys of a fit file (common/text/json_fields.hpp).
 void fields_of(JsonFields& json, Fit& fit);
 
 /// Reads a fit file and checks it against docs/fit.schema.json. Throws Error(kBadInput) with the

@@ -1,7 +1,8 @@
-// Resistance, its derivative and its primitive, inside the fitted interval and in the limits
-// outside of it, and the inverse of the primitive. The equations, units and errors are in
-// lubrication_force.hpp. Lengths are in any unit. A change must keep R and Gamma continuous where a
-// formula replaces another one.
+// The resistance R(q) of a sphere at the gap q, its derivative, its primitive Gamma, and the
+// inverse of Gamma: by a sum of fitted terms in the interval [q1, q2] of the fit, and by simple
+// formulas for other gaps. Lengths, masses and times are in any consistent units. A gap that is not
+// allowed is an Error(kBadInput), a result that a double cannot hold an Error(kNotConverged). A
+// change must keep R and Gamma continuous at q1 and q2, where one formula replaces another one.
 #include "viscontact/lubrication/lubrication_force.hpp"
 
 #include <fmt/format.h>
@@ -58,7 +59,7 @@ LubricationForce::LubricationForce(const Fit& fit, const OutsideInterval& outsid
   regular_weights_ = weights_;
   regular_weights_[place_of(kLeadingTerm)] = 0;
   impulse_at_radius_ = sum_antiderivatives(weights_, radius_);
-  // Gamma has no inverse if the drag changes sign, so no model of motion could use such a fit.
+  // The models of motion invert Gamma. Its derivative, the resistance, must therefore be > 0.
   for (const double gap : spread_gaps(fitted_interval_))
     if (!(resistance(gap) > 0 && std::isfinite(resistance(gap))))
       throw Error(ErrorKind::kBadInput,
@@ -207,8 +208,9 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   const double low = std::log(smallest / radius_);
   const double high = std::log(largest / radius_);
   if (exact_ && impulse_wanted > impulse(smallest) && impulse_wanted < impulse(largest)) {
-    // With eps = gap/radius and the drag factor K of a plane, which is larger than 1/eps and larger
-    // than 1: Gamma/k < ln eps for eps < 1, and Gamma/k > ln eps and > eps - 1 for eps > 1.
+    // Gamma/k = int_1^eps K(s) ds with eps = gap/radius and the drag factor K of a plane. K is
+    // larger than 1/s and larger than 1, so Gamma/k < ln eps if eps < 1; if eps > 1, Gamma/k is
+    // larger than ln eps and than eps - 1.
     const double scaled = impulse_wanted / leading_;
     if (scaled < 0) return {std::max(scaled, low), 0.0};
     return {0.0, std::min(scaled, std::log1p(scaled))};
@@ -225,8 +227,9 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
                       "limit below it (below = \"lubrication_limit\" in the section [fit] of the "
                       "case)",
                       smallest, largest));
-    // With s = ln q, solve k (s - ln q1) + c (e^s - q1) = impulse - Gamma(q1). The second term
-    // moves s by less than |c| q1/k.
+    // Below the interval R = k/q + c. With s = ln q, Gamma(q) = impulse is the equation
+    // k (s - ln q1) + c (e^s - q1) = impulse - Gamma(q1). Without its second term s is known; the
+    // term changes s by less than |c| q1/k.
     const auto [k, constant] = limit();
     const double by_leading_term = low + (impulse_wanted - impulse(smallest)) / k;
     const double by_constant = constant * smallest / k;
@@ -251,8 +254,8 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
 }
 
 double LubricationForce::gap_of_impulse(double impulse_wanted) const {
-  // Near contact Gamma is almost linear in s = ln(q/r), so Newton's method converges fast in s. The
-  // radius in s makes the rounding of q independent of the unit of length.
+  // Near contact Gamma is almost linear in s = ln(q/r), so Newton's method in s converges fast. ln
+  // q instead of ln(q/r) would make rounding errors depend on the unit of length.
   const auto [low, high] = bracket_of_impulse(impulse_wanted);
   // At an end of the interval, rounding of ln and exp may give a gap just outside it.
   const auto gap_at = [this](double log_gap) {

@@ -1,7 +1,8 @@
-// The lubrication force as a function of gap and velocity, F_lub(q, u) = -R(q) u (physics.md
-// (2.3)), with its resistance R and the primitive Gamma of R (4.2). The force is fitted (3.2) or
-// exact (2.4). Lengths, masses and times are in any consistent units. A change must keep R
-// continuous at the ends of the interval, and Gamma a primitive of R.
+// The lubrication force as a function of gap and velocity, F_lub(q, u) = -R(q) u, with its
+// resistance R and the primitive Gamma of R. R is a sum of fitted terms, or the exact series for a
+// plane (docs/physics.md (2.3), (2.4), (3.2), (4.2)). Lengths, masses and times are in any
+// consistent units. Used by reduced_model/, fitting/, rolling/, pipeline/, report/ and the Python
+// module. A change must keep R continuous at the ends of the interval, and Gamma a primitive of R.
 #pragma once
 
 #include <array>
@@ -12,25 +13,25 @@
 
 namespace viscontact::lubrication {
 
-/// What the force is at gaps below the fitted interval [q1, q2] (physics.md (3.3)).
+/// What the force is at gaps below the fitted interval [q1, q2].
 enum class BelowInterval {
-  /// Unknown: a call is an error.
+  /// Not known: functions of such a gap throw Error(kBadInput).
   kError,
-  /// R(q) = R(q1) + k (1/q - 1/q1), with the fitted coefficient k of 1/q. What theory
-  /// adds to k/q varies only as ln q; this limit takes it as constant.
+  /// R(q) = R(q1) + k (1/q - 1/q1), with the fitted coefficient k of 1/q. In theory R - k/q varies
+  /// only as ln q; this limit takes it as constant.
   kLubricationLimit,
-  /// The same with the coefficient k of theory (Fit::leading_coefficient).
+  /// The same formula with the coefficient k of theory (Fit::leading_coefficient).
   kTheoryLimit
 };
 
-/// What the force is at gaps above the fitted interval (physics.md (3.3)).
+/// What the force is at gaps above the fitted interval [q1, q2].
 enum class AboveInterval {
-  /// Unknown: a call is an error.
+  /// Not known: functions of such a gap throw Error(kBadInput).
   kError,
-  /// R(q) = R_S (1 + c/(q + r)), with R_S = 6 pi mu r and c such that R is continuous at q2. The
-  /// drag tends to Stokes' drag as the first reflection at a wall decays (Happel & Brenner 1983,
-  /// section 7-4: 1 + (9/8) r/h for a plane at distance h). The first reflection at a second sphere
-  /// at rest decays faster, as 1/h^2. The limit neglects all other walls of the container.
+  /// R(q) = R_S (1 + c/(q + r)), with Stokes' R_S = 6 pi mu r and c such that R is continuous at
+  /// q2. So R approaches R_S as it does far from a plane (Happel & Brenner 1983, section 7-4: R_S
+  /// (1 + (9/8) r/h) at the distance h of the centre). Far from a second sphere at rest R - R_S
+  /// falls faster, as 1/h^2. All other walls of a container are neglected.
   kStokesLimit
 };
 
@@ -39,7 +40,7 @@ struct OutsideInterval {
   BelowInterval below = BelowInterval::kError;  ///< at gaps in (0, q1)
   AboveInterval above = AboveInterval::kError;  ///< at gaps > q2
 
-  /// The same with kLubricationLimit or kStokesLimit in place of kError.
+  /// A copy with kLubricationLimit in place of a kError below, and with kStokesLimit above.
   OutsideInterval with_limits() const;
 };
 
@@ -54,8 +55,9 @@ class LubricationForce {
   /// it. A fit whose basis is kExactPlane gives exact_plane().
   explicit LubricationForce(const Fit& fit, const OutsideInterval& outside = {});
 
-  /// The exact drag of a sphere near a no-slip plane in a half-space (plane_drag.hpp), for every
-  /// gap > 0. `viscosity` [M/(L T)] > 0, `radius` [L] > 0.
+  /// The exact drag of a sphere near a no-slip plane in a half-space (plane_drag.hpp), for gaps
+  /// from 1e-300 to 1e300 radii. A smaller gap throws Error(kNotConverged). `viscosity` [M/(L T)] >
+  /// 0, `radius` [L] > 0.
   static LubricationForce exact_plane(double viscosity, double radius);
 
   /// R(q) = -F_lub(q, u)/u [M/T], > 0. Throws Error(kNotConverged) if R is larger than the largest
@@ -80,7 +82,7 @@ class LubricationForce {
   /// gap is outside interval(), and Error(kNotConverged) if it is too small for a double.
   double gap_of_impulse(double impulse) const;
 
-  /// k [M L/T]: coefficient of 1/q in R, which is 6 pi mu r^2 in theory for a plane. Throws
+  /// k [M L/T]: the coefficient of 1/q in R; for a plane 6 pi mu r^2 in theory. Throws
   /// Error(kBadInput) if the fit has no term 1/q or if k is not positive.
   double leading_coefficient() const;
 
@@ -99,7 +101,7 @@ class LubricationForce {
   LubricationForce(double viscosity, double radius);
   void check_gap(double gap) const;
   void set_limits(const Fit& fit);
-  /// Throws Error(kBadInput) if the fit has no k that the drag below its interval could follow.
+  /// The constants below the interval. Throws Error(kBadInput) if the fit has no k > 0.
   LubricationLimit limit() const;
   /// ln(q/r) of two gaps between which Gamma(q) = impulse.
   std::array<double, 2> bracket_of_impulse(double impulse) const;
@@ -115,8 +117,8 @@ class LubricationForce {
   std::array<double, 2> fitted_interval_;
   OutsideInterval outside_;
   LubricationLimit limit_ = {};
-  double image_ = 0;  // c [L] of the Stokes limit
-  // The sum of antiderivatives at q = r, which is subtracted to make Gamma(r) = 0.
+  double image_ = 0;  // c [L] of AboveInterval::kStokesLimit
+  // The sum of weight * antiderivative at q = r [M L/T]; it is subtracted so that Gamma(r) = 0.
   double impulse_at_radius_ = 0;
 };
 

@@ -1,7 +1,7 @@
-// The columns of a motion table, and the checks of its numbers (motion_table.hpp,
-// docs/file-formats.md). Numbers are in the units of the table. A number that is missing or of the
-// wrong sign is an Error(kBadInput) with file and line. A change must keep the names of the
-// columns.
+// The columns of a table of force and torque on a sphere, and the checks of its numbers
+// (docs/file-formats.md). Numbers are in the units of the table. A number that is missing or of the
+// wrong sign is an Error(kBadInput) with file and line. A change must keep the names and the order
+// of the columns, which published tables have.
 #include "viscontact/lubrication/motion_table.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,8 @@
-// The solution of Reynolds' equation (physics.md (2.9), (2.10)) in the film between two curved
-// surfaces that move along it. Lengths are in sphere radii, q is the gap, mu the viscosity, r the
-// radius, and kappa is 1 plus the neighbour's curvature. Nothing is thrown. A change must keep the
-// coefficients, which published tables contain.
+// The solution of Reynolds' equation in the film between a sphere and its neighbour, which slide
+// past each other or turn (docs/physics.md (2.9), (2.10)). Lengths are in sphere radii, q is the
+// gap, mu the viscosity, r the radius. kappa, 1 plus the neighbour's curvature, is the curvature of
+// the film: its thickness is q + kappa rho^2/2 at the distance rho from the axis. Nothing is
+// checked or thrown. A change must keep the coefficients, which published tables contain.
 #include "viscontact/lubrication/near_contact.hpp"
 
 #include <numbers>
@@ -9,20 +10,21 @@
 namespace viscontact::lubrication {
 namespace {
 
-/// Force and torque on the sphere divided by ln(1/q), in units of mu r U and mu r^2 U, where U is
-/// the velocity of the motion.
+/// The coefficients of ln(1/q) in force along x and torque about y on the sphere, in units of mu r
+/// U and mu r^2 U, where U is the velocity of the sphere, or r times its angular velocity.
 struct FilmAction {
   double force = 0, torque = 0;
 };
 
-/// physics.md (2.10). `move` is the velocity of the sphere along x and `turn` its angular velocity
-/// about y, one of them 1 and the other one 0.
+/// Evaluates (2.10) of docs/physics.md. `move` is the velocity of the sphere along x and `turn` its
+/// angular velocity about y; one of them is 1, the other one 0.
 FilmAction across(double move, double turn, const NeighbourSurface& neighbour) {
   constexpr double kPi = std::numbers::pi;
-  // A shear-free plane does not resist sliding in the film. Rolling presses fluid through it.
+  // Beside a shear-free plane the film does not resist sliding, and rolling has a torque only.
   if (neighbour.is_shear_free) return {0, -6 * kPi / 5 * turn};
   const double kappa = 1 + neighbour.curvature;
-  // Velocity of the sphere's surface at the gap minus that of the neighbour's surface.
+  // slip: velocity of the sphere's surface at the gap minus that of the neighbour's surface.
+  // source: the right side S of Reynolds' equation (2.9).
   double slip = move - turn - neighbour.velocity_ratio * move;
   double source = -turn;
   if (neighbour.velocity_ratio != 0) {
@@ -45,7 +47,7 @@ LeadingFactors leading_factors(MotionKind motion, const NeighbourSurface& neighb
   }
   const bool moves = motion == MotionKind::kSlide;
   const auto action = across(moves ? 1 : 0, moves ? 0 : 1, neighbour);
-  // ln q = -ln(1/q), and factors have the sign opposite to that of force and torque.
+  // ln q = -ln(1/q), and factors are opposed to force and torque; both changes of sign cancel.
   return {"ln q", action.force / kForceUnit, action.torque / kTorqueUnit};
 }
 

@@ -1,7 +1,8 @@
-// What lubrication theory says of forces and torques near contact if a sphere slides, rolls or
-// spins beside its neighbour (physics.md (2.9) to (2.11)). Lengths, also the gap q, are in sphere
-// radii. The tabulation of motions writes these coefficients into the head of its tables. Nothing
-// is thrown: the caller gives a motion and a neighbour that are allowed. Used by freefem_axi/.
+// The coefficients of the terms ln q and q ln q in force and torque on a sphere that slides, rolls
+// or spins at a small gap q beside another body, its neighbour, by lubrication theory
+// (docs/physics.md (2.9) to (2.11)). Lengths, also q, are in sphere radii. Nothing is checked or
+// thrown. Used by freefem_axi/motion_table_plan.cpp, which writes the coefficients into the head of
+// each table. A change must keep the coefficients, which published tables contain.
 #pragma once
 
 #include <string_view>
@@ -10,19 +11,19 @@
 
 namespace viscontact::lubrication {
 
-/// The neighbour of a sphere of radius 1: its properties on which the film between them depends.
+/// The neighbour of a sphere of radius 1.
 struct NeighbourSurface {
-  /// 1 over the neighbour's radius [1]: 0 of a plane, < 0 of a cavity; > -1.
+  /// 1 over the neighbour's radius [1], > -1: 0 for a plane, < 0 for a cavity around the sphere.
   double curvature = 0;
-  /// True: no tangential stress on the neighbour, which is then a plane at rest.
+  /// True: the tangential stress on the neighbour is 0; it must be a plane at rest.
   bool is_shear_free = false;
-  /// The neighbour's velocity over that of the sphere, in the same motion [1]. Unless the curvature
-  /// is > 0, it must be 0.
+  /// The neighbour's velocity (slide) or angular velocity (roll, spin) over that of the sphere [1].
+  /// It must be 0 unless the curvature is > 0.
   double velocity_ratio = 0;
 };
 
-/// Coefficients of the leading singular term. Factors are those of a table of this motion
-/// (motion_table.hpp).
+/// The coefficients of one term. Force and torque factors (motion_table.hpp) are force over
+/// -6 pi mu r u and torque over -8 pi mu r^2 u, with u = r w for angular velocities w.
 struct LeadingFactors {
   /// The name of a Term: "ln q" for sliding and rolling, "q ln q" for spinning.
   std::string_view term;
@@ -30,9 +31,8 @@ struct LeadingFactors {
   double torque = 0;  ///< in the torque factor of the sphere [1]
 };
 
-/// The leading coefficients of a motion across the axis or around it (kSlide, kRoll, kSpin), with q
-/// in sphere radii (Goldman, Cox & Brenner 1967 for a plane; Jeffrey & Onishi 1984 for two
-/// spheres).
+/// The coefficients for kSlide, kRoll or kSpin, with q in sphere radii (Goldman, Cox & Brenner 1967
+/// for a plane; Jeffrey & Onishi 1984 for two spheres).
 LeadingFactors leading_factors(MotionKind motion, const NeighbourSurface& neighbour);
 
 }  // namespace viscontact::lubrication

@@ -1,6 +1,7 @@
-// Three expansions of the drag factor K of plane_drag.hpp in eps = gap/radius, all without
-// dimension: near contact, far away, and in the range between. The constants are computed from
-// Brenner's series and belong together: change none of them by hand.
+// The drag factor K = drag/(6 pi mu r |u|) of a sphere near a plane as a function of eps =
+// gap/radius, both without dimension, by three expansions: near contact, far away, and in the range
+// between. Nothing is thrown. The constants are computed from Brenner's series and depend on each
+// other, so that none may be changed alone.
 #include "viscontact/lubrication/plane_drag.hpp"
 
 #include <algorithm>
@@ -11,20 +12,20 @@
 namespace viscontact::lubrication {
 namespace {
 
-// All five functions come from R = K - 1/eps. With x = ln eps and S(eps) = int_0^eps R,
+// All functions are computed from R = K - 1/eps. With x = ln eps and S(eps) = int_0^eps R,
 //
 //     K = 1/eps + R,   d K/dx = -1/eps + dR/dx,
 //     int_1^eps K = x + S(eps) - S(1).
 //
-// All terms of a sum have the same sign, except S(1). R, dR/dx and the mean M = S/eps of R vary
-// slowly with x, so that polynomials represent them well.
+// K and dK/dx are sums of terms of equal sign (R > 0 > dR/dx) and lose no digits. R, dR/dx and the
+// mean M = S/eps of R vary slowly with x, so that polynomials represent them well.
 
 /// Coefficients of 1, t, t^2, ...
 template <std::size_t count>
 using Polynomial = std::array<double, count>;
 
-/// Value of a polynomial by Estrin's scheme: a short tree of products that the processor computes
-/// in parallel, where Horner's rule would be one long chain.
+/// Value of a polynomial by Estrin's scheme, a tree of products that the processor computes in
+/// parallel. In Horner's rule each product needs the one before.
 template <std::size_t count>
 double value(const Polynomial<count>& polynomial, double t) {
   if constexpr (count == 1) {
@@ -38,8 +39,8 @@ double value(const Polynomial<count>& polynomial, double t) {
   }
 }
 
-// Near contact, x < kNear: R = sum_k eps^k (constant_k + logarithm_k x), k = 0..4. The first term
-// that is left out, of order eps^5 x, is 1.2e-16 at x = kNear.
+// Near contact, x < kNear: R = sum over k = 0..4 of eps^k (constant_k + logarithm_k x), with the
+// coefficients kConstants and kLogarithms. The term k = 5 would be 1.2e-16 at x = kNear.
 constexpr double kNear = -6;
 // After Cox & Brenner 1967 and Cooley & O'Neill 1969; the digits are those of
 // data/reference/near_contact_expansion.csv.
@@ -49,14 +50,15 @@ constexpr Polynomial<5> kConstants = {0.9712799310357215124, 0.16701700481206481
 constexpr Polynomial<5> kLogarithms = {-1.0 / 5, -1.0 / 21, 8.0 / 1125, -15416.0 / 9095625,
                                        910732.0 / 1773646875};
 
-// Between, kNear <= x < kFar: M is a polynomial in t = -1..1 on each piece of length 1 in x. M is
-// analytic for |Im x| < pi, so its Chebyshev coefficients of degree n fall at least like 12^-n.
+// In the range between, kNear <= x < kFar, M is a polynomial in t = -1..1 on each of 8 pieces of
+// length 1 in x. M is analytic for |Im x| < pi, so its Chebyshev coefficients of degree n fall at
+// least like 12^-n.
 constexpr double kFar = 2;
 constexpr int kPieces = 8;
-// Coefficients of M in powers of t, computed with mpmath in 45 digits: R from Brenner's series at
-// 30 Chebyshev nodes on each piece; its Chebyshev series, integrated from the value of S that the
-// expansion above gives at x = -8; the result divided by eps and cut after t^19, which leaves out
-// less than 1e-21.
+// Coefficients of M in powers of t, computed with mpmath in 45 digits in these steps: Brenner's
+// series gives R at 30 Chebyshev nodes on each piece, and so a Chebyshev series of R. Its integral,
+// from the value of S at x = -8 by the expansion near contact, divided by eps is M. The powers
+// above t^19 are left out; they are below 1e-21.
 // clang-format off
 constexpr std::array<Polynomial<20>, kPieces> kMean = {{
     {2.272204722152662, -0.099586393365349857, 9.1175197429165688e-05, 1.3149216755474393e-05,
@@ -102,9 +104,9 @@ constexpr std::array<Polynomial<20>, kPieces> kMean = {{
 // clang-format on
 
 // Far away, x >= kFar: R = sum_k b_k h^k with h = 1/(1 + eps) < 0.12. Because 1/eps = h + h^2 +
-// ..., the coefficients of K are 1 + b_k for k > 0: 9/8, 81/64, 473/512, 4113/4096, ... All are
-// dyadic fractions. They come from the expansion of Brenner's series in exp(-alpha), with
-// cosh(alpha) = 1/h, in rational arithmetic.
+// ..., the coefficients of K are 1 + b_k for k > 0: 9/8, 81/64, 473/512, 4113/4096, ... They are
+// computed in rational arithmetic from the expansion of Brenner's series in exp(-alpha), with
+// cosh(alpha) = 1/h, and all are fractions whose denominator is a power of 2.
 // clang-format off
 constexpr Polynomial<18> kFarRegular = {
     1, 0.125, 0.265625, -0.076171875, 0.004150390625, 0.215118408203125,
@@ -113,20 +115,21 @@ constexpr Polynomial<18> kFarRegular = {
     -0.088984817950404249, 0.07118790284039278, 0.0211582797930987, -0.036068701833045225,
     0.061473599154115988, -0.0055992376740436889};
 // clang-format on
-// The constant of S - eps - ln(1 + eps)/8 far away, from S at x = 4, computed as in the table
-// above.
+// The limit of S - eps - ln(1 + eps)/8 for large eps, from S at x = 4, which is computed in the
+// same way as kMean.
 constexpr double kFarConstant = 0.30139129923623441053;
-// S(1), computed in the same way.
+// S(1), computed in the same way as kMean.
 constexpr double kRegularIntegralToOne = 1.26158388768896730636;
 
-/// A function of eps, by its coefficients in the three ranges.
+/// A function of eps, by its coefficients in the three ranges: near contact (constants,
+/// logarithms), between (pieces) and far away (far).
 struct Expansion {
   Polynomial<5> constants, logarithms;
   std::array<Polynomial<20>, kPieces> pieces;
   Polynomial<18> far;
 };
 
-/// The coefficients of df/dx on a piece, where dt/dx = 2.
+/// The coefficients of df/dx in powers of t on a piece, where dt/dx = 2.
 consteval Polynomial<20> log_slope(const Polynomial<20>& f) {
   Polynomial<20> slope = {};
   for (std::size_t k = 0; k + 1 < f.size(); ++k)
@@ -162,8 +165,7 @@ consteval Expansion slope_expansion() {
 }
 
 /// The coefficients of M near contact and between. Far away they are those of S - eps - x/8
-/// instead, which follow from R = 1 + h/8 + ..., int h^(k+1) d eps = -h^k/k and ln(1 + eps) - x =
-/// sum h^k/k.
+/// instead, from R = 1 + h/8 + ..., int h^(k+1) d eps = -h^k/k and ln(1 + eps) - x = sum h^k/k.
 consteval Expansion mean_expansion() {
   Expansion mean = {kConstants, kLogarithms, kMean, {}};
   for (std::size_t k = 0; k < kConstants.size(); ++k) {
@@ -181,13 +183,13 @@ constexpr Expansion kRegular = regular_expansion();
 constexpr Expansion kSlope = slope_expansion();
 constexpr Expansion kMeanRegular = mean_expansion();
 
-/// The value at eps, where x = ln eps. If eps < 0, x is NaN and fails both comparisons, so that the
+/// The value at eps, with x = ln eps. If eps < 0, x is NaN: both comparisons are false, and the
 /// last line returns NaN.
 double value(const Expansion& f, double eps, double x) {
   if (x >= kFar) return value(f.far, 1 / (1 + eps));
   if (x >= kNear) {
     const double pieces = x - kNear;
-    // The subtraction can round up to 8, although there are only the pieces 0..7.
+    // `pieces` can be rounded up to 8, although there are only the pieces 0..7.
     const int piece = std::min(static_cast<int>(pieces), kPieces - 1);
     return value(f.pieces[static_cast<std::size_t>(piece)], 2 * (pieces - piece) - 1);
   }

@@ -1,7 +1,7 @@
-// Exact Stokes drag of a sphere that moves normal to a no-slip plane in a half-space (physics.md
-// (2.4); Brenner 1961, Chem. Eng. Sci. 16, 242), to round-off and without summing a series. All
-// values are without dimension. LubricationForce calls these functions. A change must keep the
-// error bound below.
+// Exact Stokes drag of a sphere that moves normal to a no-slip plane in a half-space
+// (docs/physics.md (2.4); Brenner 1961, Chem. Eng. Sci. 16, 242), to round-off and without summing
+// a series. All values are without dimension. Used by lubrication_force.cpp. A change must keep
+// the error bound below.
 #pragma once
 
 namespace viscontact::lubrication {
@@ -10,10 +10,10 @@ namespace viscontact::lubrication {
 // viscosity mu, the radius r and the velocity u:
 // 1/eps - (1/5) ln eps + 0.97 + ... near contact, 1 + (9/8)/(1 + eps) + ... far away.
 //
-// Relative errors are below 1e-15 for 1e-300 <= eps <= 1e300. The largest error that was found is
-// 6e-16, at 6000 gaps from exp(-9) to exp(5), by comparison with sums in 45 digits. The functions
-// check nothing and throw nothing: eps < 0 and NaN give NaN, and the values at 0 and infinity are
-// not defined. Each call takes one logarithm and one polynomial, and allocates no memory.
+// Relative errors are below 1e-15 for 1e-300 <= eps <= 1e300: at 6000 values of eps from exp(-9) to
+// exp(5) the largest difference from sums of the series in 45 digits is 6e-16. The functions check
+// nothing and throw nothing: eps < 0 and NaN give NaN, and the values at 0 and infinity are not
+// defined. Each call computes one logarithm and one polynomial, and allocates no memory.
 
 /// K, > 1.
 double plane_drag_factor(double eps);
@@ -21,7 +21,7 @@ double plane_drag_factor(double eps);
 /// d K/d ln eps = eps d K/d eps, < 0.
 double plane_drag_factor_log_slope(double eps);
 
-/// K - 1/eps, > 1: the part that grows only as -(1/5) ln eps + 0.97 + ... near contact.
+/// K - 1/eps, > 1; it is -(1/5) ln eps + 0.97 + ... near contact.
 double plane_drag_factor_regular(double eps);
 
 /// int_1^eps K(s) ds, which has the sign of ln eps. Its absolute error is below

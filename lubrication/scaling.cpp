@@ -1,6 +1,7 @@
-// Scales the terms, errors and lengths of a fit (scaling.hpp). Numbers are in the units of fit and
-// case. An unknown term is an Error(kBadInput). A change must keep fits of the same radius and
-// viscosity bit for bit, because results of earlier versions were computed with them.
+// Scales the coefficients, errors and lengths of a fit from radius r and viscosity mu to r' and
+// mu'. Numbers are in any consistent units. An unknown term is an Error(kBadInput). A change must
+// keep all bits of a fit whose radius and viscosity do not change, because results of earlier
+// versions were computed with it.
 #include "viscontact/lubrication/scaling.hpp"
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 namespace viscontact::lubrication {
 namespace {
 
-/// The name of the power of q in a term "q^n ln q" or "ln q"; nothing for other terms.
+/// The name of q^n for a term "q^n ln q", and "1" for "ln q"; nothing for other terms.
 std::optional<std::string> power_beside_logarithm(std::string_view term) {
   constexpr std::string_view kLogarithm = "ln q";
   if (!term.ends_with(kLogarithm)) return {};
@@ -26,11 +27,11 @@ std::optional<std::string> power_beside_logarithm(std::string_view term) {
   return std::string(term.substr(0, term.size() - 1));  // without the blank
 }
 
-/// The matrix that maps the coefficients of the old terms to those of the new ones.
+/// A matrix m: coefficient i of the scaled fit is sum_j m[i][j] * coefficient j of the given fit.
 using Mixing = std::vector<std::vector<double>>;
 
-/// Adds the powers that logarithms need to `terms`. Row i of the result are the coefficients of the
-/// old terms in that of the new term i.
+/// Returns this matrix for the factor `factor` = (mu'/mu) (r'/r)^power and `ratio` = r'/r. Appends
+/// a term q^n to `terms` if they contain q^n ln q but not q^n.
 Mixing mixing_of(std::vector<FitTerm>& terms, double factor, double ratio) {
   const auto place = [&](const std::string& name) {
     const auto found = std::ranges::find(terms, name, &FitTerm::name);

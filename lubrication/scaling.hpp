@@ -1,7 +1,8 @@
-// A fit for a sphere of another radius in a fluid of another viscosity. Stokes flow has no length
-// of its own: the force at the gap q depends on q/r alone, in units of mu r u. Lengths, masses and
-// times are in the units of the fit before, and in those of the case afterwards, so that a fit in
-// units of the radius serves a case in SI units. simulate, sweep, rolling and export use it.
+// Makes from a fit of the force on a sphere the fit for another radius r' and viscosity mu'. In
+// Stokes flow the force in units of mu r u depends on the gap q only by q/r. Lengths, masses and
+// times may be in other units afterwards than before: a fit in units of the radius serves a case in
+// SI units. Used by case_file/, motions/, swimmer/, the command `export` and the Python module. A
+// change must keep all bits of a fit whose radius and viscosity do not change.
 #pragma once
 
 #include <string>
@@ -16,22 +17,23 @@ namespace viscontact::lubrication {
 ///     F'(q) = (mu'/mu) (r'/r)^power F(q r/r'),
 ///
 /// with power = 1 for a force per velocity, 2 for a force per angular velocity or a torque per
-/// velocity, and 3 for a torque per angular velocity. Each term is a power of q, or such a power
-/// times ln q (terms.hpp), which becomes a sum of both: ln(q r/r') = ln q - ln(r'/r). A term that
-/// the fit lacks is added for this. Interval, theory's coefficient, errors, and lengths in the
-/// words for geometry and container are scaled, too. If both radii are equal up to rounding, only
-/// the factor mu'/mu is applied, and if it is 1, nothing changes.
+/// velocity, and 3 for a torque per angular velocity. A term q^n ln q becomes a sum of the terms
+/// q^n ln q and q^n, because ln(q r/r') = ln q - ln(r'/r); q^n is added to the fit if it lacks it.
+/// Interval, leading coefficient, errors, and lengths in the words for geometry and container are
+/// scaled, too. If both radii are equal up to rounding, only the factor mu'/mu is applied. Throws
+/// Error(kBadInput) for a term that is not in all_terms().
 Fit scaled_to(Fit fit, double viscosity, double radius, int power = 1);
 
-/// The factor of a term's coefficient in scaled_to() without (mu'/mu) (r'/r)^power: the term at the
-/// gap 1/`ratio`, where `ratio` is r'/r, or for a power times ln q that of the power.
+/// The factor by which scaled_to() multiplies the coefficient of a term q^n or q^n ln q, besides
+/// (mu'/mu) (r'/r)^power: ratio^-n [1], with `ratio` = r'/r > 0. Throws Error(kBadInput) for a name
+/// that is not in all_terms().
 double scale_of_term(std::string_view term, double ratio);
 
-/// Words such as "sphere, radius 2, velocity_ratio 0" with all lengths multiplied by `factor`:
-/// numbers behind a name that does not end in "_ratio".
+/// Words such as "sphere, radius 2, velocity_ratio 0" with all lengths multiplied by `factor`. Each
+/// number after a word that does not end in "_ratio" counts as a length.
 std::string with_lengths_scaled(const std::string& words, double factor);
 
-/// True if both texts have the same words and numbers that are equal up to rounding.
+/// True if both texts have equal words in the same order; numbers may differ by rounding.
 bool same_words(const std::string& one, const std::string& other);
 
 }  // namespace viscontact::lubrication

@@ -1,6 +1,6 @@
-// The drag of a sphere in an unbounded fluid, the unit in which tables, fits and limits give other
-// drags. Nothing is checked or thrown. A change must keep the value, because factors in published
-// tables refer to it.
+// The drag of a sphere in an unbounded fluid, by which drag factors in tables and fits are divided.
+// Nothing is checked or thrown. Used by lubrication/, freefem_axi/, fitting/ and report/. A change
+// must keep the value, because published tables contain these factors.
 #pragma once
 
 #include <numbers>

@@ -1,7 +1,6 @@
-// The names of the motions, the head of a table, and the checks of its numbers (table.hpp,
-// docs/file-formats.md). Numbers are in the units of the table. An unknown name is an
-// Error(kBadInput), and a fault of a file one with file and key or line. A change must keep names
-// and keys.
+// The names of the motions of a sphere, and the lines "# key: value" at the head of a table
+// (docs/file-formats.md). Numbers are in the units of the table. A fault of a file is an
+// Error(kBadInput) with file and key. A change must keep the names and keys of published tables.
 #include "viscontact/lubrication/table.hpp"
 
 #include <fmt/format.h>

@@ -1,11 +1,12 @@
-// Reads and writes tables of all kinds (table.hpp, docs/file-formats.md), in the units of the
-// table. Tabulations write by it and fits read; a change must keep published tables readable. For a
-// struct Row it needs, in the namespace of the Row:
-//   static constexpr bool Row::kIsOfLine: if the head has the radii of several spheres;
-//   void prepare(const TableHead&, Row&): gives vectors the sizes of the table;
-//   std::vector<Column> columns_of(const TableHead&, Row&): in the order of the file; the first
-//   ones
-//     say which row it is;
+// Reads and writes the files of tables (docs/file-formats.md) for any struct Row of their rows.
+// Numbers are in the units of the table. Used by motion_table.cpp, table.cpp, swimmer/resistance/
+// and freefem_axi/journal/make_plan.hpp. A change must keep published tables readable. For a Row
+// there must be, in its namespace:
+//   static constexpr bool Row::kIsOfLine: true if the head has the radii of several spheres;
+//   void prepare(const TableHead&, Row&): gives the vectors and optional members of a row the sizes
+//     that columns_of() needs;
+//   std::vector<Column> columns_of(const TableHead&, Row&): the columns in the order of the file;
+//     the first ones identify the row;
 //   void complete(const TableHead&, Row&): computes what follows from other numbers;
 //   void check(const TableHead&, const Row&, const FilePosition&): throws Error(kBadInput) if the
 //     numbers contradict each other.
@@ -20,14 +21,15 @@
 
 namespace viscontact::lubrication {
 
-/// Reads the head in the text of a file. Throws Error(kBadInput), which names file and key.
+/// Reads the head in the text of a file; `file` is its name in messages, `is_of_line` is
+/// Row::kIsOfLine. Throws Error(kBadInput) with file and key if a line is missing or wrong.
 TableHead read_head(const std::string& text, const std::string& file, bool is_of_line);
 
 /// The lines of the head of a table with `rows` rows.
 CsvComments lines_of(const TableHead& head, std::size_t rows);
 
-/// Sets the numbers of a row from its fields, of which some may be empty. Throws Error(kBadInput)
-/// for a number that is missing or out of range.
+/// Sets the numbers of a row from the fields of its line, one for each column; an empty field is
+/// nothing. Throws Error(kBadInput) for a number that is missing or out of range.
 void set_numbers(const std::vector<Column>& columns, std::span<const std::optional<double>> fields,
                  const FilePosition& here);
 

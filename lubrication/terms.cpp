@@ -1,7 +1,7 @@
-// The table of terms and the named bases. A new term or basis is a new row here; an unknown name is
-// an Error(kBadInput). The formulas are in the gap q > 0, in the table's unit of length, and l = ln
-// q. Each row's log_slope must be q times the derivative of its value, and its antiderivative a
-// primitive of its value.
+// The table of terms, the functions of the gap q > 0 that a fit combines, and the named bases. q is
+// in the unit of length of the fit, and l = ln q. An unknown name is an Error(kBadInput). A new
+// term or basis needs only a row here. A change must keep that log_slope is q times the derivative
+// of value, and antiderivative a primitive of value.
 #include "viscontact/lubrication/terms.hpp"
 
 #include <fmt/format.h>
@@ -16,8 +16,8 @@
 namespace viscontact::lubrication {
 namespace {
 
-// Makes a Formula of an expression in q and l, as text and as code, so that an exported fit
-// computes what was fitted.
+// Makes a Formula, text and code, of one expression in q and l, so that the exported text cannot
+// differ from the code.
 #define FORMULA(expression)                                                                       \
   Formula {                                                                                       \
 #expression,                                                                                  \
@@ -63,7 +63,7 @@ Basis make_basis(std::string_view name, std::string_view terms) {
   return basis;
 }
 
-/// Sum of weight * formula over all terms. The compiler knows each formula and expands it in place.
+/// Sum of weight * formula over all terms. Each formula is known at compile time and inlined.
 template <Formula Term::*formula>
 double sum_of(std::span<const double> weights, double gap) {
   const double log_gap = std::log(gap);

@@ -1,6 +1,7 @@
-// The functions of the gap q that a fit may combine, and the named bases (physics.md (3.2)). q is a
-// number > 0 in the table's unit of length. fitting/ and lubrication_force.hpp use them. A change
-// must keep names and formulas, which fit files and exports contain.
+// The functions of the gap q that a fit of a force may combine, and named lists of them, the bases
+// (docs/physics.md (3.2)). q is a number > 0 in the unit of length of the fit. Used by fitting/,
+// lubrication/, motions/, rolling/, case_file/ and app/. A change must keep names and formulas,
+// which fit files and exports contain.
 #pragma once
 
 #include <cmath>
@@ -11,12 +12,11 @@
 
 namespace viscontact::lubrication {
 
-/// A function of the gap q > 0 and of l = ln q. The logarithm is an argument, so that a sum of
-/// terms computes it once.
+/// A function of the gap q > 0 and of l = ln q. The logarithm is an argument, so that it is
+/// computed only once for a sum of terms.
 struct Formula {
-  /// The expression in q and l, with + - * / ( ) and numbers. C, Fortran and Python must compute
-  /// the same from it. The numbers must therefore be exact in single precision, as Fortran reads
-  /// them.
+  /// The expression in q and l, with + - * / ( ) and numbers. Exported code of C, Fortran, Python
+  /// and MATLAB contains it. The numbers must be exact in single precision, as Fortran reads them.
   std::string_view text;
   double (*at)(double gap, double log_gap);  ///< the value at q = gap > 0 and l = log_gap
 
@@ -24,15 +24,15 @@ struct Formula {
   double operator()(double gap) const { return at(gap, std::log(gap)); }
 };
 
-/// A function phi of the gap q > 0. If q is given in another unit of length, ln q changes by a
-/// constant, so that parts of the coefficients of ln q, q ln q, ... are added to those of 1, q, ...
-/// A coefficient has the dimension [M L/T^2] of a force over that of phi.
+/// A function phi of the gap q > 0. Its coefficient in a force has the unit of a force [M L/T^2]
+/// over that of phi. In another unit of length ln q differs by a constant; the coefficients of 1,
+/// q, ... then change by multiples of those of ln q, q ln q, ...
 struct Term {
   std::string_view name;  ///< as fit files and `--terms` give it: "q ln q"
   Formula value;          ///< phi(q)
   /// q phi'(q) = d phi/d ln q: the derivative in a form that does not overflow near contact.
   Formula log_slope;
-  /// A primitive of phi. The primitive Gamma of the resistance (4.2) is a sum of these.
+  /// A primitive of phi.
   Formula antiderivative;
 };
 
@@ -47,8 +47,8 @@ std::optional<Term> find_term(std::string_view name);
 
 /// Sum of weight * value over all_terms() at a gap > 0. `weights` has an entry for each of these
 /// terms, in the same order; a term of weight 0 is not evaluated. The result has the dimension of a
-/// weight times that of its term. This function and the two below are fast enough for inner loops:
-/// they take one logarithm and call no function pointer.
+/// weight times that of its term. For the speed of inner loops this function and the next two
+/// compute one logarithm and call no function pointer.
 double sum_values(std::span<const double> weights, double gap);
 /// Sum of weight * log_slope over all_terms(), as sum_values().
 double sum_log_slopes(std::span<const double> weights, double gap);
@@ -75,7 +75,7 @@ inline constexpr std::string_view kOwnTerms = "terms";
 ///   asymptotic_extended  those of `asymptotic`, and q^2 ln q, q^2, q^3
 const std::vector<Basis>& all_bases();
 
-/// The basis of a fit for which a user names none.
+/// The basis of a fit for which a user names none: lecture.
 const Basis& default_basis();
 
 /// The basis with this name. Throws Error(kBadInput), which lists the names, if there is none.

@@ -1,7 +1,7 @@
-// The names, bases and values of the resistances of a pair, and the fields of their file
-// (pair_fit.hpp, docs/file-formats.md): one object per entry, each of which has the keys of a fit
-// file. Numbers have the units of the fit. An unknown name, a missing entry and a fault of the file
-// are an Error(kBadInput). A change must keep the names, and published files readable.
+// The names, bases and values of the resistances of a sphere beside a body at rest, and the keys of
+// their file (docs/file-formats.md): an object for each resistance, with the keys of a fit file.
+// Numbers are in the units of the fit. An unknown name, a missing resistance and a fault of the
+// file are an Error(kBadInput). A change must keep published files readable.
 #include "viscontact/motions/pair_fit.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@
 namespace viscontact::motions {
 namespace {
 
-/// A basis of a pair: a named basis, and further terms.
+/// A basis of a pair: the terms of the basis `base` of lubrication/terms.hpp, and further ones.
 struct PairBasis {
   std::string_view name;
   std::string_view base;
@@ -102,8 +102,8 @@ PairFit scaled_to(PairFit fit, double viscosity, double radius) {
   const double ratio = radius / fit.radius;
   const bool has_radius = equal_up_to_rounding(radius, fit.radius);
   for (auto& [entry, one] : fit.entries) {
-    // Powers of the length in a force per velocity, a torque per velocity, and a torque per angular
-    // velocity.
+    // The power of the radius in a force per velocity (1), a torque per velocity (2), and a torque
+    // per angular velocity (3).
     const int power = entry == PairEntry::kSqueeze || entry == PairEntry::kSlide ? 1
                       : entry == PairEntry::kSlideRoll                           ? 2
                                                                                  : 3;
@@ -127,7 +127,8 @@ namespace {
 
 const std::string kPairFit = "pair fit";
 
-/// Refuses an entry that was made for another pair than `fit`. `name` is its key.
+/// Throws Error(kBadInput) if an entry was fitted for another sphere, fluid or neighbour than those
+/// of `fit`. `name` is its key.
 void check_same_pair(const JsonFields& json, const std::string& name, const lubrication::Fit& entry,
                      const PairFit& fit) {
   const auto differs = [&](const char* key) {

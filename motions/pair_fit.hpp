@@ -1,7 +1,8 @@
-// The fits of all resistances of a sphere beside its neighbour, as functions of the gap (physics.md
-// (2.12)), and their file. Lengths, masses and times are in the units of the tables.
-// fit/fit_pair.hpp makes these fits, and rolling/ reads them. A change must keep the names of
-// entries, bases and keys, which files contain.
+// The resistances of a sphere beside another body at rest, its neighbour, to all motions of the
+// sphere, as fitted functions of the gap (docs/physics.md (2.12)), and the file of these fits.
+// Lengths, masses and times are in the units of the tables from which the fits were made.
+// motions/fit/ makes and exports the fits; rolling/ and the Python module read them. A change must
+// keep the names of entries, bases and keys, which files contain.
 #pragma once
 
 #include <array>
@@ -29,10 +30,10 @@ enum class PairEntry { kSqueeze, kSlide, kRoll, kSlideRoll, kSpin };
 struct NamedEntry {
   std::string_view name;         ///< such as "slide_roll", in files and in exported code
   std::string_view description;  ///< one line for the comment of exported code
-  /// Terms of bases that theory does not have in this entry near contact.
+  /// Terms that by lubrication theory this entry does not have near contact; they are not fitted.
   std::vector<std::string_view> absent_terms;
-  std::string_view leading_term;  ///< the most singular term that theory has
-  /// The condition that a fit of this entry must fulfil.
+  std::string_view leading_term;  ///< the most singular term near contact, by lubrication theory
+  /// What the fitted entry must be; a fit of another shape has a warning.
   lubrication::FittedShape shape;
 };
 
@@ -42,13 +43,13 @@ std::span<const NamedEntry> pair_entries();
 /// Name of the basis that is fitted if the user chooses none.
 inline constexpr std::string_view kDefaultPairBasis = "asymptotic_cubic";
 
-/// The names of the bases for the entries of a pair: asymptotic and asymptotic_extended as in
-/// all_bases(), asymptotic_cubic, which also has q^3 ln q, and asymptotic_quartic, which moreover
-/// has q^4 ln q and q^4.
+/// The names of the bases for the entries of a pair: asymptotic and asymptotic_extended of
+/// all_bases() (lubrication/terms.hpp); asymptotic_cubic, which is asymptotic_extended and q^3 ln
+/// q; asymptotic_quartic, which is asymptotic_cubic, q^4 ln q and q^4.
 std::vector<std::string_view> pair_bases();
 
-/// The basis for an entry: the terms of the basis with this name, without the absent terms of the
-/// entry, and without its leading term if theory's coefficient `theory` of that term is 0. Throws
+/// The basis for an entry: the terms of the basis `name` without entry.absent_terms, and without
+/// entry.leading_term if `theory`, its coefficient by lubrication theory, is 0. Throws
 /// Error(kBadInput), which lists the names, if no basis has this name.
 lubrication::Basis basis_of_entry(const NamedEntry& entry, std::string_view name,
                                   std::optional<double> theory = {});
@@ -58,7 +59,8 @@ struct EntryFit {
   /// A fit at the reference velocity -1, so that its sum of coefficients times terms is the
   /// resistance itself: [M/T] squeeze and slide, [M L/T] slide_roll, [M L^2/T] roll and spin.
   lubrication::Fit fit;
-  /// Theory's coefficient of the entry's leading term, if it is known.
+  /// Lubrication theory's coefficient of NamedEntry::leading_term, if it is known, in the unit of
+  /// the entry over that of the term.
   std::optional<double> theory;
 };
 
@@ -72,12 +74,12 @@ struct PairFit {
   std::map<std::string, std::string> versions;  ///< program name to version
 };
 
-/// The value of an entry at a gap [L] > 0, in the dimension that EntryFit gives. Throws
-/// Error(kBadInput) if the fit lacks the entry. Outside the interval the formula of the fit is
-/// continued.
+/// The value of an entry at a gap [L] > 0, in the dimension that EntryFit gives. The fitted formula
+/// is also used outside fit.gap_interval. Throws Error(kBadInput) if the fit lacks the entry.
 double entry_value(const PairFit& fit, PairEntry entry, double gap);
 
-/// The fit for another viscosity [M/(L T)] > 0 and radius [L] > 0 (lubrication/scaling.hpp).
+/// The fit for another viscosity [M/(L T)] > 0 and radius [L] > 0 of the sphere, beside a neighbour
+/// of the same size in radii (lubrication/scaling.hpp).
 PairFit scaled_to(PairFit fit, double viscosity, double radius);
 
 /// True if the path is a regular file with a PairFit. False for a pipe, which is not read, because

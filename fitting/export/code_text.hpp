@@ -1,6 +1,6 @@
-// Numbers and sums of terms as code of C, Fortran, Python and MATLAB, for export_fit.cpp and
-// export_pair.cpp. Numbers have the units of the fit. Nothing is thrown. A change must keep that
-// the code reads back the same doubles. Used by export_fit.cpp and motions/.
+// Numbers and sums of terms as code of C, Fortran, Python and MATLAB. Numbers have the units of the
+// fit. Nothing is thrown. Used by export_fit.cpp and motions/fit/export_pair.cpp. A change must
+// keep that a compiler reads each literal as the double that was written.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,14 +16,14 @@
 
 namespace viscontact::fitting {
 
-/// A term of a sum with its coefficient.
+/// A term, which is a function of the gap, and the weight by which a sum multiplies it.
 using WeightedTerm = std::pair<double, lubrication::Term>;
 
-/// Writes a number as a double of the language.
+/// A function that writes a finite number as a literal of type double in one language.
 using Literal = std::string (*)(double);
 
-/// A literal of Python, or of another language in which a number without a point is as good as one
-/// with a point. C needs c_literal(). `number` is finite.
+/// A literal of Python or MATLAB, with as many digits as are needed to read the same double back,
+/// such as 56.5, 5 or 1e-05. These languages need no point in a number, unlike C.
 inline std::string plain(double number) { return format_number(number); }
 
 /// A Fortran literal in double precision, such as 56.5d0 or 1d-05.
@@ -35,14 +35,16 @@ inline std::string fortran_literal(double number) {
   return text;
 }
 
-/// A C literal such as 56.5, 5.0 or 1e-05. Without a point or an exponent C would read it as an
-/// integer, which would overflow if it has many digits.
+/// A C literal such as 56.5, 5.0 or 1e-05. C reads a literal without a point or an exponent as an
+/// integer, and an integer of many digits overflows.
 inline std::string c_literal(double number) {
   const std::string text = format_number(number);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-/// The text "(weight) * (formula) ...", with the text `between` before each term but the first.
+/// The sum of weight * formula as code. `formula` selects the function of a term: its value, slope
+/// or antiderivative. `between` is the text that joins two summands: a plus sign, and a line break
+/// in the syntax of the language. Empty if there are no terms.
 inline std::string terms_text(const std::vector<WeightedTerm>& terms,
                               lubrication::Formula lubrication::Term::*formula, Literal literal,
                               std::string_view between) {
@@ -53,7 +55,7 @@ inline std::string terms_text(const std::vector<WeightedTerm>& terms,
   return text;
 }
 
-/// An expression for the entries of arrays of MATLAB: "a*b/c" becomes "a.*b./c".
+/// The expression with MATLAB's operators for the entries of arrays: "a*b/c" becomes "a.*b./c".
 inline std::string elementwise(const std::string& expression) {
   std::string text;
   for (const char c : expression) {
@@ -63,9 +65,10 @@ inline std::string elementwise(const std::string& expression) {
   return text;
 }
 
-/// The function of Python that computes a quantity at a number or at each entry of an array. The
-/// module has SMALLEST_GAP and LARGEST_GAP. `formulas` are tuples (low, high, function of q and
-/// log), of which the first that contains a gap is used.
+/// Python's function _evaluate(gap, formulas), which each exported module contains. `gap` is a
+/// number or an array. `formulas` are tuples (low, high, f): f(q, log) is the formula for gaps q in
+/// [low, high], with the logarithm of `math` or of NumPy. The first tuple whose interval contains a
+/// gap is used. Raises ValueError if there is none.
 inline constexpr std::string_view kPythonEvaluate =
     "def _evaluate(gap, formulas):\n"
     "    if isinstance(gap, (int, float)):\n"
@@ -87,8 +90,8 @@ inline constexpr std::string_view kPythonEvaluate =
     "        outside = q[left][0]\n"
     "    raise ValueError(f\"gap {outside} is outside [{formulas[0][0]}, {formulas[0][1]}]\")\n";
 
-/// The lines with blanks in place of control characters, for comments of the code. A line end in a
-/// text of a fit file would otherwise begin a line of code.
+/// The lines with blanks in place of control characters. They become comments of the written code,
+/// and a line end within a text of the fit file would end the comment.
 inline std::vector<std::string> on_lines_of_comments(std::vector<std::string> lines) {
   for (auto& line : lines)
     std::ranges::replace_if(

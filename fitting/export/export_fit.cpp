@@ -1,6 +1,8 @@
-// The text of each target: the resistance R and its primitive Gamma, sums of terms by physics.md
-// (3.2), (3.3) and (4.2), as code or numbers. Numbers are in the units of the fit. An impossible
-// fit is an Error(kBadInput). Names, keys and the order of sums must stay.
+// Writes a fit as code or numbers: the resistance R of a sphere as a function of the gap q, the sum
+// of weight * term(q), and its primitive Gamma(q) = int_r^q R, with the sphere's radius r
+// (docs/physics.md (3.2), (3.3), (4.2)). Numbers are in the units of the fit. An unknown target or
+// a resistance that is not positive is an Error(kBadInput). A change must keep the names of
+// functions and keys, which programs of users call, and the order of the sums.
 #include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>
@@ -25,14 +27,16 @@ namespace {
 
 using Limits = lubrication::OutsideInterval;
 
-/// R(q) = sum of weight * value, Gamma(q) = sum of weight * antiderivative - offset [M L/T]. Value
-/// and antiderivative of a term are functions of the gap q.
+/// The weights in R(q) = sum of weight * value(q) [M/T] and
+/// Gamma(q) = sum of weight * antiderivative(q) - offset [M L/T]. Value and antiderivative are
+/// functions of each term; the offset makes Gamma(r) = 0.
 struct Sum {
   std::vector<WeightedTerm> terms;
   double offset = 0;
 };
 
-/// The sum for a fit, in the order of all_terms(), as in LubricationForce.
+/// The weights of a fit, in the order of all_terms(). LubricationForce adds the terms in the same
+/// order, so that the rounding errors agree.
 Sum sum_of(const lubrication::Fit& fit) {
   Sum sum;
   for (const auto& term : lubrication::all_terms())
@@ -43,14 +47,14 @@ Sum sum_of(const lubrication::Fit& fit) {
   return sum;
 }
 
-/// The drag outside the interval [q1, q2] (physics.md (3.3)): R = k/q + constant below it,
-/// R = stokes + reflected/(q + r) above it, with the limits that the user has chosen.
+/// The resistance outside the fitted interval [q1, q2], where the user chose a formula for it:
+/// R = k/q + constant below the interval, R = stokes + reflected/(q + r) above it.
 struct Outside {
-  bool has_below = false, has_above = false;
-  double smallest = 0, largest = 0, radius = 0;  ///< q1, q2 and r [L]
-  double k = 0, constant = 0;                    ///< [M L/T], [M/T]
-  double stokes = 0, reflected = 0;              ///< [M/T], [M L/T]
-  double impulse_below = 0, impulse_above = 0;   ///< Gamma(q1) and Gamma(q2) [M L/T]
+  bool has_below = false, has_above = false;     // true if the user chose the formula
+  double smallest = 0, largest = 0, radius = 0;  // q1, q2 and r [L]
+  double k = 0, constant = 0;                    // [M L/T], [M/T]
+  double stokes = 0, reflected = 0;              // [M/T], [M L/T]
+  double impulse_below = 0, impulse_above = 0;   // Gamma(q1) and Gamma(q2) [M L/T]
 };
 
 Outside outside_of(const lubrication::Fit& fit, const lubrication::OutsideInterval& limits) {
@@ -73,8 +77,9 @@ Outside outside_of(const lubrication::Fit& fit, const lubrication::OutsideInterv
   return outside;
 }
 
-/// A quantity, R or Gamma, as code of a language: expressions in q and l = ln q inside the
-/// interval, and in q outside of it; an expression is empty if there is none.
+/// R or Gamma as expressions of a language: `inside` for gaps in the fitted interval, in the
+/// variables q and l = ln q; `below` and `above` for smaller and larger gaps, in q alone. `below`
+/// or `above` is empty if the user chose no formula there.
 struct Expressions {
   std::string inside, below, above;
 };
@@ -106,7 +111,7 @@ Expressions impulse_of(const Sum& sum, const Outside& o, Literal number, std::st
   return e;
 }
 
-/// The facts that a user of the numbers must know, one line for each.
+/// What a user of the exported numbers must know (sign, interval, error, source), one line each.
 std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view source,
                                const Outside& outside = {}) {
   const auto version = fit.versions.find("Viscontact");
@@ -307,7 +312,7 @@ std::string write_json(const lubrication::Fit& fit, std::string_view source, con
   json["formulas"] =
       "q: gap, l: ln q; R = sum of weight * value, Gamma = sum of weight * antiderivative - "
       "impulse_offset";
-  // Fit files do not have this key, so that an export is not read as a fit file.
+  // Fit files have no key "interval", so that the reader of fit files refuses an export.
   json["interval"] = fit.gap_interval;
   json["radius"] = fit.radius;
   json["viscosity"] = fit.viscosity;
@@ -369,7 +374,7 @@ std::span<const ExportTarget> export_targets() { return kTargets; }
 
 std::string export_fit(const lubrication::Fit& fit, std::string_view target,
                        std::string_view source, const Limits& outside) {
-  (void)lubrication::LubricationForce(fit);  // refuses a fit whose drag is not positive
+  (void)lubrication::LubricationForce(fit);  // throws if the resistance is not positive
   return require_named(kTargets, target, "export target").write(fit, source, outside);
 }
 

@@ -1,6 +1,7 @@
-// Writes a fit as code or data for other programs, which can use it without Viscontact. Lengths,
-// masses and times are in the units of the fit. A change must keep the names of functions and keys,
-// and the order of the sums, so that the values agree with LubricationForce.
+// Writes a fit as code or data, so that other programs can use it without Viscontact. Lengths,
+// masses and times are in the units of the fit. Used by the command `export` (app/commands/) and by
+// motions/fit/export_pair.cpp. A change must keep the names of functions and keys, which programs
+// of users call, and the order of the sums, so that the values agree with LubricationForce.
 #pragma once
 
 #include <span>
@@ -13,29 +14,28 @@
 
 namespace viscontact::fitting {
 
-/// A language or format.
+/// A language or format of exported fits.
 struct ExportTarget {
-  std::string_view name;         ///< as users type it
+  std::string_view name;         ///< as users type it after `--to`, such as "c-header"
   std::string_view description;  ///< a line for --help
-  TextKind kind;                 ///< kind of the written text
-  /// Makes the text for a fit. `source`, which may be empty, is the name of the fit's file.
-  /// Outside the interval the drag is that of `outside`.
+  TextKind kind;                 ///< syntax of the text, which decides how comments are written
+  /// The function that export_fit() calls; it has the arguments and errors of export_fit().
   std::string (*write)(const lubrication::Fit& fit, std::string_view source,
                        const lubrication::OutsideInterval& outside);
 };
 
-/// All targets: c-header, fortran, python, matlab, json, csv. Each contains, with the gap q, the
-/// velocity u and the radius r, the resistance R(q) [M/T], the force -R(q) u [M L/T^2] and Gamma(q)
-/// = int_r^q R [M L/T], and the interval, error and source of the fit. The sums have the order of
-/// LubricationForce, so that the values agree to the last digits. Outside the interval, as far as
-/// the user has chosen no limit of the drag, the code returns NaN (C, Fortran, MATLAB) or raises
-/// ValueError (Python).
+/// All targets: c-header, fortran, python, matlab, json, csv. Each contains the resistance R(q)
+/// [M/T] at the gap q, the force -R(q) u [M L/T^2] at the velocity u, Gamma(q) = int_r^q R [M L/T]
+/// with the sphere's radius r, and the interval, error and source of the fit. json and csv contain
+/// 201 samples. If the user chose no formula for gaps outside the interval, the code returns NaN
+/// there (C, Fortran, MATLAB) or raises ValueError (Python).
 std::span<const ExportTarget> export_targets();
 
 /// The text for one target. `source` is the name of the fit's file, which the text states; it may
-/// be empty. `outside` is the drag outside the interval; csv, which has none, refuses it with
-/// Error(kWrongUsage). Throws Error(kBadInput) for an unknown target, and the Error of
-/// LubricationForce for a fit with an impossible drag.
+/// be empty. `outside` says which formulas give the drag outside the interval. Throws
+/// Error(kWrongUsage) for the target csv if `outside` has a formula, because csv has samples within
+/// the interval only; Error(kBadInput) for an unknown target, or if the resistance of the fit is
+/// not positive and finite in the interval.
 std::string export_fit(const lubrication::Fit& fit, std::string_view target,
                        std::string_view source = "",
                        const lubrication::OutsideInterval& outside = {});

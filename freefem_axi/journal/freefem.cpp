@@ -1,6 +1,6 @@
-// Runs FreeFEM processes to their end and reads what they print (freefem.hpp). Times are in
-// seconds. A FreeFEM that does not start is an Error(kExternalProgram); failures of scripts are the
-// caller's.
+// Runs FreeFEM processes to their end and reads what they print. Times are in seconds. A FreeFEM
+// that does not start is an Error(kExternalProgram); if a script fails, the caller decides. A
+// change must keep each process on one thread and within its time limit.
 #include "viscontact/freefem_axi/journal/freefem.hpp"
 
 #include <fmt/format.h>
@@ -14,16 +14,16 @@
 namespace viscontact::freefem_axi {
 namespace {
 
-// Each row is solved on three meshes. The coarsest has kCoarsestCells cells across the film, and
-// each of the others is twice as fine as the one before it. If the accuracy is not reached, further
-// sequences start from finer meshes (extrapolation.idp). The first sequence reaches an accuracy of
-// 1e-5 for gaps of 1e-6 to 10 radii in about a second (bench/README.md). With fewer than two cells
-// the film would be a single layer of triangles.
+// Each row is solved on a sequence of kLevels meshes (the error estimate needs three), each twice
+// as fine as the one before. The coarsest has kCoarsestCells cells across the gap; with fewer than
+// two the gap would be a single layer of triangles. At most kAttempts sequences with other numbers
+// of cells are solved until the accuracy is reached (extrapolation.idp). The first sequence reaches
+// an accuracy of 1e-5 for gaps of 1e-6 to 10 radii in about a second (bench/README.md).
 constexpr int kCoarsestCells = 2;
 constexpr int kLevels = 3;
 constexpr int kAttempts = 3;
 
-/// The last lines of a program's output, joined to one line.
+/// The last four lines of a program's output that are not blank, joined to one line.
 std::string last_lines(const std::string& output) {
   constexpr std::size_t kLines = 4;
   std::vector<std::string> lines;

@@ -1,6 +1,7 @@
-// Runs FreeFEM as a separate process, which gets a script and numbers and prints lines of text
-// (docs/extending.md). Times are in seconds. Rows of all tables are computed by it. A change must
-// keep each process on one thread and within its time limit.
+// Runs a script of freefem_axi/scripts/ in a FreeFEM process, which gets numbers as arguments and
+// prints lines of text (docs/extending.md). Times are in seconds. Used by tabulation.cpp,
+// motion_row.cpp and swimmer/tabulation/ for the rows of all tables, and by results/, app/ and
+// bench/. A change must keep each process on one thread and within its time limit.
 #pragma once
 
 #include <chrono>
@@ -15,52 +16,53 @@
 
 namespace viscontact::freefem_axi {
 
-/// The FreeFEM program, the folder of the scripts, and the conditions on which a process is killed.
+/// The FreeFEM program, the folder of its scripts, and when a process is killed.
 struct FreeFem {
   std::string executable;  ///< a name to look for on PATH, or a path
   /// Folder share/viscontact/freefem_axi with the scripts.
   std::filesystem::path script_folder;
-  /// Time limit for one row. The slowest row that was measured took less than two minutes.
+  /// Time limit for one row of a table. The slowest row that was measured took less than two
+  /// minutes; the default leaves a factor of 15 for slower machines.
   std::chrono::seconds row_limit = std::chrono::minutes(30);
   /// Time limit for FreeFEM to print its version, which takes it less than a second.
   std::chrono::seconds version_limit = std::chrono::minutes(2);
-  /// If it requests a stop, FreeFEM is killed and Error(kInterrupted) is thrown.
+  /// If `stop` requests a stop, the FreeFEM process is killed and Error(kInterrupted) is thrown.
   StopToken stop{};
 };
 
-/// The executable is that of the environment variable VISCONTACT_FREEFEM if it is set, else
-/// FreeFem++-nw. The script folder is share/viscontact/freefem_axi in the folder of this program or
-/// in the one above it. VISCONTACT_FREEFEM_TIME_LIMIT, if set, is the number of seconds of both
-/// time limits. Throws Error(kExternalProgram) if there is no script folder, and Error(kWrongUsage)
-/// if the limit is not a whole number from 1 to 10 million.
+/// The FreeFEM of the user: the executable is the value of the environment variable
+/// VISCONTACT_FREEFEM if it is set, else FreeFem++-nw. VISCONTACT_FREEFEM_TIME_LIMIT [s], if set,
+/// replaces both time limits. Throws Error(kExternalProgram) if the scripts are not found
+/// (freefem::find_script_folder()), and Error(kWrongUsage) if the limit is not a whole number from
+/// 1 to 10 million.
 FreeFem default_freefem(const StopToken& stop = {});
 
-/// Runs a script with arguments "-name value" on one thread. After `time_limit`, which is row_limit
-/// unless given, FreeFEM is killed and `timed_out` is set in the result. If the script fails, this
-/// is not an error here; the caller must look at the result. Throws Error(kExternalProgram) with a
-/// remedy if FreeFEM cannot be started.
+/// Runs a script on one thread to its end. `arguments` are "-name" and "value" in turn. After
+/// `time_limit`, or freefem.row_limit if it is not given, FreeFEM is killed and `timed_out` is true
+/// in the result. A script that fails throws nothing: the caller must check exit_status. Throws
+/// Error(kExternalProgram) if FreeFEM cannot be started, and Error(kInterrupted).
 ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                           const std::vector<std::string>& arguments,
                           std::optional<std::chrono::seconds> time_limit = {});
 
-/// Appends the arguments of scripts/arguments.idp: the largest relative error estimate [1]
-/// that is asked of each force, in (0, 1), and the numbers of cells of the meshes.
+/// Appends the arguments that all scripts need: -accuracy, the largest relative error estimate of a
+/// force [1], in (0, 1), and -cells, -levels and -attempts, which say how fine the meshes are.
 void append_mesh_arguments(std::vector<std::string>& arguments, double relative_accuracy);
 
-/// The part of a message that says that FreeFEM was killed at its time limit, and the remedy.
+/// Says in a message that FreeFEM was killed at its time limit, and what the user can do.
 std::string timed_out_in_words(std::chrono::seconds time_limit);
 
-/// Why a script failed, for an error message: its time limit, the error that it printed, or the
-/// last lines of its output.
+/// Why a script failed, for an error message: that it exceeded `time_limit`, or the error that it
+/// printed, or else the last lines of its output.
 std::string failure_in_words(const ProcessResult& result, std::chrono::seconds time_limit);
 
-/// The rest of the first line of `output` that starts with `prefix` and a space; else empty.
+/// The first line of `output` that starts with `prefix` and a space, without these; or empty.
 std::string line_after(const std::string& output, std::string_view prefix);
 
-/// The version of FreeFEM by which others can find the same program: "4.11+dfsg1-3 (Debian package
-/// freefem++; FreeFEM says 4.9)". If no Debian package has installed the executable, it is the
-/// version that FreeFEM states, "4.9", which is not always that of its release. Throws
-/// Error(kExternalProgram) if FreeFEM does not run or does not answer within its time limit.
+/// The version of FreeFEM: that of the Debian package that has installed the executable, and the
+/// one that FreeFEM states, such as "4.11+dfsg1-3 (Debian package freefem++; FreeFEM says 4.9)". If
+/// there is no package, only the latter, "4.9", which may differ from the number of the release.
+/// Throws Error(kInterrupted), and Error(kExternalProgram) if FreeFEM does not answer in time.
 std::string freefem_version(const FreeFem& freefem);
 
 }  // namespace viscontact::freefem_axi

@@ -1,7 +1,8 @@
-// Makes the TablePlan of any kind of table (lubrication/table.hpp) from what differs between kinds:
-// which rows there are, how FreeFEM solves them, and what the numbers depend on. Numbers have the
-// units of the table. motion_table_plan.cpp and swimmer/tabulation use it. A change must keep the
-// order of numbers, because journals and tables of earlier versions are read by it.
+// Makes a TablePlan, the functions that compute, read and write a table, for any type Row of rows
+// (lubrication/table.hpp). The caller gives what differs between types: which rows there are, how
+// FreeFEM solves them, and what the numbers depend on. Numbers have the units of the table. Used by
+// motion_table_plan.cpp and swimmer/tabulation/. A change must keep the order of the numbers in a
+// row of a journal (the file of finished rows), in which journals of earlier runs are read.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,36 +17,41 @@
 
 namespace viscontact::freefem_axi {
 
-/// One of the rows that FreeFEM computes at a point together, and the table that contains it.
+/// FreeFEM can compute several rows at a point (a gap, say) in one call, which belong to several
+/// tables: those of sliding and of rolling. This is one of these rows, with its table.
 template <class Row>
 struct PlannedRow {
-  lubrication::TableHead head;  ///< of its table; make_plan() adds hash, versions and failed rows
-  Row blank;                    ///< a row of this table, whose vectors have their sizes
-  /// False if nobody asked for its table.
+  lubrication::TableHead head;  ///< of the table; make_plan() adds hash, versions and failed rows
+  Row blank;  ///< a row of the table with any numbers; its vectors have their sizes
+  /// False if the user did not ask for the table, so that it is not written.
   bool is_asked = true;
-  std::filesystem::path path;  ///< of its table; not used for the first that is asked
+  std::filesystem::path path;  ///< of the table; not used for the first table that is asked
 };
 
-/// The argument of make_plan(). Members with the comment "as in TablePlan" are copied to the plan.
+/// The argument of make_plan().
 template <class Row>
 struct PlanParts {
-  /// Everything that the numbers depend on. Tables with another text are computed again.
+  /// A text with everything that the numbers depend on. Tables of another text are computed again.
   std::string inputs;
-  std::vector<RowPoint> points;  ///< TablePlan::points; the first numbers of a row are its point
+  /// Where rows are computed, in the order of computation; at least one point. The first columns of
+  /// a row are its point.
+  std::vector<RowPoint> points;
   std::vector<PlannedRow<Row>> rows;  ///< in the order in which `solve` returns them
-  double relative_accuracy = 0;       ///< as in TablePlan
-  double typical_seconds = 0;         ///< as in TablePlan
-  bool needs_all_rows = false;        ///< as in TablePlan
-  /// As in TablePlan, but for complete rows.
+  double relative_accuracy = 0;       ///< TablePlan::relative_accuracy
+  double typical_seconds = 0;         ///< TablePlan::typical_seconds [s]
+  bool needs_all_rows = false;        ///< TablePlan::needs_all_rows
+  /// Computes the rows at a point, one for each element of `rows`. Throws as TablePlan::solve.
   std::function<std::vector<Row>(const FreeFem&, const RowPoint&)> solve;
-  std::function<std::string(const RowPoint&)> name_of;  ///< as in TablePlan
-  /// All rows of a table in its order, from a function that returns the row that was computed at a
-  /// point. Without it, the rows are those at `points`.
+  std::function<std::string(const RowPoint&)> name_of;  ///< TablePlan::name_of
+  /// Returns the row that was computed at a point; nothing if it was not.
   using Computed = std::function<std::optional<Row>(const RowPoint&)>;
-  std::function<std::vector<Row>(const Computed&)> arrange{};  ///< makes the rows of the table
+  /// Makes all rows of a table, in its order, from the computed ones. Empty: the table has the
+  /// computed rows, in the order of `points`.
+  std::function<std::vector<Row>(const Computed&)> arrange{};
 };
 
-/// The numbers of `row` that a journal stores behind its point.
+/// The addresses of the numbers of `row` that a journal stores after those of its point: all
+/// columns but the first `size_of_point` and those that complete() computes.
 template <class Row>
 std::vector<double*> stored_numbers(const lubrication::TableHead& head, Row& row,
                                     std::size_t size_of_point) {
@@ -57,9 +63,9 @@ std::vector<double*> stored_numbers(const lubrication::TableHead& head, Row& row
   return numbers;
 }
 
-/// The plan, for at least one point. A row in a journal is its point and the numbers of all
-/// `parts.rows`, one after the other. The functions of the plan throw what `solve` throws; a file
-/// that is not the planned table counts as one without rows.
+/// The plan. A row in a journal is a point and the numbers of all `given.rows` there, one after the
+/// other. TablePlan::solve throws what given.solve throws. TablePlan::read returns no rows, and
+/// throws nothing, if a file is not the planned table.
 template <class Row>
 TablePlan make_plan(PlanParts<Row> given) {
   const std::size_t size_of_point = given.points.front().size();
@@ -67,7 +73,9 @@ TablePlan make_plan(PlanParts<Row> given) {
   plan.hash = sha256(given.inputs);
   plan.points = given.points;
   plan.shape = {size_of_point, 0};
-  std::vector<std::size_t> asked, begins;  // numbers of rows, and where each begins in a journal
+  // The indices of the given.rows that are asked for; for each of given.rows the index of its first
+  // number in FinishedRow::numbers.
+  std::vector<std::size_t> asked, begins;
   for (auto& row : given.rows) {
     row.head.case_hash = plan.hash;
     if (row.is_asked) asked.push_back(begins.size());
@@ -88,7 +96,7 @@ TablePlan make_plan(PlanParts<Row> given) {
         numbers.push_back(*number);
     return numbers;
   };
-  // The row with the number `i` in a row of a journal.
+  // The row of the table of given.rows[i], from the numbers that a journal has stored.
   const auto row_of = [=](std::size_t i, const FinishedRow& finished) {
     const auto& head = parts->rows[i].head;
     auto row = parts->rows[i].blank;
@@ -99,7 +107,8 @@ TablePlan make_plan(PlanParts<Row> given) {
     complete(head, row);
     return row;
   };
-  // Adds the rows in a file to the record. Returns false if it is not the planned table.
+  // Adds the rows in the file of the table of given.rows[i] to the record. Returns false if the
+  // file is not the planned table.
   const auto add_rows = [=](std::size_t i, const std::filesystem::path& path, RowRecord& record) {
     const auto& planned = parts->rows[i];
     const auto table = lubrication::read_table<Row>(path);

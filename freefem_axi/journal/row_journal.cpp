@@ -1,8 +1,9 @@
-// Opens, locks and appends to a journal, and writes and reads its lines (row_journal.hpp). A line
-// is "HASH row POINT NUMBERS VERSION CHECKSUM" or "HASH failed POINT REASON CHECKSUM". A damaged
-// line is no error; it is read as nothing, and its row is computed again. A journal that cannot be
-// written is an Error(kBadInput). A change must keep lines in one piece, and on disk when append()
-// returns, and old journals readable.
+// Opens, locks and appends to a journal, the file of the rows of a table that FreeFEM has finished,
+// and writes and reads its lines. A line is "HASH row POINT NUMBERS VERSION CHECKSUM" or "HASH
+// failed POINT REASON CHECKSUM": HASH identifies the table, POINT and NUMBERS are numbers in its
+// units, VERSION is that of FreeFEM. A damaged line is read as nothing; a journal that cannot be
+// written is an Error(kBadInput). A change must keep that a line is written in one piece and is on
+// disk when append() returns, and that journals of interrupted runs can be read.
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 #include <fcntl.h>
@@ -36,7 +37,7 @@ std::string checksum(std::string_view text) {
   return sha256(text).substr(0, kDigits);
 }
 
-/// Reads `count` numbers. Returns nothing if a word is missing or is not a number.
+/// Reads the next `count` words as numbers. Nothing if a word is missing or is not a finite number.
 std::optional<std::vector<double>> read_numbers(std::istream& words, std::size_t count) {
   std::vector<double> numbers;
   for (std::size_t i = 0; i < count; ++i) {

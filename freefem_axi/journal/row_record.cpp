@@ -1,6 +1,7 @@
-// Reads all journals of a table, merges their rows, and removes what a written table contains
-// (row_record.hpp). A line or a journal that cannot be read counts as no rows. A change must keep
-// the order of reading: journals, then table.
+// Reads all journals of a table (files of the rows that processes have finished), merges their rows
+// with those of the table, and removes from the journals what the table contains. Numbers are in
+// the units of the table. A damaged line counts as no row; a journal that cannot be read or
+// replaced is an Error(kBadInput). A change must keep that the table is read after the journals.
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 
 #include <fcntl.h>
@@ -21,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The paths of a table's journals, sorted.
+/// The paths of a table's journals, in alphabetical order.
 std::vector<fs::path> journals_of(const fs::path& table_path) {
   const fs::path own = journal_path(table_path);
   std::vector<fs::path> journals;
@@ -38,8 +39,8 @@ std::vector<fs::path> journals_of(const fs::path& table_path) {
   return journals;
 }
 
-/// Calls `use` with each complete line of a journal. A journal that another process removes
-/// meanwhile counts as empty.
+/// Calls `use` with each complete line of a journal, without its line end. A journal that another
+/// process removes at the same time counts as empty; other failures to read throw Error(kBadInput).
 template <class Use>
 void for_each_line(const fs::path& journal, const Use& use) {
   std::string text;
@@ -67,7 +68,7 @@ RowRecord read_row_record(const fs::path& table_path, const TablePlan& plan) {
       else if (const auto* failed = std::get_if<FailedRow>(&*entry))
         record.failed[failed->point] = failed->reason;
     });
-  // The table must be read after the journals, because its writer then removes the journals.
+  // The table must be read last, because the process that writes it then removes the journals.
   auto in_table = plan.read(table_path);
   record.finished.merge(in_table.finished);
   record.failed.merge(in_table.failed);
@@ -93,8 +94,9 @@ std::vector<std::string> failures_of(const RowRecord& record, const std::vector<
 
 void remove_journals(const fs::path& table_path, const std::string& hash) {
   for (const auto& journal : journals_of(table_path)) {
-    // The journal is locked while it is read and removed. A process that opens it meanwhile finds
-    // that it was removed or replaced, and opens it again.
+    // The lock is held while the journal is read and removed. Another process that has opened the
+    // file and waits for the lock then notices that the file was removed or replaced, and opens the
+    // new one (open_and_lock() in common/files/locks.hpp).
     const Descriptor file(::open(journal.c_str(), O_RDWR | O_CLOEXEC));
     if (file.get() < 0) continue;
     if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) continue;

@@ -1,6 +1,8 @@
-// The finished and failed rows of a table, collected from the table and from the journals of all
-// processes that work on it. A change must keep that the journals are read before the table,
-// because the process that writes the table then removes the journals. Units: those of the plan.
+// The finished and failed rows of a table, collected from its file and from its journals, the files
+// in which processes store the rows that they have finished (row_journal.hpp). Numbers have the
+// units of the table. Used by tabulate.cpp, pipeline/ and the Python module. A change must keep
+// that the journals are read before the table: another process may write the table and then remove
+// the journals, and rows that are in neither at the time of reading would be lost.
 #pragma once
 
 #include <filesystem>
@@ -11,19 +13,22 @@
 
 namespace viscontact::freefem_axi {
 
-/// All rows of the plan in the journals and in the table.
+/// The finished and failed rows of the planned table at `table_path`, from its journals and the
+/// table. A table of other inputs and damaged lines count as no rows. Throws Error(kBadInput) if a
+/// journal exists but cannot be read.
 RowRecord read_row_record(const std::filesystem::path& table_path, const TablePlan& plan);
 
-/// Those of `points` that are not finished, in their order.
+/// Those of `points` whose rows are not finished (failed ones included), in their order.
 std::vector<RowPoint> missing_points(const RowRecord& record, const std::vector<RowPoint>& points);
 
-/// The reasons of those of `points` that failed.
+/// The reasons why rows at `points` failed, in the order of `points`.
 std::vector<std::string> failures_of(const RowRecord& record, const std::vector<RowPoint>& points);
 
-/// Removes the rows of the table with this hash from its journals, once the table has been written.
-/// Rows of other tables stay, because no file contains them yet; a journal without such rows is
-/// deleted. A journal that another process has locked is not changed. Throws Error(kBadInput) if a
-/// journal cannot be replaced.
+/// Removes the rows of the table with TablePlan::hash `hash` from the journals beside `table_path`.
+/// The caller has written the table before. Rows with another hash, of a case that was edited
+/// meanwhile, stay, because only the journal contains them; a journal without such rows is deleted.
+/// A journal that another process has locked is not changed. Throws Error(kBadInput) if a journal
+/// cannot be read or replaced.
 void remove_journals(const std::filesystem::path& table_path, const std::string& hash);
 
 }  // namespace viscontact::freefem_axi

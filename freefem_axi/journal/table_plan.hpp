@@ -1,7 +1,8 @@
-// A table whose rows FreeFEM computes one by one, as the journal and the commands see it, whatever
-// its rows contain: forces and torques on a sphere (motion_table_plan.hpp), or resistance matrices
-// of spheres on a line (swimmer/tabulation). make_plan.hpp makes it. Times are in seconds; other
-// numbers have the units that the plan defines.
+// A table whose rows FreeFEM computes one by one, independent of what its rows contain: forces and
+// torques on a sphere (motion_table_plan.hpp), or resistance matrices of spheres on a line
+// (swimmer/tabulation/). make_plan.hpp makes it; the other files of this folder, pipeline/ and
+// swimmer/ use it. Times are in seconds; other numbers have the units of the table. A change must
+// keep that equal inputs give equal hashes, by which tables and rows of earlier runs are found.
 #pragma once
 
 #include <cstddef>
@@ -15,16 +16,16 @@
 
 namespace viscontact::freefem_axi {
 
-/// The numbers by which the rows of a table are told apart: gap [L] and velocity [L/T], or the gaps
-/// between the spheres [L].
+/// The numbers that identify a row of a table: gap [L] and velocity [L/T], the gap alone, or the
+/// gaps between several spheres [L].
 using RowPoint = std::vector<double>;
 
 /// A row that was computed.
 struct FinishedRow {
   RowPoint point;  ///< which row
-  /// What was computed, in an order that the plan defines.
+  /// The computed numbers, as TablePlan::solve returns them.
   std::vector<double> numbers;
-  std::string freefem_version;  ///< version of the FreeFEM that computed the row
+  std::string freefem_version;  ///< as freefem_version() in freefem.hpp states it; may be empty
 };
 
 /// A row that could not be computed.
@@ -35,8 +36,8 @@ struct FailedRow {
 
 /// The finished and failed rows of a table, by their points.
 struct RowRecord {
-  std::map<RowPoint, FinishedRow> finished;  ///< each by its own point
-  /// The reasons of failed rows. A row that was finished later is not among them.
+  std::map<RowPoint, FinishedRow> finished;  ///< by FinishedRow::point
+  /// The reasons why rows failed, by their points. No row is also in `finished`.
   std::map<RowPoint, std::string> failed;
 };
 
@@ -49,39 +50,40 @@ struct RowShape {
 /// Names and versions of the programs that made a table.
 using Versions = std::map<std::string, std::string>;
 
-/// Another file with the same rows as the table, but other columns.
+/// Another table from the same calls of FreeFEM, such as that of rolling beside that of sliding.
 struct CompanionTable {
-  std::filesystem::path path;  ///< of the file
-  /// The text of the file, as TablePlan::write.
+  std::filesystem::path path;  ///< of its file
+  /// Makes the text of its file, as TablePlan::write.
   std::function<std::string(const RowRecord&, const Versions&)> write;
 };
 
 /// A table and the functions that compute, read and write it.
 struct TablePlan {
-  /// SHA-256 of everything that the numbers depend on. Equal inputs have equal hashes.
+  /// SHA-256 of everything that the numbers depend on, in hexadecimal digits.
   std::string hash;
-  /// All rows, in the order of the table.
+  /// The points of all rows, in the order of computation; at least one.
   std::vector<RowPoint> points;
   RowShape shape;                ///< of every row
-  double relative_accuracy = 0;  ///< asked of every row [1]
-  double typical_seconds = 0;    ///< time of a row on one core [s], for estimates
-  /// Computes the numbers of one row. Throws Error(kExternalProgram) if FreeFEM fails, and other
-  /// errors if no row could be computed.
+  double relative_accuracy = 0;  ///< largest relative error that the user allows a row [1], > 0
+  double typical_seconds = 0;    ///< time of a row on one core [s], > 0, only for estimates of time
+  /// Computes the numbers of the row at a point. Throws Error(kExternalProgram) if FreeFEM fails
+  /// for this row. An Error of another kind ends the computation of all rows.
   std::function<std::vector<double>(const FreeFem&, const RowPoint&)> solve;
-  /// The rows of the table in a file, and those that it names as failed; no rows if there is no
-  /// such file or if it has other inputs.
+  /// Reads the finished rows in the file of the table, and the failed rows that it names. No rows
+  /// if there is no such file or if it was computed with other inputs.
   std::function<RowRecord(const std::filesystem::path&)> read;
-  /// The text of the file. It names the failed rows of the record, which it lacks.
+  /// Makes the text of the file from the finished rows; its head names the failed ones.
   std::function<std::string(const RowRecord&, const Versions&)> write;
-  /// True if the table is of no use without some of its rows. `write` then needs all of them.
+  /// True if the table is useless without some of its rows. `write` then needs all of them.
   bool needs_all_rows = false;
-  /// Files that are written with the table.
+  /// Tables that are written together with this one.
   std::vector<CompanionTable> companions;
-  /// The row in words, for messages and for the line of a failed row: "gap 0.1, velocity -1". No
-  /// two rows have the same words.
+  /// Describes a row in messages and in the head of the file: "gap 0.1, velocity -1". No two rows
+  /// have the same description.
   std::function<std::string(const RowPoint&)> name_of;
-  std::function<double(const FinishedRow&)> estimate_of;  ///< relative error of the row [1]
-  std::function<double(const FinishedRow&)> seconds_of;   ///< time of the row [s]
+  /// The largest relative error estimate of the row in this table and its companions [1], >= 0.
+  std::function<double(const FinishedRow&)> estimate_of;
+  std::function<double(const FinishedRow&)> seconds_of;  ///< time that the row took [s], >= 0
 };
 
 }  // namespace viscontact::freefem_axi

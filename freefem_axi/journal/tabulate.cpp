@@ -1,6 +1,7 @@
-// Distributes the rows over threads. Each thread runs one FreeFEM process at a time and waits for
-// it. A row that FreeFEM cannot solve is recorded as failed; every other error stops all threads
-// and is thrown. Only one thread at a time may use journal and report.
+// Distributes the rows of a table over threads, each of which runs one FreeFEM process at a time
+// and waits for it. Times are in seconds. A row that FreeFEM cannot solve is recorded as failed;
+// every other error stops all threads and is thrown. A change must keep that only one thread at a
+// time uses the journal (the file of finished rows) and the progress report.
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
 
 #include <fmt/format.h>
@@ -16,9 +17,9 @@
 namespace viscontact::freefem_axi {
 namespace {
 
-/// The version of FreeFEM. FreeFEM is asked for it before the first row, so that a missing FreeFEM
-/// is reported once and not for each row. A worker with a name is a job on a cluster, whose
-/// messages nobody may read. It therefore also writes the reason to its journal.
+/// The version of FreeFEM. It is needed before the first row, so that a missing FreeFEM is reported
+/// once and not for each row. A worker with a name is a job on a cluster, whose messages may go
+/// unread. If FreeFEM is missing there, each of `points` is also written to the journal as failed.
 std::string version_for(const RowWorker& worker, const std::vector<RowPoint>& points,
                         const std::filesystem::path& journal_file, const std::string& hash) {
   try {
@@ -32,7 +33,7 @@ std::string version_for(const RowWorker& worker, const std::vector<RowPoint>& po
   }
 }
 
-/// Solves one row. Returns the row, or the reason why FreeFEM failed.
+/// Solves one row. Returns the row, or what() of Error(kExternalProgram). Throws other errors.
 JournalEntry solve(const FreeFem& freefem, const std::string& version, const TablePlan& plan,
                    const RowPoint& point) {
   try {
@@ -69,7 +70,7 @@ void compute_rows(const RowWorker& worker, const TablePlan& plan,
           journal.append(entry);
         }
       } catch (...) {
-        // The cause is not the row (Ctrl-C, a full disk), so other rows would fail as well.
+        // The cause is not this row but Ctrl-C or a full disk, say, so the others would fail, too.
         const std::scoped_lock lock(mutex);
         if (!fatal) fatal = std::current_exception();
         next = missing.size();

@@ -1,6 +1,6 @@
-// Computes the rows of a tabulation with several FreeFEM processes at once, for the stage
-// `tabulate`. Times are in seconds. A change must keep that each finished row is on disk before its
-// process starts the next one.
+// Computes the rows of a table with several FreeFEM processes at once. Times are in seconds; other
+// numbers have the units of the table. Used by pipeline/tabulate/. A change must keep that each
+// finished row is on disk before the thread that computed it starts the next one.
 #pragma once
 
 #include <filesystem>
@@ -12,31 +12,32 @@
 
 namespace viscontact::freefem_axi {
 
-/// How far a tabulation is.
+/// How many rows are computed.
 struct TabulateProgress {
-  std::size_t rows_done = 0;  ///< rows that were there before, or are computed or failed
-  std::size_t rows = 0;       ///< rows that were asked for
-  double seconds_left = 0;    ///< [s], estimated from the finished rows; 0 before the first
+  std::size_t rows_done = 0;  ///< rows that are finished, by this call or before it, or failed
+  std::size_t rows = 0;       ///< all rows that the call of compute_rows() asks for
+  double seconds_left = 0;    ///< estimated time for the other rows [s], >= 0
 };
 
-/// The function that is called with the progress.
+/// A function that compute_rows() calls with its progress.
 using TabulateReport = std::function<void(const TabulateProgress&)>;
 
-/// One of the processes that compute rows.
+/// How this process computes rows. On a cluster several such processes work on one table.
 struct RowWorker {
   FreeFem freefem;  ///< how FreeFEM is run
-  int jobs = 1;     ///< number of FreeFEM processes at once
-  /// Writer of the worker's journal (row_journal.hpp); empty for the journal of this machine.
+  int jobs = 1;     ///< number of FreeFEM processes that run at once, >= 1
+  /// writer_name() of the process on a cluster (row_journal.hpp); empty on a single machine.
   std::string name;
 };
 
-/// Computes those of `points` that neither this worker nor another one has finished; this is
-/// checked again before each row. Each finished row, and the reason of each failed one, is written
-/// at once to the worker's journal beside `table_path`. `report` is called after each row, never
-/// twice at once. A row that fails does not stop the others, and its failure is not thrown:
-/// RowRecord::failed contains it. Throws Error(kExternalProgram) if FreeFEM cannot be run at all,
-/// and Error(kInterrupted) if worker.freefem.stop requests a stop. The caller removes the journals
-/// after it has written the table.
+/// Computes the rows at `points` that are not finished. Before each row the files are read again,
+/// because another process may have finished it meanwhile. Each finished row, and the reason of
+/// each failed one, is written at once to the worker's journal (row_journal.hpp) beside
+/// `table_path`. `report` is called after each row, by one thread at a time. A row that fails does
+/// not stop the others and is not thrown; read_row_record() returns it. Throws
+/// Error(kExternalProgram) if FreeFEM cannot be run at all, Error(kBadInput) if the journal cannot
+/// be written, and Error(kInterrupted) if worker.freefem.stop requests a stop. The caller writes
+/// the table and removes the journals.
 void compute_rows(const RowWorker& worker, const TablePlan& plan,
                   const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report);

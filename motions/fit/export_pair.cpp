@@ -1,6 +1,6 @@
-// The text of each target (export_pair.hpp): a function of the gap for each resistance of a pair,
-// as code or numbers. Numbers are in the units of the fit. An unknown target is an
-// Error(kBadInput). A change must keep the names of functions and keys.
+// Writes each resistance of a pair, a sphere beside a body at rest, as a function of the gap in C,
+// Fortran, Python, MATLAB, JSON or CSV. Numbers are in the units of the fit. An unknown target is
+// an Error(kBadInput). A change must keep the names of functions and keys, which users rely on.
 #include "viscontact/motions/fit/export_pair.hpp"
 
 #include <array>
@@ -183,7 +183,7 @@ std::string pair_in_csv(const PairFit& fit, std::string_view source) {
 }
 
 struct PairTarget {
-  std::string_view name;  // as in export_targets()
+  std::string_view name;  // as users type it; export_fit.cpp has the same names
   std::string (*write)(const PairFit& fit, std::string_view source);
 };
 constexpr std::array kPairTargets = {

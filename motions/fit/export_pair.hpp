@@ -1,6 +1,7 @@
-// Writes the fit of a pair as one header, module or file, with a function for each entry. Lengths,
-// masses and times are in the units of the fit. The command `export` calls it. A change must keep
-// the names of the functions.
+// Writes the fit of a pair, the resistances of a sphere beside a body at rest (pair_fit.hpp), as
+// code or data with a function of the gap for each resistance. Lengths, masses and times are in the
+// units of the fit. Used by the command `export` (app/commands/). A change must keep the names of
+// functions and keys, which programs of users call.
 #pragma once
 
 #include <string>
@@ -10,12 +11,13 @@
 
 namespace viscontact::motions {
 
-/// The text for one of export_targets(). The functions viscontact_squeeze, viscontact_slide,
-/// viscontact_roll, viscontact_slide_roll and viscontact_spin (without the prefix in Python and
-/// MATLAB) have the gap as argument; there is none for an entry that the fit lacks. Outside the
-/// interval of gaps the code returns NaN (C, Fortran, MATLAB) or raises ValueError (Python).
-/// `source` is the name of the fit's file, which the text states. Throws Error(kBadInput) for an
-/// unknown target.
+/// The text for `target`, one of export_targets() (fitting/export/export_fit.hpp). For each
+/// resistance that the fit has, code contains a function of the gap [L]: viscontact_squeeze [M/T],
+/// viscontact_slide [M/T], viscontact_roll [M L^2/T], viscontact_slide_roll [M L/T] and
+/// viscontact_spin [M L^2/T], without the prefix in Python and MATLAB. Outside the interval of gaps
+/// it returns NaN (C, Fortran, MATLAB) or raises ValueError (Python). json and csv contain 201
+/// samples. `source` is the name of the fit's file, which the text states; it may be empty. Throws
+/// Error(kBadInput) for an unknown target.
 std::string export_pair(const PairFit& fit, std::string_view target, std::string_view source);
 
 }  // namespace viscontact::motions

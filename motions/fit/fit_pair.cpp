@@ -1,6 +1,7 @@
-// Makes a table of each resistance of a pair from the tables of the motions, and fits it
-// (fit_pair.hpp). Numbers are in the units of the tables. Tables that do not belong together are an
-// Error(kBadInput).
+// Makes a table of each resistance (entry of pair_fit.hpp) of a sphere beside a body at rest from
+// the tables of force and torque, and fits it. Numbers are in the units of the tables; the factors
+// of force and torque are those of lubrication/motion_table.hpp. Tables that do not belong together
+// are an Error(kBadInput). A change must keep the check that slide_roll is the same in both tables.
 #include "viscontact/motions/fit/fit_pair.hpp"
 
 #include <fmt/format.h>
@@ -20,11 +21,11 @@ using lubrication::MotionKind;
 using lubrication::MotionRow;
 using lubrication::MotionTable;
 
-/// An entry as a table of forces at the velocity -1, so that the force is the resistance.
+/// The table of an entry: forces at the velocity -1, which are equal to the resistance.
 struct EntryTable {
   MotionTable table;
-  std::vector<double> scales;  ///< FitSettings::row_scales
-  std::optional<double> theory;
+  std::vector<double> scales;    // what the residual of each row is relative to, > 0
+  std::optional<double> theory;  // theory's coefficient of the leading term, if known
 };
 
 /// Returns the first table. Throws Error(kBadInput) if the tables are of different pairs.
@@ -54,6 +55,7 @@ const MotionTable& first_of_pair(const PairTables& tables) {
   return first;
 }
 
+/// `pair` is any table of the pair, `of_motion` the table from which the rows will be made.
 EntryTable empty_table(const MotionTable& pair, const MotionTable& of_motion) {
   EntryTable entry;
   entry.table.viscosity = pair.viscosity;
@@ -74,7 +76,7 @@ void add_row(EntryTable& entry, double gap, double value, double scale, double e
   entry.scales.push_back(scale);
 }
 
-/// The resistance of a motion to itself: squeeze, slide, roll or spin.
+/// The table of squeeze, slide (force per velocity), roll or spin (torque per angular velocity).
 EntryTable diagonal_entry(const MotionTable& pair, const MotionTable& table) {
   EntryTable entry = empty_table(pair, table);
   if (table.motion == MotionKind::kApproach) {
@@ -98,7 +100,8 @@ EntryTable diagonal_entry(const MotionTable& pair, const MotionTable& table) {
   return entry;
 }
 
-/// slide_roll from one table, as the torque of sliding or the force of rolling, with its error.
+/// slide_roll at one gap [M L/T], from the torque of sliding or the force of rolling: its value and
+/// the estimate of its error. `diagonal` is slide [M/T] or roll [M L^2/T] from the same row.
 struct Coupling {
   double value = 0, error = 0, diagonal = 0;
 };
@@ -114,9 +117,11 @@ Coupling coupling_of(const MotionTable& pair, const MotionTable& table, const Mo
           units.torque * row.torque_factor};
 }
 
-/// Both values of slide_roll at a gap must agree, because the matrix is symmetric.
+/// Throws Error(kBadInput) if both values of slide_roll at a gap differ by more than their error
+/// estimates. They are equal by the reciprocal theorem.
 void check_symmetry(double gap, const Coupling& slide, const Coupling& roll) {
-  // Tables without estimates are compared to the precision that is usual for published ones.
+  // The difference that is allowed if the tables have no error estimates, relative to sqrt(slide
+  // roll): published tables usually have at least three digits.
   constexpr double kUnknown = 1e-3;
   const double scale = std::sqrt(slide.diagonal * roll.diagonal);
   const double error = slide.error + roll.error;
@@ -131,6 +136,8 @@ void check_symmetry(double gap, const Coupling& slide, const Coupling& roll) {
                     gap, slide.value, roll.value, allowed));
 }
 
+/// The table of slide_roll, from the tables of sliding and rolling (the mean of both values) or
+/// from the one that exists.
 EntryTable coupling_entry(const MotionTable& pair, const PairTables& tables) {
   const auto slide = tables.find(MotionKind::kSlide), roll = tables.find(MotionKind::kRoll);
   const bool slides = slide != tables.end(), both = slides && roll != tables.end();

@@ -1,6 +1,7 @@
-// The fits of all resistances of a pair (physics.md (2.12)) to the tables of its motions. Lengths,
-// masses and times are in the units of the tables. `fit` and `rolling` use it; a change must keep
-// that the matrix of resistances is checked to be symmetric.
+// Fits all resistances of a pair, a sphere beside a body at rest (pair_fit.hpp), to the tables of
+// force and torque in its motions: approach, slide, roll, spin. Lengths, masses and times are in
+// the units of the tables. Used by motions/job/ (commands `fit` and `rolling`) and the Python
+// module. A change must keep the check that the matrix of resistances is symmetric.
 #pragma once
 
 #include <map>
@@ -13,21 +14,22 @@
 
 namespace viscontact::motions {
 
-/// The tables of one pair by their motions, at least one of them.
+/// The tables of one pair by their motions, at least one table.
 using PairTables = std::map<lubrication::MotionKind, lubrication::MotionTable>;
 
-/// The choices of the fits of a pair, the same for all entries.
+/// The choices of the fits of a pair, the same for all resistances.
 struct PairFitSettings {
-  std::string basis{kDefaultPairBasis};                  ///< one of pair_bases()
-  lubrication::Loss loss = lubrication::Loss::kSquared;  ///< how strongly large residuals count
+  std::string basis{kDefaultPairBasis};  ///< one of pair_bases()
+  /// kSquared: least squares; kHuber, kCauchy: large residuals count less.
+  lubrication::Loss loss = lubrication::Loss::kSquared;
 };
 
-/// Fits the entries that the tables determine. Residuals of slide_roll are relative to the
-/// geometric mean of slide and roll, or, if one of these tables is missing, to slide times r or
-/// roll over r, with the radius r of the sphere; those of the other entries are relative to the
-/// entry. Throws Error(kBadInput) if the tables are of different pairs, if the neighbour has a
-/// velocity of its own, or if the torque of sliding and the force of rolling (both are slide_roll)
-/// differ by more than their error estimates; and the errors of fit_force_table().
+/// Fits the resistances (entries) that the tables determine. Residuals are relative to the entry,
+/// but those of slide_roll, which can be 0, are relative to sqrt(slide roll), or, if one of these
+/// tables is missing, to slide r or roll/r, with the radius r of the sphere. Throws
+/// Error(kBadInput) if there is no table, if the tables are of different pairs or have no gaps in
+/// common, if the neighbour moves, if the table of rolling lacks a gap of that of sliding, or if
+/// their slide_roll differ by more than their error estimates; and errors of fit_force_table().
 PairFit fit_pair(const PairTables& tables, const PairFitSettings& settings,
                  const StopToken& stop = {});
 

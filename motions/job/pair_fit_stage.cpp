@@ -1,6 +1,6 @@
-// Reads the tables of a pair, fits them, and prints the residuals (pair_fit_stage.hpp). Numbers are
-// in the units of the tables. An incomplete folder is an Error(kBadInput) with the remedy. A change
-// must keep that a fit that did not change is not written again.
+// Finds and reads the tables of a sphere beside a body at rest, fits them, and prints the
+// residuals. Numbers are in the units of the tables. A folder in which a table is missing is an
+// Error(kBadInput) with the remedy. A change must not write a fit again that did not change.
 #include "viscontact/motions/job/pair_fit_stage.hpp"
 
 #include <fmt/format.h>
@@ -38,8 +38,8 @@ fs::path table_of(const fs::path& folder, MotionKind motion) {
   return folder / fmt::format("{}.csv", to_string(motion));
 }
 
-/// True if the file is where the command that made it wrote it. A file whose provenance names no
-/// folder, or that has none, counts as one that is.
+/// False if the file was copied: its provenance, the record in the file of how it was made, names
+/// another path. True if there is no provenance or no path in it.
 bool is_where_made(const fs::path& file) {
   const auto provenance = results::read_provenance(file);
   if (!provenance || provenance->folder.empty()) return true;
@@ -47,7 +47,8 @@ bool is_where_made(const fs::path& file) {
          fs::weakly_canonical(file);
 }
 
-/// For a message: why a table of the tabulation that made `file` may be missing, and the remedy.
+/// Part of a message: why `folder` may lack a table that was asked for together with `file`, and
+/// what the user can do. `motions` are the motions that were asked for.
 std::string reason_and_remedy(const fs::path& folder, const fs::path& file,
                               const std::string& motions) {
   const auto name = file.filename().string();
@@ -64,9 +65,8 @@ std::string reason_and_remedy(const fs::path& folder, const fs::path& file,
       name, motions, name, rerun, shell_word(folder.string()));
 }
 
-/// Throws Error(kBadInput) if a table of the folder names a motion of its tabulation whose table is
-/// missing: the tabulation was interrupted, has not ended yet, or only a part of its tables was
-/// copied into the folder.
+/// Throws Error(kBadInput) if the head of one of `files` names a motion whose table is not in the
+/// folder: the tables are not all computed yet, or only some of them were copied.
 void check_complete(const fs::path& folder, const std::vector<fs::path>& files) {
   for (const auto& file : files) {
     auto comments = read_csv_comments(read_file(file));
