@@ -37,9 +37,9 @@ class HeldMotion {
 
   /// By how much the sums of the rows must change, so that hinges and arms hold after a step with
   /// these velocities, in which bodies turn by finite angles [L/T, 1/T]; 0 for the other rows. For
-  /// a spring of which an end accelerates it is the error of the equation at HeldRow::stiffness,
-  /// divided by theta h stiffness, with the force `row_forces` of the row so far, the finite
-  /// extension, and its HeldSolver::thetas() among `thetas`.
+  /// a spring of which an end accelerates it is minus the error of the equation at
+  /// HeldRow::stiffness over theta h stiffness, with the force among `row_forces`, the finite
+  /// change of the extension, and the theta among `thetas` (HeldSolver::thetas()).
   std::vector<double> missing(std::span<const double> velocities,
                               std::span<const double> row_forces,
                               std::span<const double> thetas) const;
@@ -69,9 +69,9 @@ class HeldMotion {
   void keep_torques(std::span<const double> velocities, std::span<const double> of_fluid,
                     std::span<double> forces) const;
 
-  /// Velocity [L/T] of the centre of a body and its angular velocity [1/T]: means over its members,
-  /// weighted with their masses. In a sheared periodic cell they contain the velocities of those
-  /// images of the members that are at their places in the body.
+  /// Velocity [L/T] of the centre of a body and its angular velocity [1/T]: means over its members
+  /// by mass, or equal ones without mass. In a sheared periodic cell the velocities are those of
+  /// the images of the members that are at their places in the body.
   UnitMotion motion_of_body(std::size_t body, std::span<const double> velocities) const;
 
   /// Rate [L/T] at which the length of arm `k` grows with these velocities, in the direction that
