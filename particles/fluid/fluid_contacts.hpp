@@ -135,9 +135,9 @@ StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const 
 /// with W. It changes the time, and results by rounding.
 inline constexpr std::size_t kMostDenseContacts = 24;
 
-/// Finds the impulses p of contacts with gaps D and the rows G, such that p >= gamma, D + h G v >= 0
-/// if p = gamma, and D + h G v = 0 if p > gamma, with v = free velocities + mobility(G^T p/h). This
-/// is the dual problem (5.4) of docs/physics.md with W = G mobility G^T in place of h G M^-1 G^T.
+/// Finds the impulses p of contacts with gaps D and rows G such that p >= gamma, D + h G v >= 0 if
+/// p = gamma, and D + h G v = 0 if p > gamma, with v = free velocities + mobility(G^T p/h). This is
+/// the dual problem (5.4) of docs/physics.md with W = G mobility G^T in place of h G M^-1 G^T.
 ///
 /// If contacts are few, W is assembled, and Newton's method on the set of contacts with p > gamma
 /// solves the problem, or, if it cycles, MPRGP: conjugate gradients with gradient projection. If
@@ -328,14 +328,14 @@ ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Par
 
 /// Solves for contacts as solve_listed(), with the friction of `step.frictions` and its coefficient
 /// `mu_s` >= 0 [1]. If Coulomb's law is not reached within the tolerances, `step.is_solved` is
-/// false, and the friction is bounded by mu_s times loads from an earlier iteration (docs/physics.md
-/// (5.17)); gaps and films are exact for this friction. Throws what the mobility throws.
+/// false, and the friction is bounded by mu_s times loads from an earlier iteration,
+/// docs/physics.md (5.17); gaps and films are exact for it. Throws what the mobility throws.
 void solve_with_friction(StepContacts& step, double mu_s, const Mobility& mobility,
                          const ContactConditions& conditions);
 
-/// The power [M L^2/T^3] that friction turns into heat in the step, >= 0 up to the tolerances: minus
-/// the sum of force times velocity of slip over all contacts, for the velocities with which the
-/// particles move.
+/// The power [M L^2/T^3] that friction turns into heat in the step, >= 0 up to the tolerances:
+/// minus the sum over all contacts of force times velocity of slip, for the velocities with which
+/// the particles move.
 double heat_of_friction(const StepContacts& step, std::span<const double> velocities,
                         const ContactConditions& conditions);
 

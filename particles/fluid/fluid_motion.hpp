@@ -88,11 +88,11 @@ struct FluidSimulation::Motion {
   std::vector<double> link_forces,  ///< State::link_forces after the step
       arm_powers;                   ///< State::arm_powers after the step [M L^2/T^3]
   std::vector<double> at_end;       ///< velocities at the end of the step
-  std::vector<double> reported;  ///< `at_end` extrapolated from two meshes; empty without estimate
-  std::vector<double> kept;      ///< in a fluid with inertia: velocities that keep_flow() gets
-  StepContacts contact;          ///< the contacts of the step, solved
-  std::optional<FluidBlow> blow;       ///< takes the place of `contact` if solids rebound
-  std::vector<double> after;           ///< velocities after the blow; without one as `linear`
+  std::vector<double> reported;   ///< `at_end` extrapolated from two meshes; empty without estimate
+  std::vector<double> kept;       ///< in a fluid with inertia: velocities that keep_flow() gets
+  StepContacts contact;           ///< the contacts of the step, solved
+  std::optional<FluidBlow> blow;  ///< takes the place of `contact` if solids rebound
+  std::vector<double> after;      ///< velocities after the blow; without one as `linear`
   std::vector<double> impulse_errors;  ///< StepResiduals::impulse_errors of contact.contacts
   FluidStepReport fluid;               ///< what the step reports
   FlowQuantities quantities;           ///< dissipation, apparent viscosity and forces of the flow

@@ -98,7 +98,7 @@ class FluidSimulation {
   FlowField flow() { return solver_->flow(); }
 
   /// The flow around the particles where they are now. It solves the problem of the next step,
-  /// whose length is that of the setting, and changes no state. Throws the errors of step().
+  /// whose length is that of the setting, and moves nothing. Throws the errors of step().
   FlowField flow_at_present();
 
   /// Forces and torques of the fluid on the particles in the last step [M L/T^2, M L^2/T^2],

@@ -54,8 +54,8 @@ std::vector<double> mean_forces(const Setting& setting, const Particles& p,
                                 double from, double to) {
   std::vector<double> forces(p.count() * layout.components);
   for (std::size_t k = 0; k < p.count(); ++k) {
-    // Mass of the fluid that the particle displaces, whose weight is the buoyancy; 0 in Stokes flow,
-    // for which the density is 0.
+    // Mass of the fluid that the particle displaces, whose weight is the buoyancy. In Stokes flow
+    // the density is 0.
     const double displaced =
         setting.fluid->density * setting.fluid->size_of(p.dimension, k, p.radii[k]);
     for (std::size_t d = 0; d < layout.directions(); ++d)
