@@ -1,7 +1,6 @@
 // Dissipation of the fluid without particles (dissipation_alone.hpp) in closed form, for linear
 // flows and plane Couette flow. Units are those of the arguments; nothing is thrown. A change must
-// keep that the result is exactly 0 where no closed form is known, because callers take 0 for "not
-// known".
+// keep that the result is exactly 0 if no closed form is known: callers take 0 for "not known".
 #include "viscontact/freefem_flow/dissipation_alone.hpp"
 
 namespace viscontact::freefem_flow {

@@ -40,11 +40,9 @@ struct SolverUnits {
 SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain& domain,
                          std::span<const double> radii);
 
-/// The fluid with its numbers in the units of the solver.
+/// The fluid, the domain and lengths [L] with their numbers in the units of the solver.
 particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units);
-/// The domain with its lengths and velocities in the units of the solver.
 particles::Domain in_units(particles::Domain domain, const SolverUnits& units);
-/// The lengths [L] in the unit of the solver.
 std::vector<double> in_units(std::span<const double> lengths, const SolverUnits& units);
 
 /// A fluid solver in the units of the case, which asks a solver that computes in other units.
@@ -63,8 +61,7 @@ class ScaledSolver : public particles::FluidSolver {
   particles::SecondMesh vary_mesh() override { return solver_->vary_mesh(); }
   particles::FlowField flow() override;
   void keep_flow(bool at_rest, std::span<const double> motions) override;
-  // The saved flow stays in the units of the solver: a later run of the case computes the same
-  // units.
+  // The saved flow stays in the solver's units, which a later run of the case computes again.
   std::string saved_flow() override { return solver_->saved_flow(); }
   void load_flow(const std::string& flow) override { solver_->load_flow(flow); }
   std::size_t unknowns() const override { return solver_->unknowns(); }
@@ -245,8 +242,7 @@ std::string script_of(particles::FluidMesh mesh, int dimension) {
 /// little shorter than the arcs that they replace.
 constexpr double kShortestEdge = 2.2e-7;
 
-/// The larger side [L] of the rectangle around the mesh of a domain. The mesh of a cylinder covers
-/// half of its section, from the axis to the side.
+/// The larger side [L] of the rectangle around a mesh. That of a cylinder is half of its section.
 double extent_of(const particles::Domain& domain) {
   if (const auto* disc = std::get_if<particles::DiscDomain>(&domain)) return 2 * disc->radius;
   if (const auto* box = std::get_if<particles::BoxDomain>(&domain))

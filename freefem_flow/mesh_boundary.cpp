@@ -1,7 +1,7 @@
 // Puts the boundary of a mesh together from walls, periodic sides, the axis of a cylinder and the
 // surfaces of the particles (mesh_boundary.hpp). Lengths are in the unit of the arguments. A gap
 // that is too narrow is an Error(kNotConverged). A change must keep that opposite periodic sides
-// get the same points, because FreeFEM identifies them.
+// get the same points, because scripts/constraints.idp identifies these.
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 
 #include <fmt/format.h>
@@ -84,10 +84,10 @@ class BoundaryMaker {
     boundary_.add(points, label);
   }
 
-  /// Adds the surfaces of the particles. If the inside of a particle is meshed, too, a polygon of
-  /// kLeastOnCircle edges in it makes this part of the mesh coarse: FreeFEM derives the size of
-  /// triangles from the edges of the nearest curves. A few triangles suffice, because they
-  /// represent a rigid motion exactly. Its radius, half that of the particle, is a free choice.
+  /// Adds the surfaces of the particles. If the inside of a particle is meshed, too, a polygon in
+  /// it with few edges, kOfRadius times as large, makes this part of the mesh coarse: FreeFEM
+  /// derives the size of triangles from the nearest edges, and a few triangles represent a rigid
+  /// motion exactly. Both constants are free choices.
   void add_particles() {
     if (!fitted_) return;
     for (std::size_t k = 0; k < lengths_.outlines().size(); ++k) {
@@ -149,7 +149,6 @@ class BoundaryMaker {
     side({a[0], b[1]}, {a[0], a[1]}, 1, box.periodic[0]);
   }
 
-  /// Adds the walls and the periodic lines between the particles of a periodic box.
   void add_cells(const particles::BoxDomain& box) {
     const auto edges = periodic_cells(box, lengths_.outlines());
     std::vector<std::vector<Point>> points(edges.size());
@@ -221,8 +220,7 @@ void check_unions(const particles::Fluid& fluid, const particles::Particles& par
   for (std::size_t k = 0; k < fluid.cut_areas.size(); ++k) {
     double area = 0;
     for (const auto& chord : chords_of(fluid, particles, k)) area += chord.area;
-    // Above the rounding errors of positions that move with their body; far below a real overlap.
-    constexpr double kRounding = 1e-9;
+    constexpr double kRounding = 1e-9;  // of positions that move with their body
     if (std::abs(area - fluid.cut_areas[k]) > kRounding * particles.radii[k] * particles.radii[k])
       throw Error(ErrorKind::kNotConverged,
                   fmt::format("particle {} overlaps one of its body across a side of the period, "

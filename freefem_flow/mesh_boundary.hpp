@@ -28,7 +28,7 @@ struct MeshBoundary {
   struct Curve {
     int first = 0;  ///< the curve goes through the points first, first + 1, ..., first + edges
     int edges = 0;  ///< number of edges, > 0
-    int label = 0;  ///< one of the labels above
+    int label = 0;  ///< as above, or that of a membrane (membranes/membrane_boundary.hpp)
   };
   std::vector<std::array<double, 2>> points;  ///< (x, y), or (distance from the axis, z) [L]
   std::vector<Curve> curves;                  ///< they may share points
@@ -44,12 +44,10 @@ struct MeshBoundary {
 /// as `fluid.edges_per_particle` says. With `fluid.mesh` kFixed the particles are not in it. With
 /// kFitted their surfaces are curves, which are holes of the mesh if `fluid.constraint` is kRigid,
 /// and else lines inside it; edges are shorter where a gap is narrow (boundary/edge_lengths.hpp);
-/// and in a box with periodic sides the mesh ends on lines between particles and not at these
-/// sides, which would cut particles (boundary/periodic_cells.hpp). All gaps must be > 0, but discs
-/// of one body may overlap with kRigid.
-///
-/// Throws Error(kNotConverged) if a gap is too narrow for an edge, or if discs of one body overlap
-/// across a periodic side, and std::bad_variant_access if there is no domain.
+/// and a box with periodic sides ends on lines between particles, because these sides would cut
+/// particles (boundary/periodic_cells.hpp). All gaps must be > 0, but discs of one body may overlap
+/// with kRigid. Throws Error(kNotConverged) if a gap is too narrow for an edge, or if discs of one
+/// body overlap across a periodic side, and std::bad_variant_access if there is no domain.
 MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
                            const particles::FluidParticles& bodies, double coarsening = 1);
 

@@ -26,9 +26,9 @@ using Point = std::array<double, 2>;
 /// std::bad_variant_access if there is no domain.
 double size_of(const particles::Domain& domain);
 
-/// Lengths [L], > 0, of the edges on surfaces of particles, walls, the axis of a cylinder and
-/// periodic sides. In a periodic domain the images of a particle, which are the particle shifted by
-/// a period, count as particles. The lengths are 0 or less where surfaces touch or overlap.
+/// Lengths [L] of the edges on surfaces of particles, walls, the axis of a cylinder and periodic
+/// sides; <= 0 where surfaces touch or overlap. In a periodic domain the images of a particle,
+/// which are the particle shifted by a period, count as particles.
 class EdgeLengths {
  public:
   /// `fluid` gives the number of edges on the smallest particle; all lengths are multiplied by
@@ -44,17 +44,14 @@ class EdgeLengths {
   /// it is also at most 2 pi/edges_per_particle times the radius of curvature at the point.
   double on_outline(std::size_t k, double t) const;
 
-  /// At a point on a wall: the length increases with the distance from the nearest particle, and is
-  /// smaller if this distance is small.
+  /// At a point on a wall: the length increases with the distance from the nearest particle.
   double on_wall(const Point& x) const;
 
   /// At a point of the fluid, such as one on the axis or on a periodic side: the length increases
-  /// with the distance from the nearest particle, and is smaller if the two nearest surfaces, of
-  /// which one may be a wall, have a narrow gap.
+  /// with the distances from the two nearest surfaces, of which one may be a wall.
   double in_fluid(const Point& x) const;
 
-  /// The length of an edge on the smallest particle, for meshes whose edges do not follow the
-  /// particles and are equally long everywhere.
+  /// The length of an edge on the smallest particle, for meshes whose edges are all equally long.
   double uniform() const { return longest_; }
 
   /// Outlines of all particles, in their order.
@@ -62,8 +59,7 @@ class EdgeLengths {
 
  private:
   double distance_to_wall(const Point& x) const;
-  /// Distances [L] to the nearest and the second nearest particle or image; infinite if there is
-  /// none.
+  /// Distances [L] to the nearest and the second nearest particle or image; infinite without any.
   std::array<double, 2> distances_to_particles(const Point& x) const;
 
   particles::Domain domain_;

@@ -1,9 +1,8 @@
 // Computes the edges where a mesh of a periodic box ends (periodic_cells.hpp). The cell of each
-// particle is a convex polygon, cut out by one line for each neighbour. Corners that are very near
-// to each other are joined, and the edges are kept that lie on a wall or between a particle and an
-// image, which is a particle shifted by whole periods. Lengths are in the unit of the arguments;
-// nothing is thrown. A change must keep that an edge and its partner differ by a period only,
-// because the mesh is not periodic otherwise.
+// particle is a convex polygon. Corners that are very near to each other are joined, and the edges
+// are kept that lie on a wall or between a particle and an image, which is a particle shifted by
+// whole periods. Lengths are in the unit of the arguments; nothing is thrown. A change must keep
+// that an edge and its partner differ by a period only, because a mesh is not periodic otherwise.
 #include "viscontact/freefem_flow/boundary/periodic_cells.hpp"
 
 #include <algorithm>
@@ -84,9 +83,8 @@ Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
                   {{high[0], low[1]}, {-1, 2, {}}},
                   {{high[0], high[1]}, {-1, 4, {}}},
                   {{low[0], high[1]}, {-1, 1, {}}}};
-  // Lines to near particles cut the cell first. The cell is then so small that the lines to most
-  // other particles do not reach it. Within the distance sqrt(near) there are about 50 particles;
-  // it changes only the time.
+  // Lines to near particles, some 50 within the distance sqrt(near), cut the cell first. It is then
+  // so small that the lines to most others do not reach it. The number changes only the time.
   const double near = 16 * period[0] * period[1] / static_cast<double>(circles.size());
   double reach = square_of_reach(cell, own.centre);
   for (const bool is_near : {true, false})
@@ -110,8 +108,7 @@ Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
   return cell;
 }
 
-/// Gives one place to corners that are close together, also if they are close only after a shift by
-/// whole periods.
+/// Gives one place to corners that are close together, if need be after a shift by whole periods.
 class Corners {
  public:
   Corners(const particles::BoxDomain& box, std::span<const particles::Outline> circles)
@@ -147,8 +144,7 @@ class Corners {
       }
     return x;
   }
-  /// Distance [L] of x from the nearest surface of a particle or image, at most the larger side of
-  /// the box.
+  /// Distance [L] of x from the nearest particle or image, at most the larger side of the box.
   double distance(const Point& x) const {
     double least = std::max(box_.to[0] - box_.from[0], box_.to[1] - box_.from[1]);
     for (const auto& circle : circles_) {

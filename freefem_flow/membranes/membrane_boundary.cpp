@@ -1,7 +1,7 @@
 // Puts the boundary of a mesh together from walls, periodic sides, rigid discs and membranes
 // (membrane_boundary.hpp). Lengths have the unit of the arguments. Curves that leave the domain or
 // meet are an Error(kNotConverged). A change must keep that opposite periodic sides get the same
-// points, because FreeFEM identifies them.
+// points, because scripts/constraints.idp identifies these.
 #include "viscontact/freefem_flow/membranes/membrane_boundary.hpp"
 
 #include <fmt/format.h>
@@ -73,9 +73,8 @@ class WantedEdges {
 
  private:
   // kGrowth: increase of the edge length per distance from a curve with 24 edges. kEdgesOfAWall:
-  // least number of edges across the domain. kOfGap: largest edge over the distance from a curve,
-  // as long as this is more than an eighth of an edge of that curve, so that narrow gaps do not
-  // cost many edges. The numbers are free choices; larger edges are less accurate.
+  // least number of edges across the domain. kOfGap: largest edge over the distance from a curve;
+  // an eighth of the edges of that curve is always allowed. Free choices.
   static constexpr double kGrowth = 0.25, kEdgesOfAWall = 6, kOfGap = 0.5;
   const InnerCurves& curves_;
   double cap_;  // the longest edge [L]

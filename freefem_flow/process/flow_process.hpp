@@ -77,7 +77,6 @@ class FlowProcess : public particles::FluidSolver {
   double peak_memory_mebibytes() const override;
 
  private:
-  /// Starts a process in place of the present one, if there is one.
   void start();
   /// Sends placement_ with this boundary. Returns the number of unknowns.
   std::size_t ask_to_place(const std::string& boundary);

@@ -75,8 +75,7 @@ class SolverDialogue {
   std::string request_;                  ///< first word of the last request
   std::string awaited_;                  ///< first word of the answer that is expected
   std::int64_t requests_ = 0;
-  // How many numbers numbers() is to read, 0 outside of it, and how many it has read.
-  std::size_t numbers_asked_ = 0, numbers_read_ = 0;
+  std::size_t numbers_asked_ = 0, numbers_read_ = 0;  ///< by numbers(); 0 outside of it
   ChildProcess::Clock::time_point asked_at_{};
 };
 

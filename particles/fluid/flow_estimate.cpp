@@ -48,9 +48,9 @@ double largest(std::span<const double> of, const Particles& particles, int power
   return result;
 }
 
-/// For each component of a force in the plane the larger one of the changes of the force and of the
-/// torque over the radius on this particle; for a torque that times the radius. A component whose
-/// change is small by chance then gets no error that is too small.
+/// The changes of forces in the plane, with one value for all loads on a particle: the larger one
+/// of the change of its force and of its torque over the radius, for the torque times the radius.
+/// A load whose change is small by chance then gets no error that is too small.
 std::vector<double> of_loads(std::span<const double> changes, const Particles& particles) {
   auto result = lengths(changes, motion_components(particles.dimension));
   if (particles.dimension == 1) return result;

@@ -1,8 +1,7 @@
 // Examines a step in a fluid and changes the state by it: functions of FluidSimulation that its
-// step() calls. gamma <= 0 is minus the impulse that the film of a contact has absorbed. Lengths,
-// masses and times are in any consistent units. A step that is refused is an Error(kNotConverged).
-// A change must keep the state before the step in that case, and that a continued run gives the
-// same bits.
+// step() calls. Lengths, masses and times are in any consistent units. A step that is refused is an
+// Error(kNotConverged), which must leave the state as it was. A change must also keep that a
+// continued run gives the same bits as one without a break.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -82,8 +81,7 @@ void FluidSimulation::remember_friction(const StepContacts& step, double share) 
   }
 }
 
-/// Changes the state by a step of length h [T] that ends at the time `next` [T]; counts contacts in
-/// the report.
+/// Changes the state by a step of length h that ends at `next` [T]; counts contacts in the report.
 void FluidSimulation::accept(Motion motion, double h, double next, StepReport& report) {
   auto& p = state_.particles;
   state_.pairs = std::move(motion.contact.pairs);

@@ -22,8 +22,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// The key by which pairs are sorted: obstacles -1, -2, ... in this order, or the number of the
-/// first particle; then the second particle, its image and the place of the contact.
+/// The key by which pairs are sorted. Obstacles are in the order -1, -2, ...
 auto place_of_pair(const Pair& pair) {
   return std::tuple(std::max(pair.first, -1 - pair.first), pair.second, pair.image, pair.place);
 }
@@ -123,12 +122,10 @@ bool has_plate(const Fluid& fluid, std::int32_t first, std::int32_t second) {
   return fluid.is_plate(index_of(second)) || (first >= 0 && fluid.is_plate(index_of(first)));
 }
 
-/// The torque of a force at the end of `arm`.
 double cross(const std::array<double, 2>& arm, const std::array<double, 2>& force) {
   return arm[0] * force[1] - arm[1] * force[0];
 }
 
-/// The component of `arm` along `normal`.
 double along(const std::array<double, 2>& arm, const std::array<double, 2>& normal) {
   return arm[0] * normal[0] + arm[1] * normal[1];
 }
@@ -265,9 +262,9 @@ Particles moved(const Particles& p, std::span<const double> velocities, double h
   return result;
 }
 
-/// Adds to the gaps of contacts of plates the difference between the gap after the step, in which
-/// plates turn by finite angles, and the linearised one. Returns false, and changes nothing, if the
-/// difference is at most a quarter of the tolerance for each contact that matters.
+/// Adds to the gaps of contacts of plates what the gap after the step, in which plates turn by
+/// finite angles, exceeds the linearised one. Returns false, and changes nothing, if that is at
+/// most a quarter of the tolerance for each contact that may act.
 bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
                    std::span<const PlanePosition> obstacles, const ContactConditions& conditions) {
   const double h = conditions.h;

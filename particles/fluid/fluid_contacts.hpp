@@ -63,8 +63,7 @@ inline double fastest(std::span<const double> velocities, const MotionLayout& la
   return largest;
 }
 
-/// Adds a contact force [M L/T^2] to the forces and torques on all particles, G^T force. A positive
-/// force pushes both particles apart.
+/// Adds a contact force [M L/T^2], > 0 if it pushes, to the forces and torques on all particles.
 inline void add_contact_force(const Contact<2>& contact, double force, std::span<double> forces,
                               const MotionLayout& layout) {
   for (std::size_t d = 0; d < layout.directions(); ++d) {
@@ -112,16 +111,15 @@ inline double rounding_error_of_gaps(const ContactConditions& conditions) {
              fastest(conditions.free_velocities, conditions.layout);
 }
 
-/// Contact::w of a contact whose gap hinges hold, so that no force of the contact can change it.
-/// Such a contact takes no part.
+/// Contact::w of a contact that takes no part, because hinges hold its gap.
 inline constexpr double kHeld = -1;
 
 /// Sets Contact::allowed, the allowed residual [L], from the tolerances of gaps and impulses. For
 /// contacts with w <= 0, which take no part, it is the tolerance of gaps alone.
 ///
-/// Returns the impulses at work in each contact [M L/T]: for each particle the largest of the
-/// impulses of its contacts, and of those that would keep their gaps from changing without contact;
-/// of the two particles of the contact the smaller value.
+/// Returns the impulses at work in each contact [M L/T]. For a particle this is the largest of the
+/// impulses of its contacts and of those that alone would keep their gaps from changing; for a
+/// contact it is the smaller value of its two particles.
 std::vector<double> set_allowed(std::span<Contact<2>> contacts,
                                 const ContactConditions& conditions);
 

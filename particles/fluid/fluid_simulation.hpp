@@ -35,12 +35,9 @@ struct ForceErrors {
 };
 
 /// Rigid particles in a fluid. Each step asks the fluid solver for the velocities that the
-/// particles take at their places under forces, torques and contact forces, and moves them. The
-/// contact forces are found
-///
-/// - with Coupling::kConstrained in the problem of the fluid, on which they act;
-/// - with Coupling::kSplitting by a projection of the fluid's velocities onto those that keep gaps
-///   open, in the norm of the masses.
+/// particles take at their places under forces, torques and contact forces, and moves them. With
+/// Coupling::kConstrained contact forces act on the fluid; with Coupling::kSplitting the velocities
+/// that the fluid gives are projected onto those that keep gaps open, in the norm of the masses.
 ///
 /// Away from contact a step is of second order. Step n, of length h^n = h, begins at the time t^n
 /// with the places x^n and the velocities u^n. S^n g are the velocities that the fluid gives the
@@ -74,11 +71,12 @@ class FluidSimulation {
   /// has no flow, and the errors of FluidSolver::load_flow().
   FluidSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
 
-  /// Computes one step of length h, shorter if `end` [T] is nearer; see Simulation::step. In the
-  /// first step of a simulation and in the step that reaches `end`, it estimates the error of the
-  /// velocities and forces. Throws Error(kNotConverged) if no solution of the contacts is found
-  /// that keeps overlaps below the mean radius, or if a particle moves too far for the precision of
-  /// a double; and the errors of FluidSolver. The state is then that before the step.
+  /// Computes one step of length Setting::time_step, or less if `end` [T] is nearer. In the first
+  /// step of a simulation and in the one that reaches `end` it estimates the errors of velocities
+  /// and forces, without inertia of the fluid. Throws the errors of FluidSolver, and
+  /// Error(kNotConverged) if an overlap of more than the mean radius is left, if links do not hold,
+  /// if an ellipse or plate touches where it must not, or if a particle moves too far for the
+  /// precision of a double. The state is then that before the step.
   StepReport step(double end);
 
   /// Forces of the caller on the particles [M L/T^2], which the caller may change between steps, in

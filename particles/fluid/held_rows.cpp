@@ -17,7 +17,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// True if a link must hold exactly after a step: a hinge or an arm, not a spring.
+/// True for a hinge or an arm, which must hold exactly after a step.
 bool is_exact(const LinkEquations& link) {
   return link.kind == LinkEquations::Kind::kHinge || link.kind == LinkEquations::Kind::kArm;
 }
@@ -47,8 +47,7 @@ HeldMotion::HeldMotion(const Links& links, const Particles& particles, const Lin
   turn_rows();
 }
 
-/// The time [T] from the beginning of the step at which links act on a particle; < 0: it does not
-/// accelerate.
+/// The time [T] in the step at which links act on a particle; < 0: it does not accelerate.
 double HeldMotion::link_time(std::int32_t particle) const {
   return link_times_.empty() ? -1 : link_times_[index_of(particle)];
 }

@@ -1,8 +1,8 @@
-// Computes the terms of the equation of motion of a step in a fluid: forces, inertia, given motions
-// and theta, which says how implicit the step is: U = theta u^{n+1} + (1 - theta) u^n for the
-// velocities U in the step from u^n to u^{n+1} (step_equation.hpp). A component is a direction or
-// the rotation of a particle. Units are those of the arguments. Nothing is checked or thrown. A
-// change must keep the second order in time away from contact.
+// Computes the terms of the equation of motion of a step in a fluid (step_equation.hpp): forces,
+// inertia, given motions and theta, with which the velocities in the step are theta times those at
+// its end plus 1 - theta times those at its beginning. A component is a direction or the rotation
+// of a particle. Units are those of the arguments; nothing is checked or thrown. A change must keep
+// the second order in time away from contact.
 #include "viscontact/particles/fluid/step_equation.hpp"
 
 #include <algorithm>
@@ -263,8 +263,7 @@ double StepEquation::theta_of_body(const RigidBody& body) const {
 
 /// The Stokes drag per velocity of a sphere [M/T], or the torque per angular velocity of a disc
 /// [M L/T]. A disc that translates in an unbounded fluid has no drag in proportion to its velocity
-/// (Stokes' paradox); 4 pi mu [M/(L T)] is taken in its place, which has the right dimension per
-/// unit length.
+/// (Stokes' paradox); 4 pi mu [M/(L T)], of the right dimension, is taken in its place.
 double StepEquation::stokes_drag(std::size_t k, std::size_t component) const {
   const double r = state_.particles.radii[k], mu = setting_.fluid->viscosity;
   constexpr double kPi = std::numbers::pi;
