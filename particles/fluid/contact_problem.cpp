@@ -63,9 +63,9 @@ int estimate_w(std::span<Contact<2>> contacts, std::size_t motions, const Mobili
   return static_cast<int>(groups);
 }
 
-/// The dual problem (dual_problem.hpp) with one call of the mobility for each product with W. A
-/// vector y = B z holds the displacements that the impulses p = z/scale of contacts cause, and then
-/// the impulses on the particles. The inner product of both is z^T W z.
+/// The problem in the unknowns z = sqrt(w) p, with the impulses p (dual_problem.hpp), and with one
+/// call of the mobility for each product with W. A vector y = B z holds the displacements that the
+/// impulses cause, and then the impulses on the particles. Their inner product is p^T W p.
 class FluidDualProblem : public DualProblem {
  public:
   /// `contacts` have w > 0 and `allowed` > 0.
@@ -128,8 +128,7 @@ Eigen::MatrixXd dense_w(std::span<const Contact<2>> contacts,
   return w;
 }
 
-/// The dual problem of few contacts, with the matrix W itself. A vector y = B z holds W z, and then
-/// z.
+/// The same problem with the scaled matrix itself. A vector y = B z holds `w` z, and then z.
 class DenseDualProblem : public DualProblem {
  public:
   /// The matrix of the problem is the symmetric part of `full_w`, dense_w() of the contacts. If W
@@ -176,7 +175,7 @@ class DenseDualProblem : public DualProblem {
   mutable ThreadPool pool_{1};
 };
 
-/// A factor of W between chosen contacts, for active_set_newton().
+/// Solves with the scaled W of chosen contacts, for active_set_newton().
 class DenseFactor {
  public:
   /// `error_of_w` >= 0 is the relative error of W.

@@ -1,8 +1,9 @@
 // Lists pairs that are close to contact, chooses the contacts of a step among them and measures
-// their residuals (fluid_contacts.hpp). A plate is a particle with straight sides and round ends:
-// all points at one distance from its spine, a line. Units are those of the arguments. Errors are
-// those of the mobility, and Error(kNotConverged) for plates that overlap. A change must keep the
-// order of pairs, which is that of the files.
+// their residuals (fluid_contacts.hpp). gamma <= 0 is minus the impulse that the film of a pair has
+// absorbed. A plate is a particle with round ends: all points at one distance from a line, its
+// spine. Units are those of the arguments. Errors are those of the mobility, and
+// Error(kNotConverged) for plates that overlap. A change must keep the order of pairs, which files
+// of contacts and restart files have.
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 #include <fmt/format.h>
@@ -27,8 +28,8 @@ auto place_of_pair(const Pair& pair) {
   return std::tuple(std::max(pair.first, -1 - pair.first), pair.second, pair.image, pair.place);
 }
 
-/// Sorts `pairs`. A pair that is also in `before` gets the memory it has there, and those of
-/// `before` with gamma < 0, which are glued by a film, are added.
+/// Sorts `pairs`. A pair that is also in `before` gets the memory it has there, and the pairs of
+/// `before` with gamma < 0 are added.
 void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
   std::ranges::sort(pairs, {}, place_of_pair);
   std::ranges::sort(before, {}, place_of_pair);

@@ -1,11 +1,11 @@
 // Solves Coulomb's law of contacts in a fluid (docs/physics.md (6.14), fluid_contacts.hpp): the
-// friction is at most mu_s times the load of the solids, and equal to it if the surfaces slip. A
-// round has two parts. First solve_listed() finds the normal impulses that keep the gaps open with
-// the friction found so far, and which contacts take part. Then, if the law does not hold yet,
-// solve_constraints() finds the normal and tangential impulses of all these contacts together, as
-// for particles without a fluid. Impulses are in [M L/T], gaps and slips in [L]. Errors are those
-// of the mobility. A change must keep that the first part comes last, so that gaps are exact for
-// the friction found.
+// friction is at most mu_s, its coefficient, times the load of the solids, and equal to this bound
+// if they slide. There are rounds of two parts. First solve_listed() finds the normal impulses that
+// keep the gaps open with the friction found so far, and which contacts take part. Then, if the law
+// does not hold yet, solve_constraints() finds the normal and tangential impulses of all these
+// contacts together, as for particles without a fluid. Impulses are in [M L/T], gaps and slips in
+// [L]. Errors are those of the mobility. A change must keep that the first part comes last, so that
+// gaps are exact for the friction found.
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -135,8 +135,8 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
     return free;
   auto now = equation.right_side();
   if (held != nullptr) {
-    // Bodies have turned since the step before. Its velocities are replaced by those of the same
-    // rigid motion at the present places of the members.
+    // Bodies have turned since the step before. The velocities of their members in that step are
+    // replaced by those that the same rigid motion has at the present places of the members.
     held->make_rigid(earlier);
     add_elements(held_->forces_of_step(), now);
   }

@@ -95,7 +95,7 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
       row.name = fmt::format("body {}", number);
       row.accelerates = link_time(first) >= 0;
       row.entries = {{layout_.at(member, d), 1}, {layout_.at(first, d), -1}};
-      // The rotation of the body adds the angular velocity times the vector `apart`, turned.
+      // The rotation of the body adds its angular velocity times `apart`, turned by 90 degrees.
       if (d < 2) {
         row.entries.emplace_back(layout_.at(first, 2), d == 0 ? apart[1] : -apart[0]);
         row.image_rate = of_images[m][d] - of_images[0][d];
@@ -273,8 +273,8 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
     }
   }
   // With x = W^(-1/2) times the change of the velocities, W the diagonal matrix `mobility`, the
-  // rows are matrix x = right, and x is the shortest solution. The forces f obey matrix^T f = x;
-  // those of redundant rows are the smallest ones. A row counts as redundant if it follows from
+  // rows require matrix x = right, and x is the shortest solution. The forces f obey matrix^T f =
+  // x; those of redundant rows are the smallest ones. A row counts as redundant if it follows from
   // the others up to kRank, a free choice far above rounding errors.
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor;
   constexpr double kRank = 1e-10;

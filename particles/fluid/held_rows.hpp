@@ -45,11 +45,11 @@ class HeldMotion {
                               std::span<const double> thetas) const;
 
   /// Changes the velocities `at_end` at the end of the step, in which particles moved with
-  /// `velocities`. Afterwards bodies are rigid, hinges and arms hold for them, and the extension of
-  /// each spring of which `is_stiff`, one number for each row, is not 0 has the mean rate of the
-  /// step. The change is that by forces along the rows at the end of the step, with the mobility
-  /// `mobility` of each component [T/M, T/(M L^2)]. Returns these forces; they are 0 in rows of
-  /// which no unit accelerates.
+  /// `velocities`, until bodies are rigid and hinges and arms hold for them. The extension of a
+  /// spring grows with its mean rate in the step if its row has a number other than 0 in
+  /// `is_stiff`. The change is that by forces along the rows at the end of the step, with the
+  /// mobility `mobility` of each component [T/M, T/(M L^2)]. Returns these forces; they are 0 in
+  /// rows of which no unit accelerates.
   std::vector<double> hold_at_end(std::span<const double> velocities,
                                   std::span<const double> mobility,
                                   const std::vector<char>& is_stiff,

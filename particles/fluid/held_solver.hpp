@@ -18,7 +18,7 @@ namespace viscontact::particles {
 
 /// A linear condition on the velocities of all particles. Its sum is that of coefficient times
 /// velocity over `entries`, plus `image_rate`. The condition is sum = `rate`, but for a spring
-/// force = -stiffness (extension + theta h sum) with the length h of the step.
+/// force = -stiffness (extension + theta h sum) with the length h of the step; theta: HeldSolver.
 struct HeldRow {
   /// Places of velocities in the array of all particles (MotionLayout), with their coefficients
   /// [1], or [L] of an angular velocity in a sum that is a velocity.

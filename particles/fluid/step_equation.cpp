@@ -47,8 +47,8 @@ std::vector<double> masses_of(const Particles& p, const Fluid& fluid, const Moti
   return masses;
 }
 
-/// The mean forces and torques on all particles between the times `from` and `to` [T]: weight
-/// without buoyancy, forces of the case and of the caller [M L/T^2, M L^2/T^2].
+/// The mean forces and torques on all particles [M L/T^2, M L^2/T^2] between the times `from` and
+/// `to` [T]: weight minus buoyancy, and those of the case and of the caller.
 std::vector<double> mean_forces(const Setting& setting, const Particles& p,
                                 std::span<const double> masses, const MotionLayout& layout,
                                 double from, double to) {
