@@ -12,7 +12,7 @@
 
 namespace viscontact::freefem_flow {
 
-/// The opening, in lines with ends. `radii`: of all particles [L], > 0. `dimension`: 2 in the
+/// The text of the opening. `radii`: of all particles [L], > 0. `dimension`: 2 in the
 /// plane, 1 on the axis of a cylinder. Throws Error(kBadInput) if there is no domain, if the domain
 /// is a cylinder in the plane or none on the axis, or if `fluid` gives velocities of single sides
 /// for a domain that is not a box.

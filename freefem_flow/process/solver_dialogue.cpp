@@ -31,7 +31,7 @@ std::string command_in_words(const std::vector<std::string>& arguments) {
   return text;
 }
 
-/// A text of the solver for a message, with at most `longest` bytes and dots.
+/// The first `longest` bytes of a text of the solver, with dots if it is longer.
 std::string shortened(std::string_view text, std::size_t longest) {
   if (text.size() <= longest) return std::string(text);
   return std::string(text.substr(0, longest)) + "...";
