@@ -24,12 +24,13 @@ struct CellEdge {
   int partner = -1;
 };
 
-/// The edges of the region that is the union of one cell for each particle, in no order. A cell is
-/// that of a power diagram (Aurenhammer 1987): the points x whose power distance |x - c|^2 - r^2
-/// from the centre c of the particle with radius r is smaller than that from any other particle or
-/// image. Exactly one shift by whole periods takes a point of the plane into the region, and no
-/// cell cuts a particle, so that the region can take the place of the box. An edge shorter than a
-/// tenth of the distance of its end from the particles is left out; its ends are joined.
+/// The edges of the region that is the union of one cell for each particle, in the order of the
+/// particles. A cell is that of a power diagram (Aurenhammer 1987): the points x whose power
+/// distance |x - c|^2 - r^2 from the centre c of the particle with radius r is smaller than that
+/// from any other particle or image. Exactly one shift by whole periods takes a point of the plane
+/// into the region, and no cell cuts a particle, so that the region can take the place of the box.
+/// An edge shorter than a tenth of the distance of its end from the particles is left out; its ends
+/// are joined.
 ///
 /// `circles`: the particles, at least one, with centres in the box. Of an ellipse or plate only the
 /// circle around it is used. The circles must not overlap.

@@ -37,8 +37,8 @@ void check_places(const particles::Domain& domain, const InnerCurves& curves, do
 
 /// If the box is periodic along x: the distance [L] from its left side to the middle of the widest
 /// strip parallel to y that no membrane, no disc and none of their periodic images enters; it may
-/// be negative. Else 0. Throws Error(kNotConverged) if no strip is wider than a thousandth of the
-/// period.
+/// be negative. Else, or without curves, 0. Throws Error(kNotConverged) if no strip is wider than a
+/// thousandth of the period.
 double shift_between_membranes(const particles::Domain& domain, const InnerCurves& curves);
 
 /// The boundary of the mesh: walls and periodic sides, the discs, and then the membranes. Edges on

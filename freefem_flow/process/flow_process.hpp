@@ -1,7 +1,7 @@
 // A fluid solver that is a process of its own, FreeFEM or a program of the user's, which is asked
 // by the protocol of docs/fluid-solver.md. Lengths, masses and times have the units of the
-// arguments. freefem_solver.cpp makes it; membranes/ uses read_flow(), MeshBoundaryMaker and
-// SolverLimits. A change of the protocol must change its version and that page.
+// arguments. freefem_solver.cpp makes it; membranes/ uses read_flow() and SolverLimits. A change of
+// the protocol must change its version and that page.
 #pragma once
 
 #include <chrono>
@@ -51,7 +51,7 @@ struct SolverLimits {
 /// class throw Error(kExternalProgram), which names the solver, the request and the solver's last
 /// lines, if the solver ends, does not answer in time, reports an error, or answers with anything
 /// but the finite numbers that the protocol asks for. They throw Error(kNotConverged) if a number
-/// for the solver is not finite. After an Error(kExternalProgram) every call throws another one.
+/// for the solver is not finite. After an Error(kExternalProgram) every request throws another one.
 class FlowProcess : public particles::FluidSolver {
  public:
   /// Starts the solver and waits until it is ready. `dimension`: 2 for discs in the plane, 1 for

@@ -16,7 +16,7 @@ namespace viscontact::particles {
 namespace {
 
 /// The rate [L/T] at which a gap grows while the particles rest, in a step of length h [T]: by the
-/// motion of an obstacle, or of an image relative to its particle in a sheared cell.
+/// motion of an obstacle, or of a periodic image relative to its particle in a sheared cell.
 double drift_of(const Contact<2>& contact, const BlowStep& step, double h) {
   const auto& p = step.state.particles;
   if (contact.is_stop()) return 0;

@@ -192,8 +192,8 @@ struct ContactFrictionInFluid {
   std::array<double, 2> tangent{};
   /// Change of the slip per turn of the first and of the second particle, counter-clockwise [L].
   std::array<double, 2> levers{};
-  /// Slip of the step if no particle moved [L]: the displacement along the tangent of the image of
-  /// the second particle relative to that particle, or minus that of the obstacle.
+  /// Slip of the step if no particle moved [L]: the displacement along the tangent of the periodic
+  /// image that touches, relative to the second particle, or minus that of the obstacle.
   double displacement = 0;
   /// gamma - gamma_min >= 0: the impulse that the film takes up before the solids touch [M L/T].
   double capacity = 0;

@@ -24,7 +24,8 @@ struct HeldRow {
   /// [1], or [L] of an angular velocity in a sum that is a velocity.
   std::vector<std::pair<std::size_t, double>> entries;
   double rate = 0;  ///< [L/T], [1/T]; not used of a spring
-  /// Part of the sum because images of the particles move relative to them in a sheared cell [L/T].
+  /// Part of the sum by the motion of periodic images relative to particles in a sheared cell
+  /// [L/T].
   double image_rate = 0;
   double stiffness = 0;  ///< of a spring [M/T^2, M L^2/T^2], > 0; 0: the row is no spring
   double extension = 0;  ///< of a spring at the beginning of the step [L, rad]
