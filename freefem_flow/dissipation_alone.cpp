@@ -1,6 +1,6 @@
-// Dissipation without particles (dissipation_alone.hpp): linear flows and plane Couette flow. Units
-// are those of the case; nothing is thrown. The result must be exactly 0 where no closed form is
-// known, because 0 means "not known".
+// Dissipation of the fluid without particles (dissipation_alone.hpp) in closed form, for linear
+// flows and plane Couette flow. Units are those of the arguments; nothing is thrown. A change must
+// keep that the result is exactly 0 if no closed form is known: callers take 0 for "not known".
 #include "viscontact/freefem_flow/dissipation_alone.hpp"
 
 namespace viscontact::freefem_flow {
@@ -9,15 +9,15 @@ namespace {
 using particles::BoxDomain;
 using particles::WallVelocity;
 
-/// 2 D:D for the symmetric part D of the gradient E = (g0, g1; g2, g3) [1/T^2].
+/// 2 D:D [1/T^2] for the symmetric part D of the velocity gradient (g0, g1; g2, g3) [1/T].
 double twice_strain_squared(const particles::LinearFlow& flow) {
   const auto& g = flow.gradient;
   const double shear = (g[1] + g[2]) / 2;
   return 2 * (g[0] * g[0] + 2 * shear * shear + g[3] * g[3]);
 }
 
-/// Square of the shear rate between two walls at the distance `height` that move along `axis`; 0 if
-/// they do not move so.
+/// Square [1/T^2] of the shear rate between two walls at the distance `height` [L] that move along
+/// the axis `axis` (0: x, 1: y) with constant velocities; 0 if one of them moves otherwise.
 double shear_rate_squared(const WallVelocity& low, const WallVelocity& high, std::size_t axis,
                           double height) {
   const auto moves_along = [&](const WallVelocity& wall) {

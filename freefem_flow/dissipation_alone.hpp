@@ -1,6 +1,7 @@
-// Dissipation of the fluid without particles, which the apparent viscosity refers to, where it has
-// a closed form. Lengths, masses and times are in the units of the case; nothing is thrown.
-// flow_process.cpp asks it if the solver does not know. A change must keep 0 for "not known".
+// Dissipation of the fluid without particles, if it has a closed form. The apparent viscosity is
+// the dissipation with particles divided by this one. Units are those of the arguments; nothing is
+// thrown. process/flow_process.cpp uses it if the fluid solver does not know this dissipation, and
+// membranes/membrane_process.cpp always. A change must keep that 0 means "not known".
 #pragma once
 
 #include "viscontact/particles/domain/domain.hpp"
@@ -8,13 +9,15 @@
 
 namespace viscontact::freefem_flow {
 
-/// 2 mu times the integral of D(u):D(u) over the whole domain, for the Stokes flow u without
-/// particles and with the same velocities of the walls, per unit length [M L/T³]. It is known
+/// 2 mu times the integral of D(u):D(u) over the whole domain, for the Stokes flow u of viscosity
+/// mu without particles and with the velocities of the walls that `fluid` gives, >= 0. D(u) is the
+/// symmetric part of the gradient of u. In a disc or box it is per unit length of the third
+/// dimension [M L/T³], in a cylinder [M L²/T³]. It is known
 ///
-/// - for walls or a periodic cell with a linear flow u = E x: 2 mu D:D |domain|, where D is the
-///   symmetric part of E;
-/// - for a box that is periodic along one axis, whose two walls move along it at constant speeds:
-///   plane Couette flow.
+/// - for a linear flow u = E x with a constant matrix E, which walls or a cell that is periodic
+///   along both axes prescribe: 2 mu D:D times the area or volume of the domain;
+/// - for a box that is periodic along one axis, whose two walls move along this axis at constant
+///   speeds: plane Couette flow.
 ///
 /// It is 0 otherwise, and if the walls are at rest.
 double dissipation_alone(const particles::Fluid& fluid, const particles::Domain& domain);

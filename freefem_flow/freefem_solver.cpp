@@ -1,6 +1,7 @@
-// The commands of fluid solvers, and the units in which FreeFEM computes (freefem_solver.hpp). A
-// solver that does not start is an Error(kExternalProgram). A change must keep units that are
-// powers of 2, so that no digit changes.
+// The commands of fluid solvers, and the units in which FreeFEM computes (freefem_solver.hpp).
+// Numbers are in the units of the case if nothing else is said; L, M and T are the dimensions of
+// length, mass and time. A solver that does not start is an Error(kExternalProgram). A change must
+// keep units that are powers of 2, because their scaling has no rounding error.
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 
 #include <fmt/format.h>
@@ -27,68 +28,56 @@
 namespace viscontact::freefem_flow {
 namespace {
 
-/// The units in which the solver computes: in them the smallest particle or membrane has a radius
-/// and the fluid a viscosity between 0.7 and 1.5. Both are powers of 2, so that no digit changes.
-/// The unit of time is that of the case.
+/// The units in which FreeFEM computes. The members are powers of 2 with which the radius of the
+/// smallest particle or membrane and the viscosity are between 0.7 and 1.5. The unit of time is
+/// that of the case.
 struct SolverUnits {
   double length = 1;     ///< [L], > 0
   double viscosity = 1;  ///< [M/(L T)], > 0
 };
 
-/// `radii` of all particles [L]; without particles the size of the domain takes their place.
+/// The units for the smallest of `radii` [L], or for the size of the domain if there are none.
 SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain& domain,
                          std::span<const double> radii);
 
-/// The fluid with its numbers in the units of the solver.
+/// The fluid, the domain and lengths [L] with their numbers in the units of the solver.
 particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units);
-/// The domain with its lengths and velocities in the units of the solver.
 particles::Domain in_units(particles::Domain domain, const SolverUnits& units);
-/// The lengths [L] in the unit of the solver.
 std::vector<double> in_units(std::span<const double> lengths, const SolverUnits& units);
 
-/// Passes questions in the units of the case to a solver in units of its own.
+/// A fluid solver in the units of the case, which asks a solver that computes in other units.
 class ScaledSolver : public particles::FluidSolver {
  public:
   /// `dimension`: 2 in the plane, 1 on the axis of a cylinder.
   ScaledSolver(const SolverUnits& units, int dimension,
                std::unique_ptr<particles::FluidSolver> solver);
 
-  // Arguments and results are in the units of the case. The errors are those of FluidSolver.
-
-  /// Takes new places of the particles.
+  // These functions are those of FluidSolver, with its errors.
   void place(const particles::FluidParticles& bodies) override;
-  /// The velocities under `forces`; with `driving`, walls and driven particles move.
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
-  /// The velocities under unit forces and torques.
   std::vector<double> mobility(std::size_t components) override;
-  /// Quantities of the last velocities(forces, true).
   particles::FlowQuantities quantities() override;
-  /// Takes another penalty; see FluidSolver.
   double vary_penalty() override { return solver_->vary_penalty(); }
-  /// Takes a second mesh; see FluidSolver.
   particles::SecondMesh vary_mesh() override { return solver_->vary_mesh(); }
-  /// Velocity and pressure of the last velocities(forces, true).
   particles::FlowField flow() override;
-  /// Keeps the flow, with the motions of the particles; see FluidSolver.
   void keep_flow(bool at_rest, std::span<const double> motions) override;
-  // The saved flow is in the units of the solver, which follow from the case.
+  // The saved flow stays in the solver's units, which a later run of the case computes again.
   std::string saved_flow() override { return solver_->saved_flow(); }
   void load_flow(const std::string& flow) override { solver_->load_flow(flow); }
-  /// Number of unknowns of the last mesh; 0 if the solver does not say.
   std::size_t unknowns() const override { return solver_->unknowns(); }
-  /// The largest resident memory of the solver so far [MiB]; 0 if it is no process of its own.
   double peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }
 
  private:
   /// Forces and torques in the units of the solver.
   std::vector<double> scaled_forces(std::span<const double> forces) const;
+  /// Changes velocities from the units of the solver to those of the case.
   void unscale_velocities(std::vector<double>& velocities) const;
 
   SolverUnits units_;
-  std::size_t components_;
-  // The units of the components of a particle's motion, and of forces and torques on it.
+  std::size_t components_;  ///< of the motion of a particle: 3 in the plane, 1 on an axis
+  // The solver's units of these components, and of the forces and torques on a particle.
   std::array<double, 3> velocity_units_{}, force_units_{};
-  double power_unit_ = 1;  ///< unit of the dissipation
+  double power_unit_ = 1;  ///< the solver's unit of a power, per unit length in the plane
   std::unique_ptr<particles::FluidSolver> solver_;
 };
 
@@ -171,7 +160,8 @@ void ScaledSolver::place(const particles::FluidParticles& bodies) {
   scaled.positions = in_units(bodies.particles->positions, units_);
   scaled.radii = in_units(bodies.particles->radii, units_);
   scaled.ids = bodies.particles->ids;
-  // The mesh asks only which particles are of one body; lengths in a body stay unscaled.
+  // Lengths in `bodies` stay in the unit of the case, because the mesh asks only which particles
+  // are of one body.
   scaled.bodies = bodies.particles->bodies;
   std::vector<double> inertia(bodies.inertia.begin(), bodies.inertia.end());
   for (std::size_t i = 0; i < inertia.size(); ++i)
@@ -179,8 +169,7 @@ void ScaledSolver::place(const particles::FluidParticles& bodies) {
   auto driven = bodies.driven;
   for (auto& [particle, motion] : driven)
     for (std::size_t c = 0; c < components_; ++c) motion[c] /= velocity_units_[c];
-  // The unit of time is that of the case.
-  auto flow_step = bodies.flow_step;
+  auto flow_step = bodies.flow_step;  // its times keep their unit
   std::vector<double> masses(flow_step.masses.begin(), flow_step.masses.end());
   for (std::size_t i = 0; i < masses.size(); ++i)
     masses[i] *= velocity_units_[i % components_] / force_units_[i % components_];
@@ -241,17 +230,19 @@ particles::FlowField ScaledSolver::flow() {
   return field;
 }
 
+/// The name of the FreeFEM script for this mesh and dimension (1 or 2).
 std::string script_of(particles::FluidMesh mesh, int dimension) {
   const std::string bodies = dimension == 1 ? "spheres" : "discs";
   return bodies + (mesh == particles::FluidMesh::kFixed ? "_on_fixed_mesh.edp" : ".edp");
 }
 
-/// The shortest edge of a mesh over the larger side of the box around it. FreeFEM refuses border
-/// points that are closer than 1e-7 of that side. The mesh that is refined for an estimate of the
-/// error has edges half as long, and chords are a little shorter than edge lengths.
+/// The shortest edge of a mesh over the larger side of the rectangle around it. FreeFEM refuses
+/// points of the boundary that are closer than 1e-7 of that side. The factor 2.2 is needed because
+/// the mesh for the estimate of the error has edges half as long, and because straight edges are a
+/// little shorter than the arcs that they replace.
 constexpr double kShortestEdge = 2.2e-7;
 
-/// The larger side of the box around the mesh of a domain; that of a cylinder is half a section.
+/// The larger side [L] of the rectangle around a mesh. That of a cylinder is half of its section.
 double extent_of(const particles::Domain& domain) {
   if (const auto* disc = std::get_if<particles::DiscDomain>(&domain)) return 2 * disc->radius;
   if (const auto* box = std::get_if<particles::BoxDomain>(&domain))
@@ -261,8 +252,8 @@ double extent_of(const particles::Domain& domain) {
   return 0;  // refused when the solver starts
 }
 
-/// Throws Error(kBadInput) if FreeFEM would refuse the edges on the smallest particle. All lengths
-/// are in the unit of the case.
+/// Throws Error(kBadInput) if FreeFEM would refuse the edges on the smallest of the particles with
+/// `radii` [L].
 void refuse_small_particles(const particles::Fluid& fluid, const particles::Domain& domain,
                             std::span<const double> radii) {
   if (radii.empty()) return;
@@ -279,7 +270,8 @@ void refuse_small_particles(const particles::Fluid& fluid, const particles::Doma
                   fluid.edges_per_particle, shortest / chord));
 }
 
-/// Throws Error(kNotConverged) if FreeFEM would refuse the edges in a gap.
+/// Throws Error(kNotConverged) if FreeFEM would refuse an edge of `boundary`, which is in units of
+/// `unit` [L] around a domain of the extent `size` in these units.
 void refuse_short_edges(const MeshBoundary& boundary, double size, double unit) {
   for (const auto& curve : boundary.curves)
     for (int i = curve.first; i < curve.first + curve.edges; ++i) {
@@ -305,15 +297,17 @@ std::string if_silent() {
 SolverCommand freefem_command(const std::string& script) {
   const auto folder = freefem::find_script_folder("freefem_flow", script);
   auto command = freefem::make_command(freefem::executable_of_user(), folder, script, {});
-  // MUMPS lets Scotch order systems of more than 5000 rows. Scotch takes random numbers from one
-  // sequence for all systems, and with several threads its order differs each time.
+  // FreeFEM's linear solver MUMPS leaves the order of systems of more than 5000 rows to the library
+  // Scotch. With several threads Scotch's order differs each time; with one it depends on the
+  // systems before, because all share one sequence of random numbers. After a system of at most
+  // kMostReproduced unknowns, which is safely below 5000, later answers have the same bits.
   command.environment.emplace_back("SCOTCH_PTHREAD_NUMBER=1");
   constexpr std::size_t kMostReproduced = 4000;
   return {std::move(command.arguments), std::move(command.environment), std::move(command.folder),
           std::string(freefem::kHowToInstall),
           "too little memory can make FreeFEM hang (ulimit -v); " + if_silent(), kMostReproduced,
-          // Where lengths of edges differ by much, buildmesh writes "Warning LengthInterpole" on
-          // standard output, and makes a good mesh.
+          // FreeFEM's buildmesh may write "Warning LengthInterpole" to standard output if lengths
+          // of edges differ much. The mesh is good nevertheless.
           true};
 }
 

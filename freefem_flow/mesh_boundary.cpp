@@ -1,6 +1,7 @@
-// Puts the boundary of a mesh together from walls, periodic sides, the axis and the surfaces of the
-// particles (mesh_boundary.hpp). Lengths are in the unit of the case. A gap that is too narrow is
-// an Error(kNotConverged). Opposite periodic sides must get the same points.
+// Puts the boundary of a mesh together from walls, periodic sides, the axis of a cylinder and the
+// surfaces of the particles (mesh_boundary.hpp). Lengths are in the unit of the arguments. A gap
+// that is too narrow is an Error(kNotConverged). A change must keep that opposite periodic sides
+// get the same points, because scripts/constraints.idp identifies these.
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@
 namespace viscontact::freefem_flow {
 namespace {
 
-constexpr std::size_t kLeastOnCircle = 6;
+constexpr std::size_t kLeastOnCircle = 6;  // edges; as few as a case may ask for
 
 class BoundaryMaker {
  public:
@@ -73,7 +74,8 @@ class BoundaryMaker {
     boundary_.add(cut_line(from, to, edge_length), label);
   }
 
-  /// `edge_length(t)`: at the point outline.at(t).
+  /// Adds a closed curve. `edge_length(t)` is the wanted length at the point outline.at(t). The
+  /// curve of a hole is clockwise.
   template <class EdgeLength>
   void add_outline(const particles::Outline& outline, int label, bool is_hole,
                    const EdgeLength& edge_length) {
@@ -82,9 +84,10 @@ class BoundaryMaker {
     boundary_.add(points, label);
   }
 
-  /// The surfaces of the particles. A body that is meshed gets a polygon inside, around which the
-  /// mesh is coarse: FreeFEM takes the size of triangles from the nearest curves, and a few
-  /// triangles represent a rigid motion exactly.
+  /// Adds the surfaces of the particles. If the inside of a particle is meshed, too, a polygon in
+  /// it with few edges, kOfRadius times as large, makes this part of the mesh coarse: FreeFEM
+  /// derives the size of triangles from the nearest edges, and a few triangles represent a rigid
+  /// motion exactly. Both constants are free choices.
   void add_particles() {
     if (!fitted_) return;
     for (std::size_t k = 0; k < lengths_.outlines().size(); ++k) {
@@ -105,7 +108,8 @@ class BoundaryMaker {
     }
   }
 
-  /// The arcs of a disc outside those of its body that overlap it, as parts of a hole.
+  /// Adds the arcs of disc k that are outside the overlapping discs of its body, as parts of the
+  /// hole that the body makes in the mesh.
   void add_arcs(std::size_t k) {
     const auto chords = chords_of(fluid_, bodies_, k);
     constexpr double kTurn = 2 * std::numbers::pi;
@@ -126,7 +130,8 @@ class BoundaryMaker {
     }
   }
 
-  /// The four sides of a box. Opposite sides that are periodic get the same points.
+  /// Adds the four sides of a box. Opposite periodic sides get the same points, because all edges
+  /// on them have one length.
   void add_sides(const particles::BoxDomain& box) {
     const auto& a = box.from;
     const auto& b = box.to;
@@ -155,7 +160,7 @@ class BoundaryMaker {
           return edge.partner < 0 ? on_wall(x) : in_fluid(x);
         });
       } else {
-        // The same points as those of the partner, in the opposite order, shifted by the period.
+        // The points are those of the partner in the opposite order, shifted by the period.
         const Point shift = {edge.from[0] - edges[partner].to[0],
                              edge.from[1] - edges[partner].to[1]};
         points[e] = points[partner];
@@ -168,7 +173,7 @@ class BoundaryMaker {
     }
   }
 
-  /// The axis from the lid to the floor, and the half circles of the spheres on it.
+  /// Adds the axis from the lid to the floor, and the half circles of the spheres on it.
   void add_axis(double height) {
     const auto& outlines = lengths_.outlines();
     std::vector<std::size_t> order(fitted_ ? outlines.size() : 0);
@@ -209,7 +214,8 @@ class BoundaryMaker {
   MeshBoundary boundary_;
 };
 
-/// Throws Error(kNotConverged) if discs of a body that overlap are on different sides of a period.
+/// Throws Error(kNotConverged) if discs of one body overlap across a periodic side, because an area
+/// beyond chords of discs in the box then differs from that in `fluid`.
 void check_unions(const particles::Fluid& fluid, const particles::Particles& particles) {
   for (std::size_t k = 0; k < fluid.cut_areas.size(); ++k) {
     double area = 0;

@@ -1,6 +1,6 @@
-// The boundary of a mesh, as the fluid solver gets it (docs/fluid-solver.md). Lengths are in the
-// unit of the case. flow_process.hpp sends it. A change of labels must be made in
-// freefem_flow/scripts, too. Gaps too narrow for a mesh are an Error(kNotConverged).
+// The boundary of the mesh of a fluid with particles, as the fluid solver gets it. Lengths are in
+// the unit of the arguments. freefem_solver.cpp and membranes/ make it, process/ sends it. A change
+// of labels must also be made in scripts/ and in docs/fluid-solver.md.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@
 
 namespace viscontact::freefem_flow {
 
-/// Label of the axis of a cylinder. Walls have the labels of the protocol: a box 1 left, 2 right,
-/// 3 bottom, 4 top; a disc 1; a cylinder 1 side, 2 floor, 3 lid.
+/// Label of the axis of a cylinder. Walls have the labels: a box 1 left, 2 right, 3 bottom, 4 top;
+/// a disc 1; a cylinder 1 side, 2 floor, 3 lid.
 inline constexpr int kAxisLabel = 5;
-/// Label of a curve inside a particle, which bounds nothing.
+/// Label of a line inside a particle, which does not bound the fluid.
 inline constexpr int kInsideLabel = 8;
 /// Label of the sides that are periodic images of each other.
 inline constexpr int kPeriodicLabel = 9;
@@ -28,7 +28,7 @@ struct MeshBoundary {
   struct Curve {
     int first = 0;  ///< the curve goes through the points first, first + 1, ..., first + edges
     int edges = 0;  ///< number of edges, > 0
-    int label = 0;  ///< one of the labels above
+    int label = 0;  ///< as above, or that of a membrane (membranes/membrane_boundary.hpp)
   };
   std::vector<std::array<double, 2>> points;  ///< (x, y), or (distance from the axis, z) [L]
   std::vector<Curve> curves;                  ///< they may share points
@@ -40,13 +40,14 @@ struct MeshBoundary {
   }
 };
 
-/// The boundary of a mesh for these particles, whose gaps must be greater than 0, except that discs
-/// of one body may overlap if the rigid motions are unknowns. With a fitted mesh, edges get shorter
-/// where a gap is narrow (boundary/edge_lengths.hpp), and the particles' surfaces are curves: holes
-/// of the mesh if the rigid motions are unknowns, else lines inside it. Where the domain is
-/// periodic, a fitted mesh does not end at straight sides, which would cut particles, but halfway
-/// between neighbours (boundary/periodic_cells.hpp). The edges are about `coarsening` > 0 times as
-/// long as the fluid says.
+/// The boundary of a mesh for these particles. The edges are about `coarsening` > 0 times as long
+/// as `fluid.edges_per_particle` says. With `fluid.mesh` kFixed the particles are not in it. With
+/// kFitted their surfaces are curves, which are holes of the mesh if `fluid.constraint` is kRigid,
+/// and else lines inside it; edges are shorter where a gap is narrow (boundary/edge_lengths.hpp);
+/// and a box with periodic sides ends on lines between particles, because these sides would cut
+/// particles (boundary/periodic_cells.hpp). All gaps must be > 0, but discs of one body may overlap
+/// with kRigid. Throws Error(kNotConverged) if a gap is too narrow for an edge, or if discs of one
+/// body overlap across a periodic side, and std::bad_variant_access if there is no domain.
 MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
                            const particles::FluidParticles& bodies, double coarsening = 1);
 

@@ -1,6 +1,7 @@
-// The lengths of edges (edge_lengths.hpp), from distances to particles and walls. Lengths are in
-// the unit of the case. An edge that is too short is an Error(kNotConverged). A change of a
-// constant changes all meshes, and the errors in bench/README.md must be measured again.
+// The lengths of edges of the mesh (edge_lengths.hpp), from distances to particles and walls.
+// Lengths are in the unit of the arguments. Only check_edge_length() throws. The constants are
+// chosen by the table of errors in bench/README.md ("Particles in a fluid"), which must be measured
+// again after a change, because it changes all meshes.
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 
 #include <fmt/format.h>
@@ -15,22 +16,23 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Edges across a gap follow the accuracy that is asked: with 24 edges on the smallest particle, an
-/// edge is at most this fraction of the gap.
+/// Longest edge in a narrow gap over the gap, with 24 edges on the smallest particle. With n edges
+/// the ratio is 24/n times as large, but at most kLargestOfGap.
 constexpr double kOfGapAt24Edges = 0.4;
-/// With fewer edges on the particle, an edge across a gap is still at most this fraction of the
-/// gap, because a film with one edge across it is 7 % too stiff.
+/// The largest such ratio. It allows two edges across the gap, because the fluid in a gap with one
+/// edge across it resists 7 % too much.
 constexpr double kLargestOfGap = 0.5;
-/// At gaps of more than kNarrow smallest radii films matter less. With 24 edges, kFurtherAt24Edges
-/// times what the gap exceeds this width is added to the length of an edge.
+/// In gaps wider than kNarrow radii of the smallest particle, where the fluid resists less, edges
+/// may be longer: kFurtherAt24Edges times the excess of the gap over this width is added. The
+/// factor is for 24 edges on the smallest particle, and 24/n times as large for n edges.
 constexpr double kNarrow = 0.3, kFurtherAt24Edges = 0.35;
-/// Growth of the edges per distance from a particle, with 24 edges on the smallest one. It is
-/// proportional to the edge length, so that all lengths of a mesh shrink together.
+/// Increase of the edge length per distance from the nearest particle, with 24 edges on the
+/// smallest particle; 24/n times as large for n edges, so that all edges shrink by one factor.
 constexpr double kGrowthAt24Edges = 0.1;
-/// In a fluid with inertia the largest error is that of the layer of fluid around a particle. More
-/// edges on the particle are therefore spent near it: the edges grow faster by the first factor,
-/// but not beyond the second number, with which meshes of up to 24 edges are those of a Stokes
-/// flow.
+/// In a fluid with inertia the error is largest near the particles, so that edges further away may
+/// be longer: the increase per distance is multiplied by kFasterWithInertia, but not beyond
+/// kFastestWithInertia. The latter is kGrowthAt24Edges, so that meshes with 24 or fewer edges on
+/// the smallest particle are the same as without inertia.
 constexpr double kFasterWithInertia = 2, kFastestWithInertia = 0.1;
 
 }  // namespace
@@ -66,7 +68,8 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
     smallest = std::min(smallest, fluid.is_ellipse(k) ? std::ranges::min(fluid.semi_axes[k])
                                                       : fluid.end_radius(k, p.radii[k]));
   }
-  constexpr double kEdgesOfAWall = 6;  // at least, so that the flow in an empty domain is resolved
+  // Least number of edges across the domain, so that the flow far from all particles is resolved.
+  constexpr double kEdgesOfAWall = 6;
   cap_ = coarsening * size_of(domain) / kEdgesOfAWall;
   per_radius_ = coarsening * 2 * std::numbers::pi / fluid.edges_per_particle;
   longest_ =
@@ -75,8 +78,8 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
   if (fluid.has_inertia())
     growth_ = std::max(growth_, std::min(kFasterWithInertia * growth_, kFastestWithInertia));
   of_gap_ = coarsening * std::min(kOfGapAt24Edges * ratio, kLargestOfGap);
-  // On an axis edges do not grow faster: a few spheres cost little, and their films carry all of
-  // the load.
+  // Spheres on an axis have short edges in wide gaps, too, because the fluid in the gaps carries
+  // all of their load, and because a mesh of a few spheres is small.
   further_ = p.dimension == 1 ? 0 : coarsening * kFurtherAt24Edges * ratio;
   narrow_ = kNarrow * smallest;
   const auto periods = particles::periods_of(domain);
@@ -88,7 +91,7 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
         image.centre[1] += j * periods[1];
         images_.push_back(image);
       }
-  // Neighbours further away than this do not shorten edges.
+  // At this gap across() is at least longest_, so that surfaces further away do not shorten edges.
   const double reach = longest_ / of_gap_;
   for (std::size_t k = 0; k < p.count(); ++k) {
     const auto& outline = outlines_[k];
@@ -96,7 +99,7 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
     for (std::size_t i = 0; i < images_.size(); ++i) {
       const auto& other = images_[i];
       const double gap = distance_to(other, outline.centre) - outline.radius;
-      // Members of a body that overlap are one outline, without a gap.
+      // Discs of one rigid body may overlap; there is then no gap between them to resolve.
       const bool is_joined = gap < 0 && p.bodies.are_one(static_cast<std::int32_t>(k),
                                                          static_cast<std::int32_t>(i % p.count()));
       if (gap < reach && other.centre != outline.centre && !is_joined) neighbours.push_back(other);

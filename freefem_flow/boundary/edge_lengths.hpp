@@ -1,6 +1,7 @@
-// How long the edges of the mesh are at a point of the boundary. Lengths are in the unit of the
-// case. mesh_boundary.cpp uses it. bench/README.md has the errors of velocities that the constants
-// give, which a change must measure again.
+// How long the edges of the mesh are at a point of its boundary, and how a curve is cut into such
+// edges. Lengths have the unit of the arguments. mesh_boundary.cpp and periodic_cells.hpp use it;
+// membranes/membrane_boundary.cpp uses the functions that cut. A change of a length changes all
+// meshes, and the errors of velocities in bench/README.md must be measured again.
 #pragma once
 
 #include <algorithm>
@@ -21,70 +22,76 @@ namespace viscontact::freefem_flow {
 /// The coordinates of a point [L]: x and y in the plane, r and z in a cylinder.
 using Point = std::array<double, 2>;
 
-/// The smallest extent of the domain [L].
+/// The smallest extent [L] of a disc (its diameter), a box (its shorter side) or a cylinder. Throws
+/// std::bad_variant_access if there is no domain.
 double size_of(const particles::Domain& domain);
 
-/// Edge lengths on surfaces, walls, the axis and periodic sides.
+/// Lengths [L] of the edges on surfaces of particles, walls, the axis of a cylinder and periodic
+/// sides; <= 0 where surfaces touch or overlap. In a periodic domain the images of a particle,
+/// which are the particle shifted by a period, count as particles.
 class EdgeLengths {
  public:
-  /// All lengths are multiplied by `coarsening` > 0.
+  /// `fluid` gives the number of edges on the smallest particle; all lengths are multiplied by
+  /// `coarsening` > 0. Throws as size_of().
   EdgeLengths(const particles::Fluid& fluid, const particles::Domain& domain,
               const particles::FluidParticles& bodies, double coarsening = 1);
 
-  /// At a point on the surface of particle k: the length that `edges_per_particle` gives, and at
-  /// most a fraction of the distance to the nearest other surface.
+  /// At a point on the surface of particle k: the length of an edge on the smallest particle, or
+  /// less if another surface is near.
   double on_particle(std::size_t k, const Point& x) const;
 
-  /// The same at the point outlines()[k].at(t). On an ellipse the length is shorter where it is
-  /// more curved than the smallest particle.
+  /// The same at the point outlines()[k].at(t), for an outline of any shape. On an ellipse or plate
+  /// it is also at most 2 pi/edges_per_particle times the radius of curvature at the point.
   double on_outline(std::size_t k, double t) const;
 
-  /// At a point on a wall: the length grows with the distance of the nearest particle, and is at
-  /// most a fraction of this distance.
+  /// At a point on a wall: the length increases with the distance from the nearest particle.
   double on_wall(const Point& x) const;
 
-  /// At a point on the axis or on a periodic side, in the gap between the two nearest surfaces.
+  /// At a point of the fluid, such as one on the axis or on a periodic side: the length increases
+  /// with the distances from the two nearest surfaces, of which one may be a wall.
   double in_fluid(const Point& x) const;
 
-  /// On a mesh that does not know the particles: the same length everywhere.
+  /// The length of an edge on the smallest particle, for meshes whose edges are all equally long.
   double uniform() const { return longest_; }
 
-  /// Outlines of all particles, which bound the fluid.
+  /// Outlines of all particles, in their order.
   const std::vector<particles::Outline>& outlines() const { return outlines_; }
 
  private:
   double distance_to_wall(const Point& x) const;
-  /// Distances to the nearest and the second nearest particle or image.
+  /// Distances [L] to the nearest and the second nearest particle or image; infinite without any.
   std::array<double, 2> distances_to_particles(const Point& x) const;
 
   particles::Domain domain_;
-  /// The longest edge in a gap of this width.
+  /// The longest edge [L] in a gap of this width [L].
   double across(double gap) const {
     return of_gap_ * gap + further_ * std::max(0.0, gap - narrow_);
   }
+  // Edge on the smallest particle [L]; increase of an edge per distance; the numbers of across().
   double longest_, growth_, of_gap_, further_, narrow_;
-  double cap_;         // no edge is longer
+  double cap_;         // length [L] of the longest edge on walls and in the fluid
   double per_radius_;  // edge on a particle over the radius of curvature there
   std::vector<particles::Outline> outlines_;  // of the particles
-  std::vector<particles::Outline> images_;    // of the particles and, in a period, of their images
+  std::vector<particles::Outline> images_;    // of the particles and of their images
   // For each particle the outlines that shorten its edges.
   std::vector<std::vector<particles::Outline>> neighbours_;
 };
 
-/// Throws the error of cut_curve() if a curve cannot have an edge of this length.
+/// Throws Error(kNotConverged) if an edge of the length `edge` [L] is not longer than 1e-7 times
+/// the curve of the length `length` [L] that it lies on, because FreeFEM takes its two ends for one
+/// point.
 void check_edge_length(double edge, double length);
 
-/// Cuts a curve of this length into edges and returns their ends, as distances along the curve from
-/// 0 to `length`. `edge_length(s)` > 0 is the wanted length at s. All edges are shorter than wanted
-/// by the same factor, so that a whole number of them fits; there are at least `least` edges.
-///
-/// Throws Error(kNotConverged) if an edge would be shorter than 1e-7 `length`: FreeFEM takes such
-/// points for one, and the gap that wants so short an edge is not resolved.
+/// Cuts a curve of the length `length` [L], > 0, into at least `least` edges and returns their
+/// ends, as distances along the curve from 0 to `length`. `edge_length(s)` [L], > 0, is the wanted
+/// length at the distance s. All edges are shorter than wanted by one common factor, so that a
+/// whole number of them fits. Throws as check_edge_length() if a wanted length is too short.
 template <class EdgeLength>
 std::vector<double> cut_curve(double length, std::size_t least, const EdgeLength& edge_length) {
-  // cost[i]: number of edges, not rounded, from 0 to place[i].
+  // cost[i] approximates the integral of 1/edge_length from 0 to place[i], which is the number of
+  // edges up to there before it is rounded.
   std::vector<double> place = {0}, cost = {0};
-  constexpr double kSamplesPerEdge = 8;
+  constexpr double kSamplesPerEdge = 8;  // of that integral; a free choice
   const auto wanted_at = [&](double s) {
     const double wanted = std::min(edge_length(s), length);
     check_edge_length(wanted, length);
@@ -113,8 +120,8 @@ std::vector<double> cut_curve(double length, std::size_t least, const EdgeLength
   return ends;
 }
 
-/// The points that cut the line from `from` to `to` into edges, with its ends. `edge_length(x)` is
-/// the wanted length at the point x. Errors as cut_curve().
+/// The points that cut the line from `from` to `to` into edges, with its ends. `edge_length(x)`
+/// [L], > 0, is the wanted length at the point x. Throws as cut_curve().
 template <class EdgeLength>
 std::vector<Point> cut_line(const Point& from, const Point& to, const EdgeLength& edge_length) {
   const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
@@ -130,14 +137,15 @@ std::vector<Point> cut_line(const Point& from, const Point& to, const EdgeLength
   return points;
 }
 
-/// The points that cut an outline into at least `least` edges, counter-clockwise; the last one is
-/// the first. `edge_length(t)` is the wanted length at the point outline.at(t). Errors as
-/// cut_curve().
+/// The points that cut an outline into edges, counter-clockwise; the last point is equal to the
+/// first. There are at least `least` edges, on a plate least/4 on each of its two sides and two
+/// round ends. `edge_length(t)` [L], > 0, is the wanted length at the point outline.at(t). Throws
+/// as cut_curve().
 template <class EdgeLength>
 std::vector<Point> cut_outline(const particles::Outline& outline, std::size_t least,
                                const EdgeLength& edge_length) {
   if (outline.is_plate) {
-    // Each arc and each side is cut by itself, so that its ends are points of the mesh.
+    // Each round end and each side is cut by itself, so that its ends are points of the mesh.
     const double length = outline.length(), per = 2 * std::numbers::pi / length;
     const double arc = std::numbers::pi * outline.end_radius(), side = length / 2 - arc;
     std::vector<Point> points;

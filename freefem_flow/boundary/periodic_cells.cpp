@@ -1,6 +1,8 @@
-// Cuts each cell out of the plane by the lines halfway to its neighbours, joins corners that are
-// the same in the period, and keeps the edges whose other side is an image. Lengths are in the unit
-// of the case; nothing is thrown. Edges must keep their partners, or the mesh is not periodic.
+// Computes the edges where a mesh of a periodic box ends (periodic_cells.hpp). The cell of each
+// particle is a convex polygon. Corners that are very near to each other are joined, and the edges
+// are kept that lie on a wall or between a particle and an image, which is a particle shifted by
+// whole periods. Lengths are in the unit of the arguments; nothing is thrown. A change must keep
+// that an edge and its partner differ by a period only, because a mesh is not periodic otherwise.
 #include "viscontact/freefem_flow/boundary/periodic_cells.hpp"
 
 #include <algorithm>
@@ -15,9 +17,9 @@ namespace {
 
 /// What lies on the other side of an edge: a particle shifted by whole periods, or a wall.
 struct Neighbour {
-  int particle = -1;  ///< -1: a wall
-  int label = 0;      ///< of the wall
-  std::array<int, 2> image{};
+  int particle = -1;           ///< number of the particle; -1: a wall
+  int label = 0;               ///< of the wall; 0: a particle
+  std::array<int, 2> image{};  ///< numbers of periods along x and y by which it is shifted
 };
 
 /// A corner of a cell, and what lies behind the edge from it to the next corner.
@@ -28,7 +30,8 @@ struct Corner {
 
 using Polygon = std::vector<Corner>;
 
-/// Keeps the part of the convex polygon with normal.x <= offset.
+/// Keeps the part of the convex polygon, given counter-clockwise, with normal.x <= offset. `behind`
+/// is what lies beyond the line normal.x = offset. `normal` need not have the length 1.
 void clip(Polygon& polygon, const Point& normal, double offset, const Neighbour& behind) {
   const auto excess = [&](const Corner& c) {
     return normal[0] * c.at[0] + normal[1] * c.at[1] - offset;
@@ -51,7 +54,7 @@ void clip(Polygon& polygon, const Point& normal, double offset, const Neighbour&
   polygon = std::move(kept);
 }
 
-/// Square of the distance of the furthest corner from a point.
+/// Square [L^2] of the distance of the furthest corner from the point `from`.
 double square_of_reach(const Polygon& polygon, const Point& from) {
   double reach = 0;
   for (const auto& corner : polygon) {
@@ -61,7 +64,9 @@ double square_of_reach(const Polygon& polygon, const Point& from) {
   return reach;
 }
 
-/// The Laguerre cell of particle k. Walls bound it along directions that are not periodic.
+/// The cell of particle k, counter-clockwise: the points whose power distance |x - c|^2 - r^2 from
+/// its centre c with its radius r is smaller than that from any other particle or image. Walls
+/// bound the cell along directions that are not periodic.
 Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
                 std::span<const particles::Outline> circles) {
   const auto& own = circles[k];
@@ -71,14 +76,15 @@ Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
     low[d] = box.periodic[d] ? own.centre[d] - period[d] : box.from[d];
     high[d] = box.periodic[d] ? own.centre[d] + period[d] : box.to[d];
   }
-  // The order of the labels 1 to 4 is left, right, bottom, top. The sides of a periodic direction
-  // are further away than the images of the particle itself, which cut them off.
+  // The labels 1 to 4 are those of the left, right, bottom and top wall. Along a periodic direction
+  // the polygon begins a period away from the centre. The lines to the two images of the particle
+  // itself, half a period away, cut these sides off.
   Polygon cell = {{{low[0], low[1]}, {-1, 3, {}}},
                   {{high[0], low[1]}, {-1, 2, {}}},
                   {{high[0], high[1]}, {-1, 4, {}}},
                   {{low[0], high[1]}, {-1, 1, {}}}};
-  // Near particles cut the cell first. It is then so small that the lines of most others need no
-  // cut.
+  // Lines to near particles, some 50 within the distance sqrt(near), cut the cell first. It is then
+  // so small that the lines to most others do not reach it. The number changes only the time.
   const double near = 16 * period[0] * period[1] / static_cast<double>(circles.size());
   double reach = square_of_reach(cell, own.centre);
   for (const bool is_near : {true, false})
@@ -90,7 +96,8 @@ Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
                            circles[j].centre[1] + sy * period[1] - own.centre[1]};
           const double square = d[0] * d[0] + d[1] * d[1];
           if ((square < near) != is_near) continue;
-          // The line of equal power: d.(x - c) = (|d|^2 + r^2 - r_j^2)/2.
+          // The line on which both power distances are equal, with the centre c of particle k and
+          // the vector d from it to the centre of particle j: d.(x - c) = (|d|^2 + r^2 - r_j^2)/2.
           const double half =
               (square + own.radius * own.radius - circles[j].radius * circles[j].radius) / 2;
           if (half > 0 && half * half > reach * square) continue;
@@ -101,12 +108,15 @@ Polygon cell_of(std::size_t k, const particles::BoxDomain& box,
   return cell;
 }
 
-/// Joins corners of the period that are close together: gives one place to all of them.
+/// Gives one place to corners that are close together, if need be after a shift by whole periods.
 class Corners {
  public:
   Corners(const particles::BoxDomain& box, std::span<const particles::Outline> circles)
       : box_(box), circles_(circles) {}
 
+  /// The place of the corner x: that of an earlier corner, shifted by whole periods to be next to
+  /// x, if x is as near to it as a tenth of the distance of that corner from the particles; else x.
+  /// The tenth is a free choice: much smaller ones give edges that are short for the mesh there.
   Point joined(const Point& x) {
     const Point wrapped =
         moved_near(x, {(box_.from[0] + box_.to[0]) / 2, (box_.from[1] + box_.to[1]) / 2});
@@ -123,7 +133,7 @@ class Corners {
  private:
   struct Joined {
     Point at;
-    double reach;
+    double reach;  ///< [L]: corners up to this distance get the place `at`
   };
   /// x shifted by whole periods to be as near to `centre` as possible.
   Point moved_near(Point x, const Point& centre) const {
@@ -134,6 +144,7 @@ class Corners {
       }
     return x;
   }
+  /// Distance [L] of x from the nearest particle or image, at most the larger side of the box.
   double distance(const Point& x) const {
     double least = std::max(box_.to[0] - box_.from[0], box_.to[1] - box_.from[1]);
     for (const auto& circle : circles_) {
@@ -155,14 +166,16 @@ std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
   Corners corners(box, circles);
   std::vector<Polygon> cells;
   for (std::size_t k = 0; k < circles.size(); ++k) cells.push_back(cell_of(k, box, circles));
-  // Corners on walls come first, so that others are moved to the wall and not off it.
+  // The first of several near corners decides their place. Corners on walls are joined first, so
+  // that corners near a wall move onto it.
   for (const auto& cell : cells)
     for (std::size_t c = 0; c < cell.size(); ++c)
       if (cell[c].behind.particle < 0) {
         corners.joined(cell[c].at);
         corners.joined(cell[(c + 1) % cell.size()].at);
       }
-  // Edges between particle k and neighbour j with image (sx, sy), to find the partner of each.
+  // The number of the edge between particle k and particle j shifted by (sx, sy) periods, with the
+  // key (k, j, sx, sy). Its partner has the key (j, k, -sx, -sy).
   std::map<std::tuple<int, int, int, int>, int> by_neighbours;
   for (std::size_t k = 0; k < circles.size(); ++k) {
     const auto& cell = cells[k];

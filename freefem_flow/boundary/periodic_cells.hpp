@@ -1,6 +1,7 @@
-// Where a fitted mesh of a periodic domain ends: halfway between particles. Lengths are in the unit
-// of the case; nothing is thrown. mesh_boundary.cpp uses it. A change must give each edge a
-// partner.
+// Where a mesh of a periodic box ends if it follows the particles. The sides of the box would cut
+// particles; instead the mesh ends on lines between particles and their images, which are particles
+// shifted by whole periods. Lengths are in the unit of the arguments; nothing is thrown.
+// mesh_boundary.cpp uses it. A change must keep that each edge that is not on a wall has a partner.
 #pragma once
 
 #include <array>
@@ -12,25 +13,27 @@
 
 namespace viscontact::freefem_flow {
 
-/// An edge of the region that the cells of all particles cover together.
+/// An edge of the boundary of the region that the mesh covers.
 struct CellEdge {
-  Point from,  ///< first end [L]; the region is on the left of the way from here to `to`
+  Point from,  ///< first end [L]; seen from here towards `to`, the region is on the left
       to;      ///< last end [L]
-  /// Label of the wall that the edge lies on; kPeriodicLabel elsewhere.
+  /// Label of the wall that the edge lies on (1 left, 2 right, 3 bottom, 4 top), or kPeriodicLabel.
   int label = 0;
-  /// The edge at the same place of the period, which has the opposite direction; -1 for a wall.
+  /// Place in the list of the edge that differs from this one by a shift of whole periods and has
+  /// the opposite direction; -1 for a wall.
   int partner = -1;
 };
 
-/// The edges of the region that is the union of the Laguerre cells of all particles (Aurenhammer
-/// 1987, "Power diagrams"): the points x whose power distance |x - c|^2 - r^2 is least for this
-/// particle among all particles and images. Each point of the period is in exactly one cell, and no
-/// cell cuts a particle. The region therefore represents the periodic domain as well as the box
-/// does. Edges that are very short against their distance from the particles are left out, their
-/// ends joined.
+/// The edges of the region that is the union of one cell for each particle, in the order of the
+/// particles. A cell is that of a power diagram (Aurenhammer 1987): the points x whose power
+/// distance |x - c|^2 - r^2 from the centre c of the particle with radius r is smaller than that
+/// from any other particle or image. Exactly one shift by whole periods takes a point of the plane
+/// into the region, and no cell cuts a particle, so that the region can take the place of the box.
+/// An edge shorter than a tenth of the distance of its end from the particles is left out; its ends
+/// are joined.
 ///
-/// `circles`: the particles, at least one, with centres in the box. Their circles, which are those
-/// around ellipses, do not overlap.
+/// `circles`: the particles, at least one, with centres in the box. Of an ellipse or plate only the
+/// circle around it is used. The circles must not overlap.
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
                                      std::span<const particles::Outline> circles);
 

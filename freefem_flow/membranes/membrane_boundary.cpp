@@ -1,5 +1,7 @@
-// Puts the boundary of a mesh together from walls, periodic sides and membranes
-// (membrane_boundary.hpp). Opposite periodic sides must get the same points.
+// Puts the boundary of a mesh together from walls, periodic sides, rigid discs and membranes
+// (membrane_boundary.hpp). Lengths have the unit of the arguments. Curves that leave the domain or
+// meet are an Error(kNotConverged). A change must keep that opposite periodic sides get the same
+// points, because scripts/constraints.idp identifies these.
 #include "viscontact/freefem_flow/membranes/membrane_boundary.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +24,8 @@ using particles::DiscDomain;
 
 namespace {
 
-/// Distance of a point inside the domain from its walls; infinite if all sides are periodic.
+/// Distance [L] of a point from the walls of the domain, < 0 outside; infinite if all sides are
+/// periodic.
 double distance_to_walls(const particles::Domain& domain, const Point& x) {
   if (const auto* disc = std::get_if<DiscDomain>(&domain))
     return disc->radius - std::hypot(x[0] - disc->centre[0], x[1] - disc->centre[1]);
@@ -33,13 +36,13 @@ double distance_to_walls(const particles::Domain& domain, const Point& x) {
   return distance;
 }
 
-/// Wanted lengths of edges on walls and discs.
+/// Wanted lengths [L] of edges on walls and discs.
 class WantedEdges {
  public:
   WantedEdges(const particles::Domain& domain, const InnerCurves& curves)
       : curves_(curves), cap_(size_of(domain) / kEdgesOfAWall) {}
 
-  /// At a point on a wall, or on the disc with the number `own`.
+  /// At a point on a wall, or on the disc with the number `own`, without the influence of walls.
   double at(const Point& x, std::size_t own = std::numeric_limits<std::size_t>::max()) const {
     double wanted = cap_;
     const auto shorten = [&](double edge, int edges, double distance) {
@@ -62,17 +65,19 @@ class WantedEdges {
     return wanted;
   }
 
-  /// On a disc, which walls also shorten.
+  /// At a point on the disc with the number `own`: edges are short near a wall, too.
   double on_disc(const particles::Domain& domain, std::size_t own, const Point& x) const {
     const double edge = particles::kTwoPi * curves_.discs[own].radius / curves_.edges_of_disc;
     return std::min(at(x, own), std::max(edge / 8, kOfGap * distance_to_walls(domain, x)));
   }
 
  private:
-  // Edges grow by this share of the distance from the nearest curve, with 24 edges on it.
+  // kGrowth: increase of the edge length per distance from a curve with 24 edges. kEdgesOfAWall:
+  // least number of edges across the domain. kOfGap: largest edge over the distance from a curve;
+  // an eighth of the edges of that curve is always allowed. Free choices.
   static constexpr double kGrowth = 0.25, kEdgesOfAWall = 6, kOfGap = 0.5;
   const InnerCurves& curves_;
-  double cap_;
+  double cap_;  // the longest edge [L]
 };
 
 }  // namespace
@@ -102,7 +107,7 @@ double shift_between_membranes(const particles::Domain& domain, const InnerCurve
   const auto cell = particles::cell_of(domain);
   const double period = cell.lengths[0];
   if (!(period > 0) || (curves.membranes.empty() && curves.discs.empty())) return 0;
-  // Where membranes and discs begin and end within the period, and the widest gap between them.
+  // Where membranes and discs begin and end along x; each begins inside the box.
   std::vector<std::array<double, 2>> ranges;
   const auto add = [&](double from, double width) {
     const double start = from - period * particles::periods_beyond(cell, 0, from);
@@ -114,7 +119,7 @@ double shift_between_membranes(const particles::Domain& domain, const InnerCurve
   std::ranges::sort(ranges);
   double end = ranges.front()[1], widest = 0, middle = 0;
   for (const auto& range : ranges) end = std::max(end, range[1]);
-  end -= period;  // the furthest end of the images one period before
+  end -= period;  // the largest end of the images that are shifted by minus one period
   for (const auto& [from, to] : ranges) {
     if (from - end > widest) {
       widest = from - end;
@@ -159,8 +164,7 @@ MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurve
     const auto& disc = curves.discs[k];
     auto points = cut_outline(disc, kLeastOnCircle,
                               [&](double t) { return edges.on_disc(domain, k, disc.at(t)); });
-    // The fluid is on the left.
-    std::ranges::reverse(points);
+    std::ranges::reverse(points);  // clockwise, so that the fluid is on the left
     boundary.add(points, kFirstParticleLabel + static_cast<int>(k));
   }
   const auto& nodes = curves.membranes;

@@ -1,5 +1,7 @@
-// The boundary of the mesh around membranes, which are curves inside it. All lengths have one unit.
-// membrane_process.cpp uses it. A change of labels must be made in membranes.edp, too.
+// The boundary of the mesh of a fluid with membranes, which are closed curves inside the mesh, and
+// rigid discs, which are holes. Domains are discs, or boxes that may be periodic along x only. All
+// lengths have the unit of the arguments. membrane_process.cpp uses it. A change of labels must
+// also be made in scripts/membranes.edp.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,31 +15,35 @@ namespace viscontact::freefem_flow {
 
 /// Label of membrane 0 in membranes.edp; that of membrane k is larger by k.
 inline constexpr int kFirstMembraneLabel = 20;
-/// Labels of membranes end before those of particles, so that no more membranes can be computed.
+/// The largest number of membranes: their labels must be below those of particles.
 inline constexpr int kMostMembranes = kFirstParticleLabel - kFirstMembraneLabel;
 
-/// The places of the nodes of each membrane, (x, y) in a row: the ends and the middles of its edges
-/// in turn, counter-clockwise.
+/// The places of the nodes of each membrane, (x, y) [L] in a row: the ends and the middles of its
+/// edges in turn, beginning with an end, counter-clockwise.
 using NodesOfMembranes = std::vector<Eigen::MatrixXd>;
 
 /// The curves inside the domain.
 struct InnerCurves {
-  NodesOfMembranes membranes{};             ///< of all membranes [L]
-  std::vector<particles::Outline> discs{};  ///< rigid discs, holes of the mesh
-  int edges = 24;                           ///< on each membrane
-  int edges_of_disc = 24;                   ///< on each disc, more where a gap is narrow
+  NodesOfMembranes membranes{};             ///< nodes of all membranes
+  std::vector<particles::Outline> discs{};  ///< rigid discs
+  int edges = 24;                           ///< on each membrane, > 0
+  int edges_of_disc = 24;                   ///< least number on each disc, > 0
 };
 
-/// Throws Error(kNotConverged) if a node of a membrane is not in the domain or in a disc, or if a
-/// disc leaves the domain. The message has lengths in a unit that is smaller by the factor `unit`.
+/// Throws Error(kNotConverged) if a node of a membrane is outside the domain or inside a disc, or
+/// if a disc is not inside the domain. The message multiplies lengths by `unit`, the unit of
+/// `curves` in that of the case.
 void check_places(const particles::Domain& domain, const InnerCurves& curves, double unit);
 
-/// The shift along x after which no membrane and no disc crosses the sides of a box that is
-/// periodic along x; 0 for other domains. Throws Error(kNotConverged) if there is none.
+/// If the box is periodic along x: the distance [L] from its left side to the middle of the widest
+/// strip parallel to y that no membrane, no disc and none of their periodic images enters; it may
+/// be negative. Else, or without curves, 0. Throws Error(kNotConverged) if no strip is wider than a
+/// thousandth of the period.
 double shift_between_membranes(const particles::Domain& domain, const InnerCurves& curves);
 
 /// The boundary of the mesh: walls and periodic sides, the discs, and then the membranes. Edges on
-/// walls and discs grow with the distance from the nearest membrane or disc.
+/// walls and discs are longer at a larger distance from the nearest membrane or disc. No curve may
+/// cross a periodic side. Throws Error(kNotConverged) if an edge would be too short (cut_curve()).
 MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurves& curves);
 
 }  // namespace viscontact::freefem_flow

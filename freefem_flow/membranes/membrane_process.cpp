@@ -1,5 +1,6 @@
-// The dialogue with membranes.edp (membrane_process.hpp), in the units of the solver. A solver that
-// fails is an Error(kExternalProgram). A change must agree with the script.
+// The dialogue with scripts/membranes.edp (membrane_process.hpp). Numbers have the units of the
+// arguments. A solver that fails is an Error(kExternalProgram), a place outside the domain an
+// Error(kNotConverged). A change must agree with what the script reads and writes.
 #include "viscontact/freefem_flow/membranes/membrane_process.hpp"
 
 #include <fmt/format.h>
@@ -28,13 +29,14 @@ using particles::Membrane;
 
 constexpr std::size_t kComponents = 3;  // of the motion of a particle in the plane
 
-/// The two matrices between the N beads of a membrane and the 2 E nodes of its E edges, at which
-/// the velocity is known: quadratic on each edge.
+/// Two matrices between the N beads of a membrane and the 2 E nodes of its E edges in the mesh. The
+/// nodes are the ends and middles of the edges, so that a function on an edge is quadratic.
 struct MembraneNodes {
-  /// From positions of beads to those of nodes, by trigonometric interpolation: 2 E rows.
+  /// From positions of beads to those of nodes, by trigonometric interpolation: 2 E x N numbers.
   Eigen::MatrixXd sampling;
-  /// From forces on beads to forces on nodes: 2 E rows. Its transpose gives the velocities of beads
-  /// that are nearest to those on the edges (least squares), so that powers are the same.
+  /// From forces on beads to forces on nodes: 2 E x N numbers. Its transpose takes velocities of
+  /// nodes to velocities of beads, by least squares along the edges. Forces and velocities have the
+  /// same power on beads as on nodes, because the matrices are transposes of each other.
   Eigen::MatrixXd smoothing;
 };
 
@@ -45,7 +47,7 @@ MembraneNodes nodes_of(int beads, int edges) {
     for (int k = 0; k < beads; ++k)
       nodes.sampling(i, k) = particles::cardinal(
           beads, particles::kTwoPi * (i / (2.0 * edges) - static_cast<double>(k) / beads), 0);
-  // Integrals of the products of the quadratic functions, over the length of an edge.
+  // Integrals of products of the quadratic basis functions over an edge, divided by its length.
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(2 * edges, 2 * edges);
   const Eigen::Matrix3d own = (Eigen::Matrix3d() << 4, 2, -1, 2, 16, 2, -1, 2, 4).finished() / 30;
   for (int e = 0; e < edges; ++e)
@@ -95,17 +97,18 @@ class MembraneProcess : public particles::FluidSolver {
   int edges_of_disc_;  // on each disc
   std::vector<MembraneNodes> nodes_;
   std::vector<double> radii_;       // of all particles
-  std::vector<std::size_t> discs_;  // the particles that are no beads
-  // The component of all particles' motions that is each component of the script: x of the beads of
-  // all membranes, y of them, and the motions of the discs.
+  std::vector<std::size_t> discs_;  // numbers of the particles that are not beads
+  // The script has the components of motions in another order: x of the beads of all membranes, y
+  // of the same beads, the motions of the discs. For each of them its place in the arrays of
+  // FluidSolver.
   std::vector<std::size_t> components_;
-  // Of the last flow, and of the fluid without membranes (0: not known).
+  // Of the last flow with moving walls, and of the fluid without membranes (0: not known).
   double dissipation_ = 0, dissipation_alone_;
   std::vector<double> forces_of_fluid_;  // on all particles
   std::unique_ptr<SolverDialogue> solver_;
-  double shift_ = 0;  // along x, of the domain with respect to the mesh
+  double shift_ = 0;  // coordinate x in the domain minus that in the mesh
   std::size_t unknowns_ = 0;
-  long peak_memory_kb_ = 0;  // of processes that were replaced
+  long peak_memory_kb_ = 0;  // largest one of the processes that were replaced
 };
 
 MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles::Domain& domain,
@@ -124,7 +127,8 @@ MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles:
     throw Error(ErrorKind::kBadInput,
                 fmt::format("the case has {} membranes; at most {} are allowed", membranes_.size(),
                             kMostMembranes));
-  // With fewer nodes on the edges a force on a bead would not be smooth on the edges.
+  // With fewer edges than two thirds of the beads, the forces on nodes that a force on one bead
+  // gives would not be smooth along the edges.
   for (const auto& membrane : membranes_) edges_ = std::max(edges_, (2 * membrane.count() + 2) / 3);
   for (std::size_t d = 0; d < 2; ++d)
     for (const auto& membrane : membranes_)
@@ -187,8 +191,8 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
   }
   check_places(domain_, curves, unit_);
   shift_ = shift_between_membranes(domain_, curves);
-  // Where the domain is periodic, the mesh covers the period that begins at a line between
-  // membranes and discs.
+  // If the domain is periodic, the mesh covers the period that begins at a line between membranes
+  // and discs. Each curve is shifted by whole periods into it.
   const auto cell = particles::cell_of(domain_);
   for (auto& own : nodes) {
     own.col(0).array() -= shift_;
@@ -220,7 +224,8 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
       append(text, std::array{own(i, 0), own(i, 1)}, "a node");
       text += '\n';
     }
-  // A large system changes the rounding errors of later ones (SolverCommand).
+  // After a large system the rounding errors of later ones differ; a new process does not have
+  // this memory.
   if (unknowns_ > command_.most_unknowns_reproduced) start();
   solver_->ask("place", text);
   solver_->expect("placed", command_.remarks_on_meshes);
@@ -231,7 +236,7 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
 std::vector<double> MembraneProcess::mobility(std::size_t components) {
   solver_->ask("mobility", "mobility\n");
   solver_->expect("mobility");
-  // Beads do not turn, so that torques on them move nothing: their rows are 0.
+  // Beads have no angular velocity, so that the rows and columns of torques on them are 0.
   std::vector<double> rows(components * components);
   for (const auto row : components_)
     for (const auto column : components_) rows[row * components + column] = solver_->number();

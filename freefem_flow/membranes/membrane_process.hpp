@@ -1,5 +1,6 @@
-// Starts FreeFEM with membranes.edp, which computes Stokes flow with membranes. Units are those of
-// the solver (freefem_solver.cpp, which calls it).
+// Starts FreeFEM with scripts/membranes.edp, which computes Stokes flow with membranes and rigid
+// discs in the plane. All numbers have the units of the arguments; freefem_solver.cpp, which calls
+// it, scales the case so that radii and viscosity are about 1. A change must agree with the script.
 #pragma once
 
 #include <memory>
@@ -11,17 +12,16 @@
 namespace viscontact::freefem_flow {
 
 /// Starts the process and waits until it is ready. `domain` is a disc, or a box that is not
-/// periodic along y; `fluid` has membranes, no inertia, and no solver of the user's own; `unit` is
-/// that of the length in the unit of the case, for messages. The particles, which have these
-/// `radii`, are the beads of the membranes, which feel no torque, and rigid discs, free or driven.
-/// The solver computes no second mesh and no quantities but the dissipation. Throws
-/// Error(kExternalProgram) if FreeFEM cannot be run, and Error(kBadInput) if there are more
-/// membranes than the script has labels for.
+/// periodic along y; `fluid` has membranes, no inertia, and no solver of the user's own; `radii`
+/// [L], > 0, are those of all particles: the beads of the membranes, which are points of them and
+/// feel no torque, and rigid discs, free or driven. `unit` > 0 is the unit of length of the
+/// arguments in that of the case; only messages use it. Throws Error(kExternalProgram) if FreeFEM
+/// cannot be run, and Error(kBadInput) if there are more than kMostMembranes membranes.
 ///
-/// The mesh has `edges_per_particle` edges on each membrane, at least two thirds of its beads.
-/// Edges grow with the distance from the membranes. Where the box is periodic along x, the mesh
-/// ends at a straight line that no membrane crosses; place() throws Error(kNotConverged) if there
-/// is no such line, and if a membrane leaves the domain.
+/// The mesh has `edges_per_particle` edges on each membrane, but at least two thirds as many as any
+/// membrane has beads. In a box that is periodic along x the mesh ends at a straight line that no
+/// membrane or disc crosses. place() throws Error(kNotConverged) if there is no such line, and if a
+/// membrane meets a disc or leaves the domain. vary_penalty() and vary_mesh() return zeros.
 std::unique_ptr<particles::FluidSolver> start_membrane_solver(const particles::Fluid& fluid,
                                                               const particles::Domain& domain,
                                                               std::span<const double> radii,

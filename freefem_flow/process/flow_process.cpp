@@ -1,6 +1,6 @@
-// Writes the requests of the protocol and reads the answers (docs/fluid-solver.md, which a change
-// must follow). Units are those of the solver; a wrong answer is an Error(kExternalProgram).
-// Numbers are written so that they read back to the same double.
+// Writes the requests to a fluid solver and reads the answers (docs/fluid-solver.md, with which a
+// change must agree). Units are those of the arguments; a wrong answer is an
+// Error(kExternalProgram). A change must keep that numbers read back to the same double.
 #include "viscontact/freefem_flow/process/flow_process.hpp"
 
 #include <fmt/format.h>
@@ -25,14 +25,16 @@ namespace {
 
 using particles::FluidParticles;
 
-// Factor by which the edges of the coarser mesh are longer, from which an error is estimated.
+// The error on a mesh that is too large to be refined is estimated from a coarser mesh, whose edges
+// are longer by this factor.
 constexpr double kCoarsening = 2;
 
-// The error on the finer mesh, divided by the difference of both meshes. For errors that fall as
-// h^4 it would be 1/15. So coarse a mesh does not follow this law yet; 1/7 is the value for h^3.
+// Estimated error on the finer mesh over the difference of the results on both meshes, which is
+// 1/(2^p - 1) for errors that fall as the power p of the length of edges. In theory p is 4. The
+// coarser mesh is too coarse for this, so that p = 3 is taken, which gives a larger estimate.
 constexpr double kErrorOfDifference = 1.0 / 7;
 
-/// One line for each particle: its centre and, in the plane, its angle.
+/// Appends one line for each particle: its centre [L] and, in the plane, its angle.
 void append_places(std::string& text, const FluidParticles& bodies, int dimension) {
   const auto& positions = bodies.particles->positions;
   const auto width = static_cast<std::size_t>(dimension);
@@ -43,6 +45,7 @@ void append_places(std::string& text, const FluidParticles& bodies, int dimensio
   }
 }
 
+/// Appends the number of driven particles, and a line with the number and the motion of each.
 void append_driven(std::string& text, const FluidParticles& bodies, int dimension) {
   text += fmt::format("driven {}\n", bodies.driven.size());
   for (const auto& [k, motion] : bodies.driven) {
@@ -52,7 +55,8 @@ void append_driven(std::string& text, const FluidParticles& bodies, int dimensio
   }
 }
 
-/// A new folder for files that the solver reads or writes, which ends with the object.
+/// A new folder for files that the solver reads or writes. The destructor removes it with all
+/// files. The constructor throws Error(kWrongUsage) if it cannot be made.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -91,8 +95,8 @@ FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain&
       command_(std::move(command)),
       limits_(limits),
       opening_(opening(fluid, domain, radii, dimension)) {
-  // A run with inertia needs such a folder to save its state. If it cannot be made, the error must
-  // come now and not after the first steps.
+  // saved_flow() needs a temporary folder. If none can be made, the error comes now and not after
+  // the first steps.
   if (fluid.has_inertia()) const TemporaryFolder needed;
   start();
 }
@@ -104,8 +108,7 @@ void FlowProcess::start() {
   largest_system_ = 0;
   solver_ = std::make_unique<SolverDialogue>(command_, limits_.answer, limits_.ready, limits_.stop);
   solver_->ask("viscontact-fluid", opening_);
-  // FreeFEM prints lines about its libraries when it starts.
-  solver_->expect("ready", true);
+  solver_->expect("ready", true);  // FreeFEM first prints lines about its libraries
   const std::string wants = solver_->word();
   if (wants != "boundary" && wants != "places") solver_->refuse("'boundary' or 'places'");
   wants_boundary_ = wants == "boundary";
@@ -144,7 +147,8 @@ void FlowProcess::place(const FluidParticles& bodies) {
   }
   boundary_ = wants_boundary_ ? words_of(make_boundary_(bodies, 1)) : "";
   coarser_boundary_.clear();
-  // A fluid with inertia remembers the flow, and its systems are solved without random numbers.
+  // A process that has solved a large system gives other rounding errors afterwards. With inertia
+  // it stays, because it remembers the flow and does not use the random numbers that are the cause.
   if (!fluid_.has_inertia() && largest_system_ > command_.most_unknowns_reproduced) start();
   unknowns_ = ask_to_place(boundary_);
   is_on_coarser_mesh_ = false;
@@ -152,11 +156,10 @@ void FlowProcess::place(const FluidParticles& bodies) {
     coarser_boundary_ = words_of(make_boundary_(bodies, kCoarsening));
 }
 
-/// Returns the number of unknowns.
 std::size_t FlowProcess::ask_to_place(const std::string& boundary) {
   solver_->ask("place", placement_ + boundary);
   solver_->expect("placed", command_.remarks_on_meshes);
-  // A double holds all whole numbers up to this one, so that every solver can write them.
+  // All whole numbers up to 2^53 are doubles, so that a solver may count in doubles.
   constexpr std::int64_t kMost = std::int64_t{1} << 53;
   const auto unknowns = static_cast<std::size_t>(solver_->whole_number(kMost));
   largest_system_ = std::max(largest_system_, unknowns);
@@ -179,7 +182,6 @@ particles::FlowQuantities FlowProcess::quantities() {
   particles::FlowQuantities quantities;
   quantities.dissipation = solver_->number();
   double alone = solver_->number_from_zero();
-  // The solver answers 0 if it does not know the dissipation without particles.
   if (alone == 0) alone = dissipation_alone_;
   quantities.apparent_viscosity = alone == 0 ? 0 : quantities.dissipation / alone;
   quantities.fluid_forces = solver_->numbers(components_);
@@ -265,8 +267,8 @@ particles::FlowField read_flow(SolverDialogue& solver) {
   const std::int64_t nodes = solver.whole_number(kMost);
   const std::int64_t triangles = solver.whole_number(kMost);
   if (nodes == 0 && triangles > 0) solver.refuse("0 triangles, as there are no nodes,");
-  // The arrays grow with the numbers that arrive, because a wrong count must not take all memory at
-  // once.
+  // Memory is not reserved for the numbers that the solver announces, because a wrong count could
+  // take all of it; the arrays grow with the numbers that arrive.
   particles::FlowField field;
   for (std::int64_t k = 0; k < nodes; ++k)
     for (auto* column : {&field.x, &field.y, &field.velocity_x, &field.velocity_y, &field.pressure})

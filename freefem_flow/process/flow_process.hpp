@@ -1,6 +1,7 @@
-// A fluid solver that is a process of its own, FreeFEM or a program of the user's, asked by the
-// protocol of docs/fluid-solver.md. Lengths, masses and times are in the units of the case.
-// freefem_solver.cpp makes it. A change of the protocol must change its version and that page.
+// A fluid solver that is a process of its own, FreeFEM or a program of the user's, which is asked
+// by the protocol of docs/fluid-solver.md. Lengths, masses and times have the units of the
+// arguments. freefem_solver.cpp makes it; membranes/ uses read_flow() and SolverLimits. A change of
+// the protocol must change its version and that page.
 #pragma once
 
 #include <chrono>
@@ -19,42 +20,45 @@ namespace viscontact::freefem_flow {
 
 class SolverDialogue;
 
-/// Asks a solver for the flow of its last solution, and reads the answer.
+/// Asks a solver for the velocity and pressure of its last solution, and reads the answer. Throws
+/// the errors of SolverDialogue.
 particles::FlowField read_flow(SolverDialogue& solver);
 
 /// Makes the boundary of the mesh around particles, with edges that are about `coarsening` >= 1
-/// times as long as the fluid says. It is called only for solvers that ask for a boundary.
+/// times as long as `edges_per_particle` of the fluid gives. It is called only for solvers that ask
+/// for a boundary.
 using MeshBoundaryMaker =
     std::function<MeshBoundary(const particles::FluidParticles&, double coarsening)>;
 
-/// Conditions on which the process of a solver is killed.
+/// When the process of a solver is killed, and how large its meshes may be.
 struct SolverLimits {
-  /// The longest time for one answer, > 0. A step of 1024 discs takes a quarter of a minute.
+  /// The longest time for one answer, > 0. One with 1024 discs took 16 to 21 s (bench/README.md).
   std::chrono::milliseconds answer = std::chrono::minutes(30);
   /// If it requests a stop, the solver is killed and Error(kInterrupted) is thrown.
   StopToken stop{};
   /// A mesh of at most this many unknowns is refined to estimate the error. The refined mesh has
-  /// four times as many unknowns, 400000, which take 2 GB. The error on a larger mesh is estimated
-  /// from a coarser one.
+  /// four times as many unknowns, at most 400000, which take 2 GB. If the mesh has more unknowns,
+  /// the error is estimated from a coarser mesh.
   std::size_t most_unknowns_to_refine = 100'000;
-  /// The longest time until the solver is ready, > 0. FreeFEM takes a second on a busy machine; a
-  /// command that is no solver should not be waited for as long as for a flow.
+  /// The longest time until the solver is ready, > 0. It is shorter than `answer`, so that a
+  /// command that is no solver fails soon; FreeFEM needs a second on a busy machine.
   std::chrono::milliseconds ready = std::chrono::minutes(1);
 };
 
-/// The process starts with the object and ends with it; a command may ask for a new process from
-/// time to time (SolverCommand). It also ends with the thread that made the object, so that this
-/// thread must live as long as the object. Functions of the base class throw
-/// Error(kExternalProgram), which names the solver, the request and the solver's last lines, if the
-/// solver ends, is silent beyond the limit, reports an error, or answers with anything but the
-/// finite numbers that the protocol asks for. They throw Error(kNotConverged) if a number that the
-/// solver would get is not finite. After an error of the solver the object cannot be used any more.
+/// The process starts with the object and ends with it; after large systems place() replaces it by
+/// a new one (SolverCommand::most_unknowns_reproduced). The process also ends with the thread that
+/// made the object, so that this thread must live as long as the object. Functions of the base
+/// class throw Error(kExternalProgram), which names the solver, the request and the solver's last
+/// lines, if the solver ends, does not answer in time, reports an error, or answers with anything
+/// but the finite numbers that the protocol asks for. They throw Error(kNotConverged) if a number
+/// for the solver is not finite. After an Error(kExternalProgram) every request throws another one.
 class FlowProcess : public particles::FluidSolver {
  public:
   /// Starts the solver and waits until it is ready. `dimension`: 2 for discs in the plane, 1 for
   /// spheres on the axis of a cylinder. `radii`: of all particles [L], > 0. Throws Error(kBadInput)
-  /// if `domain` does not fit the dimension or the velocities of the boundary, and
-  /// Error(kExternalProgram) if the solver cannot be run or is not ready in time.
+  /// if `domain` does not fit the dimension or the velocities of the boundary,
+  /// Error(kExternalProgram) if the solver cannot be run or is not ready in time, and
+  /// Error(kWrongUsage) if the fluid has inertia and no temporary folder can be made.
   FlowProcess(const particles::Fluid& fluid, const particles::Domain& domain,
               std::span<const double> radii, int dimension, SolverCommand command,
               MeshBoundaryMaker make_boundary, const SolverLimits& limits = {});
@@ -74,24 +78,25 @@ class FlowProcess : public particles::FluidSolver {
 
  private:
   void start();
+  /// Sends placement_ with this boundary. Returns the number of unknowns.
   std::size_t ask_to_place(const std::string& boundary);
 
   particles::Fluid fluid_;
   particles::Domain domain_;
   int dimension_;
-  std::size_t components_;  ///< of the motions of all particles
+  std::size_t components_;  ///< number of components of the motions of all particles together
   MeshBoundaryMaker make_boundary_;
-  double dissipation_alone_;  ///< of the fluid without particles, 0: not known
+  double dissipation_alone_;  ///< dissipation_alone(); 0: not known
   SolverCommand command_;
   SolverLimits limits_;
   std::string opening_;
   std::unique_ptr<SolverDialogue> solver_;
-  bool wants_boundary_ = false;
-  std::size_t largest_system_ = 0;   ///< that this process has solved
-  long peak_memory_of_earlier_ = 0;  ///< of processes that were replaced [kB]
-  std::size_t unknowns_ = 0;
-  // The last request `place`: places, driven particles and inertia; the boundary; and, for a mesh
-  // that is too large to be refined, a coarser boundary.
+  bool wants_boundary_ = false;      ///< the solver asked for boundaries of meshes
+  std::size_t largest_system_ = 0;   ///< most unknowns that the present process has solved for
+  long peak_memory_of_earlier_ = 0;  ///< largest one of the processes that were replaced [kB]
+  std::size_t unknowns_ = 0;         ///< of the last placement
+  // The parts of the last request `place`: places, driven particles and inertia; the boundary; and
+  // a coarser boundary, which is empty if the mesh is small enough to be refined.
   std::string placement_, boundary_, coarser_boundary_;
   bool is_on_coarser_mesh_ = false;
   std::vector<double> forces_;  ///< of the last velocities(forces, true)

@@ -1,6 +1,6 @@
-// Writes the opening of the protocol (docs/fluid-solver.md, which a change must follow). Units are
-// those of the arguments; a wrong domain is an Error(kBadInput). Numbers are written so that they
-// read back to the same double.
+// Writes the first text that a fluid solver gets (opening.hpp). Units are those of the arguments; a
+// wrong domain is an Error(kBadInput). A change must agree with docs/fluid-solver.md and with
+// scripts/opening.idp, and numbers must read back to the same double.
 #include "viscontact/freefem_flow/process/opening.hpp"
 
 #include <fmt/format.h>
@@ -19,6 +19,7 @@ using particles::CylinderDomain;
 using particles::DiscDomain;
 using particles::WallVelocity;
 
+/// The numbers, with a space before each.
 std::string words_of(std::span<const double> values) {
   std::string text;
   for (const double value : values) text += ' ' + format_number(value);
@@ -35,7 +36,8 @@ std::string domain_line(const particles::Domain& domain) {
   return "domain cylinder" + words_of(std::array{cylinder.radius, cylinder.height});
 }
 
-/// The labels of the walls; sides of a box that are periodic are no walls.
+/// The labels of the walls: a box 1 left, 2 right, 3 bottom, 4 top; a disc 1; a cylinder 1 side,
+/// 2 floor, 3 lid. Periodic sides of a box are no walls.
 std::vector<int> walls_of(const particles::Domain& domain) {
   if (std::holds_alternative<DiscDomain>(domain)) return {1};
   if (std::holds_alternative<CylinderDomain>(domain)) return {1, 2, 3};
@@ -46,13 +48,16 @@ std::vector<int> walls_of(const particles::Domain& domain) {
   return labels;
 }
 
-/// The coefficients a0 ax ay b0 bx by p q of a moving wall.
+/// The coefficients a0, ax, ay, b0, bx, by, p, q of the velocity (a0 + ax x + ay y, b0 + bx x +
+/// by y) + 4 s (1 - s) (p, q) of a wall, on which s goes from 0 to 1. On a cylinder, x is the
+/// distance from the axis and y is z.
 using WallCoefficients = std::array<double, 8>;
 
 std::string wall_line(int label, const char* kind, const WallCoefficients& coefficients) {
   return fmt::format("{} {}{}\n", label, kind, words_of(coefficients));
 }
 
+/// The coefficients of the side of a box with this label at the time of `step`; 0 if it is open.
 WallCoefficients side_coefficients(int label, const WallVelocity& velocity,
                                    const particles::FlowStep& step) {
   const auto value = velocity.at(step.time, step.from, step.to);
@@ -124,7 +129,7 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   for (const int label : labels)
     text += wall_line(label, is_open(fluid, label) ? "open" : "moving",
                       wall_coefficients(fluid, label, {}));
-  // The gradient of a domain with walls is in their velocities.
+  // A mean gradient is sent for a box without walls only. Walls have it in their velocities.
   const bool mean_gradient = flow != nullptr && labels.empty();
   text += "gradient" + words_of(mean_gradient ? flow->gradient : std::array<double, 4>{}) + '\n';
   const bool are_outlines = !fluid.plates.empty() || !fluid.cut_areas.empty();

@@ -1,6 +1,7 @@
-// The first text that a fluid solver gets: the fluid, the domain and the sizes of the particles
-// (docs/fluid-solver.md, which a change must follow), in the units of the arguments.
-// flow_process.cpp sends it.
+// The opening, which is the first text that a fluid solver gets: the fluid, the domain and the
+// sizes of the particles, in the units of the arguments. flow_process.cpp and
+// membranes/membrane_process.cpp send it. A change must agree with docs/fluid-solver.md and with
+// scripts/opening.idp, which reads it.
 #pragma once
 
 #include <span>
@@ -11,14 +12,15 @@
 
 namespace viscontact::freefem_flow {
 
-/// The opening of the protocol. `dimension`: 2 in the plane, 1 on the axis of a cylinder. Throws
-/// Error(kBadInput) if there is no domain, if it does not belong to the dimension, or if velocities
-/// of single sides are given for a domain that is not a box.
+/// The text of the opening. `radii`: of all particles [L], > 0. `dimension`: 2 in the
+/// plane, 1 on the axis of a cylinder. Throws Error(kBadInput) if there is no domain, if the domain
+/// is a cylinder in the plane or none on the axis, or if `fluid` gives velocities of single sides
+/// for a domain that is not a box.
 std::string opening(const particles::Fluid& fluid, const particles::Domain& domain,
                     std::span<const double> radii, int dimension);
 
-/// The velocities of all walls at the time of `step`: eight numbers for each wall, in the order of
-/// the opening.
+/// The velocities of all walls at the time of `step`, one line for each wall in the order of the
+/// opening: the eight numbers A0 AX AY B0 BX BY P Q of docs/fluid-solver.md.
 std::string walls_at(const particles::Fluid& fluid, const particles::Domain& domain,
                      const particles::FlowStep& step);
 

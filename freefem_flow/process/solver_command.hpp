@@ -1,5 +1,6 @@
-// How the process of a fluid solver is started, with what messages need. freefem_solver.cpp makes
-// it, flow_process.hpp uses it. A change must keep a user's command as it was written.
+// How the process of a fluid solver is started, and what messages about it say. freefem_solver.cpp
+// makes it; process/ and membranes/ use it. Nothing is checked or thrown. A change must keep that
+// the words of a user's command reach the solver unchanged.
 #pragma once
 
 #include <cstddef>
@@ -9,21 +10,21 @@
 
 namespace viscontact::freefem_flow {
 
-/// How a fluid solver is started, and what is known of it.
+/// The command of a fluid solver, and how this solver behaves.
 struct SolverCommand {
-  /// The program, which is looked up on PATH, and its arguments. At least one.
+  /// The program, which is looked up on PATH, and then its arguments.
   std::vector<std::string> arguments;
   std::vector<std::string> environment{};  ///< "NAME=value" each, for the solver only
   std::string folder{};                    ///< working folder; empty: that of this process
-  /// What a user can do if the program cannot be run, and if it does not answer in time: each ends
-  /// the message of the error. May be empty.
+  // The ends of messages, which say what a user can do; may be empty.
   std::string remedy_if_missing{},  ///< if the program cannot be run
       remedy_if_silent{};           ///< if the program does not answer in time
-  /// A solver that has solved a system of more unknowns gives other rounding errors afterwards, and
-  /// is replaced by a new process before the next placement. A run that is continued after an
-  /// interrupt then gives the same bits.
+  /// After a system of more unknowns than this the solver would give other rounding errors. It is
+  /// then replaced by a new process before the next placement, so that a run that is continued
+  /// after an interrupt gives the same bits as one without interrupt.
   std::size_t most_unknowns_reproduced = std::numeric_limits<std::size_t>::max();
-  /// The solver may write lines of its own before it answers a placement. They are skipped.
+  /// Whether lines of other text before the answer to a placement are skipped. If not, they are an
+  /// error.
   bool remarks_on_meshes = false;
 };
 

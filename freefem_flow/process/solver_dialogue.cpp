@@ -1,6 +1,7 @@
 // Asks a fluid solver and checks its answers, and writes numbers and boundaries for it
-// (solver_dialogue.hpp). Each fault is an Error(kExternalProgram). A change must keep that a silent
-// solver is killed at its time limit.
+// (solver_dialogue.hpp). Numbers have the units of the caller. Each fault of the solver is an
+// Error(kExternalProgram). A change must keep that a solver that does not answer is killed at its
+// time limit, and the messages that docs/troubleshooting.md quotes.
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 
 #include <fmt/format.h>
@@ -18,10 +19,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// How long a solver that has failed may take to write its last lines and to end.
+// How long a solver that has failed may take to write its last lines and to end; a free choice.
 constexpr auto kGraceOfFailed = 1000ms;
 
-// How long a solver may take to end when it is asked to.
+// How long a solver may take to end after the request `end`; docs/fluid-solver.md promises it.
 constexpr auto kGraceAtEnd = 2000ms;
 
 std::string command_in_words(const std::vector<std::string>& arguments) {
@@ -30,14 +31,14 @@ std::string command_in_words(const std::vector<std::string>& arguments) {
   return text;
 }
 
-/// A text of the solver for a message, in which a long one would hide the rest.
+/// The first `longest` bytes of a text of the solver, with dots if it is longer.
 std::string shortened(std::string_view text, std::size_t longest) {
   if (text.size() <= longest) return std::string(text);
   return std::string(text.substr(0, longest)) + "...";
 }
 
-/// A word of the solver. Words are plain text; a byte that is not may end a message or disturb a
-/// terminal.
+/// A word of the solver for a message. A byte that is no printable ASCII character becomes a
+/// question mark, because it could end the message or disturb a terminal.
 std::string in_quotes(std::string_view word) {
   auto text = shortened(word, 40);
   for (char& c : text)
@@ -76,7 +77,7 @@ void SolverDialogue::ask(std::string_view name, std::string_view text) {
   if (!process_)
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("the fluid solver ({}) has ended after an earlier error", name_));
-  // Output before the first request is read when `ready` is expected.
+  // A solver may write before the first request; expect("ready") skips these lines.
   if (requests_ > 0 && process_->has_unread_output())
     fail("it wrote more than the answer", kGraceOfFailed);
   request_ = name;
@@ -149,7 +150,7 @@ std::int64_t SolverDialogue::whole_number(std::int64_t largest) {
 void SolverDialogue::refuse(std::string_view needed) {
   process_->put_word_back();
   const std::string word(process_->read_word(ChildProcess::Clock::now()).text);
-  process_->put_word_back();  // so that the whole line is among the last lines
+  process_->put_word_back();  // so that the message shows the whole line
   fail(fmt::format("it answered {} in place of {}", in_quotes(word), needed), kGraceOfFailed);
 }
 

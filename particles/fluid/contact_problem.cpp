@@ -1,8 +1,8 @@
-// Solves the contact problem of a step in a fluid (fluid_contacts.hpp). W [T/M] is the matrix of
-// the rates at which gaps open per impulse of each contact, w its diagonal. If contacts are few, W
-// is computed, otherwise only products with it. Numbers are in the units of the case. Errors are
-// those of the mobility. Results may depend on nothing but the arguments. Used by
-// fluid_contacts.cpp.
+// Solves the contact problem of a step in a fluid (ContactProblem in fluid_contacts.hpp). W [T/M]
+// is the matrix of the changes of gaps per impulse of each contact, w its diagonal. If contacts are
+// few, W is computed, otherwise only products with it. Units are those of the arguments. Errors are
+// those of the mobility. A change must keep that results depend on nothing but the arguments,
+// because a run that is continued must give the same bits.
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <set>
@@ -22,7 +22,7 @@ double free_gap(const Contact<2>& contact, const ContactConditions& conditions) 
   return gap_after(contact, conditions.free_velocities.data(), conditions.h, conditions.layout);
 }
 
-/// Groups of contacts without a common particle: contact c is in group group[c].
+/// For each contact the number of its group. Contacts of one group have no common particle.
 std::vector<std::size_t> disjoint_groups(std::span<const Contact<2>> contacts) {
   std::set<std::pair<std::int32_t, std::size_t>> used;  // particles and their groups
   std::vector<std::size_t> groups;
@@ -36,9 +36,9 @@ std::vector<std::size_t> disjoint_groups(std::span<const Contact<2>> contacts) {
   return groups;
 }
 
-/// Estimates w of each contact by one product for each group of contacts without a common particle.
-/// Other contacts of the group change the gap as well, but much less. Returns the number of
-/// products.
+/// Estimates w of each contact by one call of the mobility for each group of contacts without a
+/// common particle. The other contacts of the group also change the gap, but much less. Returns the
+/// number of groups. `motions` is the number of components of all velocities.
 int estimate_w(std::span<Contact<2>> contacts, std::size_t motions, const Mobility& mobility,
                const MotionLayout& layout) {
   const auto group = disjoint_groups(contacts);
@@ -51,8 +51,8 @@ int estimate_w(std::span<Contact<2>> contacts, std::size_t motions, const Mobili
     for (std::size_t c = 0; c < contacts.size(); ++c)
       if (group[c] == g) contacts[c].w = opening(contacts[c], velocities.data(), layout);
   }
-  // Other contacts of the group can hide a contact's own change. A contact whose w would be below a
-  // tenth of the median gets a tenth of the median.
+  // The other contacts of the group may cancel a contact's own change. At least a tenth of the
+  // median is therefore taken, a free choice: w scales unknowns and allowed residuals only.
   std::vector<double> sorted;
   for (const auto& contact : contacts) sorted.push_back(contact.w);
   std::ranges::sort(sorted);
@@ -63,9 +63,9 @@ int estimate_w(std::span<Contact<2>> contacts, std::size_t motions, const Mobili
   return static_cast<int>(groups);
 }
 
-/// The dual problem with one question to the fluid for each product with W. A vector y = B z holds
-/// the displacements S G^T p that the impulses p cause, and after them the impulses G^T p on the
-/// particles. The product of both is z^T W z.
+/// The problem in the unknowns z = sqrt(w) p, with the impulses p (dual_problem.hpp), and with one
+/// call of the mobility for each product with W. A vector y = B z holds the displacements that the
+/// impulses cause, and then the impulses on the particles. Their inner product is p^T W p.
 class FluidDualProblem : public DualProblem {
  public:
   /// `contacts` have w > 0 and `allowed` > 0.
@@ -114,9 +114,8 @@ class FluidDualProblem : public DualProblem {
   mutable ThreadPool pool_{1};
 };
 
-/// W of contacts [T/M], by which an impulse of one changes the rate of the gap of another: row
-/// `other` and column c belong to the response of contact c, the velocities that a unit force of it
-/// causes.
+/// W of contacts [T/M]. Column c has the changes of all gaps by a unit impulse of contact c, from
+/// responses[c], the velocities that a unit force of this contact causes.
 Eigen::MatrixXd dense_w(std::span<const Contact<2>> contacts,
                         std::span<const std::vector<double>> responses,
                         const MotionLayout& layout) {
@@ -129,13 +128,12 @@ Eigen::MatrixXd dense_w(std::span<const Contact<2>> contacts,
   return w;
 }
 
-/// The dual problem of few contacts, with the matrix W itself. A vector y = B z holds W z, and then
-/// z.
+/// The same problem with the scaled matrix itself. A vector y = B z holds `w` z, and then z.
 class DenseDualProblem : public DualProblem {
  public:
-  /// The problem has the symmetric part of `full_w`, dense_w() of the contacts. If `conditions` say
-  /// that W is not symmetric, the gaps of the problem contain the product of the skew part with the
-  /// present impulses.
+  /// The matrix of the problem is the symmetric part of `full_w`, dense_w() of the contacts. If W
+  /// is not symmetric (in `conditions`), the product of its skew part and the present impulses is
+  /// added to the gaps.
   DenseDualProblem(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
                    const Eigen::MatrixXd& full_w)
       : DualProblem(contacts.size()) {
@@ -177,7 +175,7 @@ class DenseDualProblem : public DualProblem {
   mutable ThreadPool pool_{1};
 };
 
-/// A factor of a dense W between chosen contacts, for active_set_newton().
+/// Solves with the scaled W of chosen contacts, for active_set_newton().
 class DenseFactor {
  public:
   /// `error_of_w` >= 0 is the relative error of W.
@@ -190,9 +188,9 @@ class DenseFactor {
     for (std::size_t c = 0; c < free.size(); ++c)
       if (free[c] != 0) chosen_.push_back(static_cast<Index>(c));
     w_ = problem.w(chosen_, chosen_);
-    // Redundant contacts make W singular, up to its errors. A term as large as these errors bounds
-    // the impulses that such contacts exert on each other. Refinement in solve() removes the error
-    // that the term causes in other impulses.
+    // Redundant contacts make W singular, up to its errors. The term, which is as large as these
+    // errors, bounds the impulses of redundant contacts. The refinement in solve() removes the
+    // error that the term causes in all other impulses.
     Eigen::MatrixXd regular = w_;
     regular.diagonal() *= 1 + error_of_w_;
     factor_.compute(regular);
@@ -202,7 +200,7 @@ class DenseFactor {
     const Eigen::VectorXd right =
         Eigen::Map<const Eigen::VectorXd>(gradient.data(), std::ssize(gradient))(chosen_);
     Eigen::VectorXd values = factor_.solve(right);
-    constexpr int kRefinements = 2;
+    constexpr int kRefinements = 2;  // a free choice
     for (int i = 0; i < kRefinements; ++i) values += factor_.solve(right - w_ * values);
     std::ranges::fill(solved, 0.0);
     for (std::size_t i = 0; i < chosen_.size(); ++i)
@@ -217,8 +215,8 @@ class DenseFactor {
   Eigen::LDLT<Eigen::MatrixXd> factor_;
 };
 
-/// Conjugate gradients on the free contacts without a further preconditioner: W has about the
-/// diagonal 1 already.
+/// No preconditioner for the conjugate gradients of Mprgp, because the scaled W has about the
+/// diagonal 1.
 template <SolvableDualProblem Problem>
 class IdentityPreconditioner {
  public:
@@ -243,8 +241,8 @@ class IdentityPreconditioner {
   Problem* problem_;
 };
 
-/// Improves problem.z by MPRGP until all residuals are allowed, or until `most` products with W are
-/// done. Returns their number.
+/// Improves problem.z by MPRGP (mprgp.hpp: conjugate gradients with gradient projection) until all
+/// residuals are allowed, or until `most` products with W are done. Returns their number.
 template <SolvableDualProblem Problem>
 int solve_by_gradients(Problem& problem, int most) {
   Mprgp mprgp(problem, IdentityPreconditioner<Problem>(problem));
@@ -289,11 +287,10 @@ bool ContactProblem::solve(bool is_rough) {
   } else if (std::ranges::any_of(contacts_, [](const auto& c) { return !(c.w > 0); })) {
     iterations_ += estimate_w(contacts_, velocities_.size(), mobility_, layout);
   }
-  // With a dense W the accurate solution is as fast as a rough one.
-  is_rough_ = is_rough && !is_dense;
+  is_rough_ = is_rough && !is_dense;  // with a dense W an accurate solution is as fast
   auto conditions = conditions_;
   if (is_rough_) {
-    constexpr double kRoughLength = 1e-3, kRoughImpulse = 1e-2;
+    constexpr double kRoughLength = 1e-3, kRoughImpulse = 1e-2;  // free choices
     auto& settings = conditions.solver;
     settings.tolerance = std::max(settings.tolerance, kRoughLength);
     settings.impulse_tolerance = std::max(settings.impulse_tolerance, kRoughImpulse);
@@ -308,21 +305,21 @@ bool ContactProblem::solve(bool is_rough) {
     if (is_solved()) return true;
   }
   conditions.velocity_error = kErrorOfSums;
-  // The allowed residuals depend on the impulses, which are known only after the first solution.
-  // Each round also divides the error that the skew part of W makes by about the symmetric part
-  // over the skew one.
+  // The allowed residuals depend on the impulses, which are known only after the first round. If W
+  // is not symmetric, each round multiplies the error by about the ratio of the skew part of W to
+  // the symmetric part. Both numbers of rounds are free choices.
   constexpr int kRounds = 4, kRoundsOfSkewPart = 40;
   const int rounds = is_dense && !conditions.is_symmetric ? kRoundsOfSkewPart : kRounds;
   for (int round = 0; round < rounds; ++round) {
     for (auto& contact : contacts_) contact.impulse = std::max(contact.impulse, contact.lowest);
     set_allowed(contacts_, conditions);
-    // Half of it is left for the difference between this problem and the final velocities.
+    // The other half is left for errors of the velocities that the fluid solver computes at last.
     for (auto& contact : contacts_) contact.allowed /= 2;
     is_dense ? solve_dense() : solve_by_products();
     if (is_solved()) return true;
     if (iterations_ >= conditions_.solver.max_iterations) break;
   }
-  // Residuals that errors of the mobility explain are no failure.
+  // Larger residuals are no failure if errors of the mobility explain them.
   conditions.velocity_error = std::max(kErrorOfSums, conditions_.velocity_error);
   return is_solved();
 }
@@ -332,9 +329,8 @@ void ContactProblem::solve_dense() {
                            dense_w(contacts_, responses_, conditions_.layout));
   DenseFactor factor(conditions_.velocity_error);
   const int most = conditions_.solver.max_iterations - iterations_;
-  constexpr int kNewtonSteps = 50;
+  constexpr int kNewtonSteps = 50;  // a free choice; Newton's method needs a few or cycles
   auto solved = active_set_newton(problem, factor, std::min(most, kNewtonSteps));
-  // Newton's method may cycle. Conjugate gradients do not.
   if (!(solved.residual <= 1))
     solved.iterations += solve_by_gradients(problem, most - solved.iterations);
   iterations_ += solved.iterations;

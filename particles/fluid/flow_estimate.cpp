@@ -1,6 +1,6 @@
-// Computes a flow up to three times and compares the results. Numbers are in the units of the case.
-// Errors are those of FluidSolver. A change must keep the order of the questions, because
-// vary_penalty() and vary_mesh() replace what the solver had before.
+// Computes a flow up to three times and compares the results (flow_estimate.hpp). Units are those
+// of the arguments; errors are those of FluidSolver. A change must keep the order of the calls,
+// because vary_penalty() and vary_mesh() replace the problem that the solver had before.
 #include "viscontact/particles/fluid/flow_estimate.hpp"
 
 #include <algorithm>
@@ -10,21 +10,22 @@
 namespace viscontact::particles {
 namespace {
 
-/// The results of one flow: velocities [L/T, 1/T], quantities, and what `further` returned.
+/// The results of one flow; `further` is what the argument `further` of estimate_flow() returned.
 struct Results {
   std::vector<double> velocities;
   FlowQuantities quantities;
   std::vector<double> further;
 };
 
+/// The numbers `of` minus the numbers `from`.
 std::vector<double> difference(std::span<const double> of, std::span<const double> from) {
   std::vector<double> result(of.begin(), of.end());
   for (std::size_t i = 0; i < result.size(); ++i) result[i] -= from[i];
   return result;
 }
 
-/// For each component the length of its vector: velocity or force; an angular velocity or torque is
-/// a vector of its own.
+/// For each component the length of the velocity or force that it belongs to; for an angular
+/// velocity or torque its absolute value.
 std::vector<double> lengths(std::span<const double> of, std::size_t components) {
   std::vector<double> result;
   for (const double x : of) result.push_back(std::abs(x));
@@ -33,8 +34,8 @@ std::vector<double> lengths(std::span<const double> of, std::size_t components) 
   return result;
 }
 
-/// The largest length. Angular velocities (`power` 1) and torques (-1) are multiplied by
-/// radius^power.
+/// The largest of the lengths(). Angular velocities are multiplied by the radius (`power` 1),
+/// torques divided by it (`power` -1).
 double largest(std::span<const double> of, const Particles& particles, int power) {
   const auto components = motion_components(particles.dimension);
   const auto all = lengths(of, components);
@@ -47,8 +48,9 @@ double largest(std::span<const double> of, const Particles& particles, int power
   return result;
 }
 
-/// For each load of a particle in the plane the largest change of all its loads, where torques are
-/// divided by the radius. A change that is small by chance then hides no error.
+/// The changes of forces in the plane, with one value for all loads on a particle: the larger one
+/// of the change of its force and of its torque over the radius, for the torque times the radius.
+/// A load whose change is small by chance then gets no error that is too small.
 std::vector<double> of_loads(std::span<const double> changes, const Particles& particles) {
   auto result = lengths(changes, motion_components(particles.dimension));
   if (particles.dimension == 1) return result;
@@ -61,7 +63,8 @@ std::vector<double> of_loads(std::span<const double> changes, const Particles& p
   return result;
 }
 
-/// The largest change over a radius of the velocity of walls or of a cell [L/T].
+/// The largest entry of the gradient of a linear flow times the largest radius [L/T]; 0 without a
+/// linear flow.
 double speed_of_flow(const Fluid& fluid, const Particles& particles) {
   const auto* flow = std::get_if<LinearFlow>(&fluid.boundary);
   if (flow == nullptr || particles.radii.empty()) return 0;
@@ -70,6 +73,8 @@ double speed_of_flow(const Fluid& fluid, const Particles& particles) {
   return rate * std::ranges::max(particles.radii);
 }
 
+/// The estimates relative to `scale`, for the largest changes by the other mesh and, times its
+/// factor, by the other penalty; 0 if `scale` is 0.
 RelativeErrors relative(double by_mesh, double by_penalty, const SecondMesh& mesh, double scale) {
   if (!(scale > 0)) return {0, 0, 0};
   return {(mesh.error * by_mesh + by_penalty) / scale,

@@ -1,7 +1,7 @@
-// The errors of velocities and forces in a fluid: the flow of one placement is computed again with
-// another penalty and on another mesh. Lengths, masses and times are in the units of the case.
-// fluid_simulation.cpp calls it at the first and the last step. A change must keep the order of the
-// questions.
+// Estimates the errors of velocities and forces in a fluid: the flow of one placement of the
+// particles is computed again with another penalty and on another mesh. Lengths, masses and times
+// are in any consistent units. fluid_simulation.cpp calls it in the first and the last step. A
+// change must keep the order of the calls of the solver.
 #pragma once
 
 #include <functional>
@@ -15,32 +15,32 @@
 
 namespace viscontact::particles {
 
-/// A flow from two meshes, with estimates of its errors.
+/// A flow that is extrapolated from two meshes, with estimates of its errors.
 struct FlowEstimate {
-  std::vector<double> velocities;  ///< the most accurate ones [L/T, 1/T]
-  FlowQuantities quantities;       ///< the most accurate ones
-  /// Of the velocities, where angular velocities are multiplied by the radius. They are relative to
-  /// the largest velocity, or to the change of a linear flow over the largest radius if that is
-  /// larger.
+  std::vector<double> velocities;  ///< of all particles, extrapolated [L/T, 1/T]
+  FlowQuantities quantities;       ///< dissipation, apparent viscosity, forces are extrapolated
+  /// Errors of the velocities, with angular velocities multiplied by the radius. They are relative
+  /// to the largest velocity or, if it is larger, to the largest entry of the gradient of a linear
+  /// flow (LinearFlow) times the largest radius.
   RelativeErrors of_velocities;
-  /// Of the forces of the fluid, relative to the largest of them, where torques are divided by the
-  /// radius.
+  /// Errors of the forces of the fluid, with torques divided by the radius, relative to the largest
+  /// of these forces.
   RelativeErrors of_forces;
   /// Errors >= 0 of `quantities.fluid_forces`, as many numbers [M L/T^2, M L^2/T^2]. In the plane
-  /// the components of the force on a particle have one error, and its torque has this error times
+  /// both components of the force on a particle get the same error, and its torque this error times
   /// the radius.
   std::vector<double> force_errors;
-  /// Errors >= 0 of the further results on the mesh of the placement.
+  /// Errors >= 0 of the results of `further` on the mesh of the placement, in their units.
   std::vector<double> further_errors;
 };
 
-/// Estimates the errors of velocities(forces, true) and of the quantities of this flow. place()
-/// must have been called with `particles`, and must be called before any further question but
-/// flow().
+/// Estimates the errors of solver.velocities(forces, true) and of the quantities of this flow.
+/// solver.place() must have been called with `particles`. It must be called again afterwards before
+/// any function of the solver but flow(), because the solver is left on another mesh.
 ///
 /// `further` is called after each flow and returns more results that depend on it, such as the
-/// forces of links; empty: there are none. The errors of impulses of contacts that `forces` may
-/// contain are not in the estimates. Throws the errors of FluidSolver.
+/// forces of links; empty: there are none. `forces` may contain contact forces, whose own errors
+/// are not in the estimates. Throws the errors of FluidSolver.
 FlowEstimate estimate_flow(FluidSolver& solver, std::span<const double> forces,
                            const Particles& particles, const Fluid& fluid,
                            const std::function<std::vector<double>()>& further = {});

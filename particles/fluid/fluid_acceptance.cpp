@@ -1,6 +1,7 @@
-// Examines a step in a fluid and changes the state by it (fluid_simulation.hpp). Lengths, masses
-// and times are in the units of the case. A step that is refused is an Error(kNotConverged); the
-// state must then be that before the step. Used by fluid_simulation.cpp.
+// Examines a step in a fluid and changes the state by it: functions of FluidSimulation that its
+// step() calls. Lengths, masses and times are in any consistent units. A step that is refused is an
+// Error(kNotConverged), which must leave the state as it was. A change must also keep that a
+// continued run gives the same bits as one without a break.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,8 +15,9 @@
 
 namespace viscontact::particles {
 
-/// Throws Error(kNotConverged) if the step cannot be accepted; otherwise fills the report and the
-/// errors of the impulses.
+/// Throws Error(kNotConverged) if a particle moves too far for the precision of a double, or if the
+/// solution leaves too deep an overlap. Otherwise sets the residuals in the report and
+/// Motion::impulse_errors.
 void FluidSimulation::examine(Motion& motion, double h, StepReport& report) const {
   const double largest = largest_resolved_distance(setting_.solver.tolerance, mean_radius_);
   const double longest = h * fastest(motion.moved, layout_);
@@ -25,7 +27,9 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
                             "precision of a double; check the forces and the time step",
                             longest, report.time));
   const auto& blow = motion.blow;
-  if (blow)  // no contact takes part in the displacement
+  // The displacements of a step with a blow are not those by the impulses of `contact`: only its
+  // gaps are examined.
+  if (blow)
     for (auto& contact : motion.contact.contacts) contact.w = std::min(contact.w, 0.0);
   const auto conditions = contact_conditions(motion.free, h);
   auto residuals = measure_residuals(motion.contact.contacts, motion.moved, conditions);
@@ -49,9 +53,9 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
   motion.impulse_errors = std::move(residuals.impulse_errors);
 }
 
-/// Remembers the friction of each contact and the load of its solids. The impulses of a step are
-/// `share` times those of its contacts. The friction of a contact that slides is set to its bound,
-/// from which it differs by its residual.
+/// Stores the friction of each contact and the load of its solids in the memories of the pairs:
+/// `share` times the impulses of `step`. The friction of a contact that slides is its bound, from
+/// which the solution differs by its residual.
 void FluidSimulation::remember_friction(const StepContacts& step, double share) {
   const auto pairs = state_.pairs.size();
   for (auto* list : {&state_.pairs, &state_.walls})
@@ -77,13 +81,14 @@ void FluidSimulation::remember_friction(const StepContacts& step, double share) 
   }
 }
 
-/// Changes the state by a step.
+/// Changes the state by a step of length h that ends at `next` [T]; counts contacts in the report.
 void FluidSimulation::accept(Motion motion, double h, double next, StepReport& report) {
   auto& p = state_.particles;
   state_.pairs = std::move(motion.contact.pairs);
   state_.walls = std::move(motion.contact.walls);
-  // In a fluid with inertia the second step computes the impulses of the first step again. Films
-  // and solids must absorb them only once, and contacts count as not loaded yet if solids rebound.
+  // In a fluid with inertia the second step computes the impulses of the first step again, and
+  // films absorb only those. In a case with restitution Pair::impulse is then 0, because solids
+  // rebound less in a contact that bears a load already.
   const bool is_unloaded = setting_.laws.restitution.is_on() && is_computed_twice();
   std::size_t c = 0;
   for (auto* pairs : {&state_.pairs, &state_.walls})
@@ -123,7 +128,7 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   if (!setting_.fluid->has_inertia()) {
     state_.earlier_velocities = std::move(motion.flow);
   } else if (state_.earlier_step > 0) {
-    // The first step computes the velocity at its end, which the next step computes again.
+    // The flow of the first step is not kept, because the next step computes it again.
     solver_->keep_flow(false, motion.kept);
     state_.earlier_velocities = std::move(motion.kept);
   }
@@ -137,7 +142,7 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   reported_ = std::move(motion.reported);
 }
 
-/// Moves the rigid bodies, but not yet their members.
+/// Moves the rigid bodies, but not their members.
 void FluidSimulation::move_bodies(const Motion& motion, double h, double next) {
   auto& p = state_.particles;
   if (p.bodies.empty()) return;

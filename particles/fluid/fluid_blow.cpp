@@ -1,9 +1,10 @@
-// Solves the blow of a step in a fluid: all contacts that are hit in the step, in two phases,
-// compression and restitution (fluid_motion.hpp, docs/physics.md (6.11)). gamma <= 0 is minus the
-// impulse that the film of a contact has absorbed, and the load is the impulse of the forces of the
-// step that a contact bears if particles are at rest. Numbers are in the units of the case: gaps in
-// [L], rates in [L/T], impulses in [M L/T]. Errors are those of the mobility. fluid_simulation.cpp
-// uses it. A change must keep that the work of a blow is not positive.
+// Solves the blow of a step in a fluid (solve_blow() in fluid_motion.hpp, docs/physics.md (6.11)):
+// all contacts that are hit in the step, in two phases. In the compression the solids come to rest,
+// in the restitution they give back the share e_d of the impulse that they took up. gamma <= 0 is
+// minus the impulse that the film of a contact has absorbed; the load of a contact is the impulse
+// that it bears if particles are at rest under the forces of the step. Gaps are in [L], rates at
+// which they grow in [L/T], impulses in [M L/T]. Errors are those of the mobility. A change must
+// keep that the work of a blow is not positive.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -14,8 +15,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// The rate of a gap while the particles rest [L/T]: that by the motion of an obstacle, or of an
-/// image relative to its particle in a sheared cell.
+/// The rate [L/T] at which a gap grows while the particles rest, in a step of length h [T]: by the
+/// motion of an obstacle, or of a periodic image relative to its particle in a sheared cell.
 double drift_of(const Contact<2>& contact, const BlowStep& step, double h) {
   const auto& p = step.state.particles;
   if (contact.is_stop()) return 0;
@@ -30,9 +31,8 @@ double drift_of(const Contact<2>& contact, const BlowStep& step, double h) {
   return (gap_at(step.end) - gap_at(step.state.time)) / h;
 }
 
-/// One blow, from its hits to its displacements. solve() may be called once. It calls the other
-/// functions in an order that must not be changed, because each one uses members of `parts_` that
-/// those before it have set.
+/// One blow. solve() may be called once. It calls the other functions in an order that must not be
+/// changed, because each one uses members of `parts_` that those before it have set.
 class Blow {
  public:
   /// All arguments must outlive the object.
@@ -48,18 +48,17 @@ class Blow {
   std::optional<FluidBlow> solve();
 
  private:
-  // A contact in the course of the blow. e_d is the coefficient of restitution of the solids [1].
-  // Impulses are in [M L/T].
+  // What is known of a contact in the blow.
   struct Part {
     double drift = 0;        // drift_of() [L/T]
     double start = 0;        // gap at the beginning of the step, >= 0 [L]
-    double pull = 0;         // rate of the gap that forces cause within the step from rest [L/T]
+    double pull = 0;         // rate of the gap by the forces of the step on particles at rest [L/T]
     bool is_closed = false;  // at the beginning of the step
-    bool is_hit = false;     // its gap closes by an approach, not by a load
-    double late = 0;         // time of the hit over the length of the step, 0 to 1
-    double load = 0;         // take_load()
-    double compressed = 0;   // impulse at the end of the compression, with the load
-    double solid = 0;        // impulse s of the hit that the solids take, >= 0
+    bool is_hit = false;     // its gap closes in the step by an approach, not by the load alone
+    double late = 0;         // time of the hit from the beginning, over the length of the step, 0-1
+    double load = 0;         // set by take_load()
+    double compressed = 0;   // impulse at the end of the compression, load included
+    double solid = 0;        // part of it that the solids take up beyond the load, >= 0
     double left = 0;         // gamma at the end of the compression, <= 0
     double restored = 0;     // least impulse of the whole blow: compressed + left + e_d solid
   };
@@ -72,13 +71,14 @@ class Blow {
   void move(FluidBlow& blow);
   void book(FluidBlow& blow) const;
 
-  // A stop of a hinge is a contact without film, and has no pair in the lists.
+  // The pair of contact `c`. The stop of a hinge has no film and is in no list: its pair is empty.
   const Pair& pair(std::size_t c) const {
     static const Pair kOfStop{};
     const auto n = ordinary_.pairs.size();
     if (ordinary_.contacts[c].is_stop()) return kOfStop;
     return c < n ? ordinary_.pairs[c] : ordinary_.walls[c - n];
   }
+  // gamma_min, the gamma at which the solids touch.
   double lowest_gamma(std::size_t c) const {
     if (ordinary_.contacts[c].is_stop()) return 0;
     const auto& of = pair(c);
@@ -90,6 +90,7 @@ class Blow {
   double rate(std::size_t c, std::span<const double> velocities) const {
     return opening(ordinary_.contacts[c], velocities.data(), conditions_.layout) + parts_[c].drift;
   }
+  // The conditions of a problem whose impulses are those of a time `length` [T].
   ContactConditions conditions_over(double length) const {
     auto conditions = conditions_;
     conditions.h = length;
@@ -97,7 +98,7 @@ class Blow {
     return conditions;
   }
 
-  const StepContacts& ordinary_;
+  const StepContacts& ordinary_;  // the contacts without restitution
   const BlowStep& step_;
   const ContactLaws& laws_;
   const Mobility& mobility_;
@@ -106,13 +107,13 @@ class Blow {
   int iterations_ = 0;  // of all problems
 };
 
-/// Finds which contacts are hit, and when. Returns true if there are any.
+/// Sets the members of each part from `drift` to `late`. Returns true if any contact is hit.
 bool Blow::find_hits() {
   const auto free = conditions_.free_velocities;
   const double h = conditions_.h;
   const double touching = conditions_.solver.tolerance * conditions_.mean_radius;
-  // An approach counts as a hit only if it closes the gap in the step by more than a thousandth of
-  // the tolerance `touching`, a free choice, and if its velocity exceeds rounding errors.
+  // An approach counts only if it changes the gap in the step by more than a thousandth of the
+  // tolerance `touching`, a free choice, and if its velocity exceeds rounding errors.
   constexpr double kUnseen = 1e-3, kRounding = 1e-12;
   const double unseen = std::max(kUnseen * touching / h,
                                  kRounding * std::max(fastest(free, conditions_.layout),
@@ -133,8 +134,7 @@ bool Blow::find_hits() {
     if (approaches(c)) approaching.push_back(c);
   }
   if (approaching.empty()) return false;
-  // Driven particles count as at rest here, because their velocity is prescribed, and not an effect
-  // of forces.
+  // Driven particles count as at rest, because forces do not change their velocity.
   const auto of_free = [&](std::span<const double> velocities) {
     std::vector<double> result(velocities.begin(), velocities.end());
     for (const auto& [particle, motion] : step_.setting.given_motions)
@@ -152,9 +152,9 @@ bool Blow::find_hits() {
   for (const auto c : approaching) {
     auto& part = parts_[c];
     const auto& of = pair(c);
-    // A contact that bore a load is hit only if it approached faster than five times what the
-    // forces of a step cause, as in impacts/: otherwise small rebounds would keep a packing
-    // shaking.
+    // A contact that bore a load is hit only if it approached faster than kUnderLoad times the
+    // rate that the forces of a step cause, as in particles/impacts/: otherwise small rebounds
+    // would keep a packing moving.
     constexpr double kUnderLoad = 5;
     const bool bore_load = of.impulse != 0 || of.gamma < 0;
     if (part.is_closed && bore_load && !(rate(c, step_.before) < kUnderLoad * part.pull)) continue;
@@ -164,9 +164,9 @@ bool Blow::find_hits() {
   return any;
 }
 
-/// The problem of the contacts over the time `kick` for which forces act on velocities. Impulses
-/// are those of this time. The gaps of hit contacts are 0 at its beginning. Those of the others are
-/// multiplied by kick/h, so that they close at the same velocity as in the step.
+/// The contact problem of a step of length `kick` (BlowStep) in place of h. The gaps of hit
+/// contacts are 0 at its beginning. Those of the others are multiplied by kick/h, so that they
+/// close at the same velocity as in the step.
 StepContacts Blow::problem() const {
   const double kick = step_.kick;
   StepContacts problem;
@@ -180,8 +180,8 @@ StepContacts Blow::problem() const {
   return problem;
 }
 
-/// Finds the loads of the contacts that are closed or hit: the impulses that would keep the
-/// particles at rest under the forces of the step.
+/// Sets Part::load of the contacts that are closed or hit: the impulses that would keep the gaps
+/// of particles at rest under the forces of the step.
 void Blow::take_load() {
   auto load = problem();
   std::vector<Contact<2>> contacts;
@@ -206,8 +206,8 @@ void Blow::take_load() {
 }
 
 /// Divides the impulses of the compression between films and solids. Returns true if the solids of
-/// a contact give back more than its load. Otherwise the solution of the step without restitution
-/// remains, because the particles would fly for less than two steps.
+/// a contact give back more than its load. If not, there is no blow, because the particles would be
+/// apart for less than two steps.
 bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
   bool any = false;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
@@ -217,8 +217,8 @@ bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
     const double by_load = std::clamp(gamma - part.load, lowest, 0.0);
     part.solid = RestitutionLaw::solid_impulse(part.compressed - part.load, by_load - lowest);
     part.left = std::clamp(gamma - part.compressed, lowest, 0.0);
-    // A contact that is neither hit nor closed may close after the blow, in the rest of the step.
-    // Its solids do not rebound yet.
+    // Solids of a contact that is neither hit nor closed do not rebound in this step: the contact
+    // may close after the blow only.
     const bool gives_back = !compressed[c].is_stop() &&
                             laws_.restitution.coefficient * part.solid > std::max(part.load, 0.0);
     if (gives_back && (part.is_hit || part.is_closed))
@@ -229,10 +229,10 @@ bool Blow::share_impulses(const std::vector<Contact<2>>& compressed) {
   return any;
 }
 
-/// Keeps a blow from adding energy. The work of the impulses is that at the mean of the rates of
-/// the gaps before and after the blow. Films in a blow of several contacts could make it positive.
-/// The impulses are then moved towards those of the compression, whose work is negative, until the
-/// work is not positive.
+/// Keeps a blow from adding energy. The work of the impulses is the sum of impulse times mean of
+/// the rates of the gap before and after the blow. It can be positive if several contacts have
+/// films. The impulses are then moved towards those of the compression, whose work is negative,
+/// until the work is not positive.
 void Blow::restrain(const StepContacts& compressed, StepContacts& restored) const {
   const auto work = [&](double share) {
     double sum = 0;
@@ -247,7 +247,7 @@ void Blow::restrain(const StepContacts& compressed, StepContacts& restored) cons
   };
   if (!(work(1) > 0)) return;
   double low = 0, high = 1;
-  constexpr int kHalvings = 50;
+  constexpr int kHalvings = 50;  // to about rounding
   for (int n = 0; n < kHalvings; ++n) {
     const double middle = (low + high) / 2;
     (work(middle) > 0 ? high : low) = middle;
@@ -256,7 +256,8 @@ void Blow::restrain(const StepContacts& compressed, StepContacts& restored) cons
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     auto& contact = restored.contacts[c];
     go_back(compressed.contacts[c].impulse, contact.impulse);
-    contact.lowest = contact.impulse;  // what measure_residuals() expects of it
+    // measure_residuals() then takes the impulse for one at its bound, so that the gap may open.
+    contact.lowest = contact.impulse;
   }
   for (std::size_t i = 0; i < restored.loads.size(); ++i) {
     go_back(compressed.loads[i], restored.loads[i]);
@@ -264,9 +265,9 @@ void Blow::restrain(const StepContacts& compressed, StepContacts& restored) cons
   }
 }
 
-/// Finds the displacements of the step, FluidBlow::moved. Until the time of its hit a contact acts
-/// with its load alone, and in the rest of the step with the impulse of the blow. A contact that is
-/// not hit changes at the time of the first hit.
+/// Sets FluidBlow::moved, the displacements of the step. Until the time of its hit a contact
+/// exerts nothing, and in the rest of the step the force of the blow. A contact that is not hit
+/// exerts its load until the time of the first hit.
 void Blow::move(FluidBlow& blow) {
   const auto& layout = conditions_.layout;
   double first = 1;
@@ -285,7 +286,7 @@ void Blow::move(FluidBlow& blow) {
   for (std::size_t i = 0; i < blow.moved.size(); ++i)
     blow.moved[i] += conditions_.free_velocities[i];
   // Because hits have different times, some particles may now overlap, or a gap may be open
-  // although its film still pulls. The displacements are then changed until no gap is off.
+  // although its film still pulls. Contact forces then change the displacements until no gap does.
   StepContacts gaps;
   gaps.contacts = ordinary_.contacts;
   const double allowed = conditions_.solver.tolerance * conditions_.mean_radius / 2;
@@ -306,9 +307,10 @@ void Blow::move(FluidBlow& blow) {
   blow.moved = std::move(gaps.velocities);
 }
 
-/// Sets FluidBlow::absorbed, what the films absorb, and FluidBlow::rebounds.
+/// Sets FluidBlow::absorbed and FluidBlow::rebounds.
 void Blow::book(FluidBlow& blow) const {
-  constexpr double kAtRest = 1e-9;  // of the approach: rounding errors of the fluid's answers
+  // A rate below this share of the approach is a rounding error of the fluid solver.
+  constexpr double kAtRest = 1e-9;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     const auto& part = parts_[c];
     const auto& contact = blow.contacts[c];

@@ -1,6 +1,9 @@
 // Lists pairs that are close to contact, chooses the contacts of a step among them and measures
-// their residuals. Numbers are in the units of the case. Errors are those of the mobility, and that
-// of plates that overlap. A change must keep the order of pairs, which is that of the files.
+// their residuals (fluid_contacts.hpp). gamma <= 0 is minus the impulse that the film of a pair has
+// absorbed. A plate is a particle with round ends: all points at one distance from a line, its
+// spine. Units are those of the arguments. Errors are those of the mobility, and
+// Error(kNotConverged) for plates that overlap. A change must keep the order of pairs, which files
+// of contacts and restart files have.
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 #include <fmt/format.h>
@@ -20,12 +23,13 @@
 namespace viscontact::particles {
 namespace {
 
-/// Particles in order of their number, obstacles in order of -1, -2, ...
+/// The key by which pairs are sorted. Obstacles are in the order -1, -2, ...
 auto place_of_pair(const Pair& pair) {
   return std::tuple(std::max(pair.first, -1 - pair.first), pair.second, pair.image, pair.place);
 }
 
-/// Sorts the pairs, and adds those of `before` that remember something.
+/// Sorts `pairs`. A pair that is also in `before` gets the memory it has there, and the pairs of
+/// `before` with gamma < 0 are added.
 void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
   std::ranges::sort(pairs, {}, place_of_pair);
   std::ranges::sort(before, {}, place_of_pair);
@@ -33,7 +37,7 @@ void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
     return !(old.gamma < 0) &&
            !std::ranges::binary_search(pairs, place_of_pair(old), {}, place_of_pair);
   });
-  // Of a pair that is in both, that of `before` is taken.
+  // set_union() takes a pair that is in both from the first list.
   std::vector<Pair> merged;
   std::ranges::set_union(before, pairs, std::back_inserter(merged), {}, place_of_pair,
                          place_of_pair);
@@ -50,8 +54,8 @@ std::optional<SpineContacts> contacts_of_two_plates(const Fluid& fluid, const Pa
                        outline_of(fluid, p, p.angles, j, shift_of(p.cell, pair.image)));
 }
 
-/// The pairs of the step before, with those of two plates at the places where they touch now. Where
-/// two contacts became one, it has the memory of the one with the film that pulls more.
+/// The pairs of the step before, in which Pair::place of two plates is that of their present
+/// contact. If two contacts became one, it has the memory of that with the smaller gamma.
 std::vector<Pair> at_present_places(const std::vector<Pair>& before, const State& state,
                                     const Fluid& fluid) {
   if (fluid.plates.empty()) return before;
@@ -69,11 +73,13 @@ std::vector<Pair> at_present_places(const std::vector<Pair>& before, const State
   return pairs;
 }
 
-/// Lists all pairs with a gap below `reach` [L] and those that are glued, with their memory. The
-/// side of a cylinder, whose normal has no component along the axis, is left out.
+/// Lists all pairs with a distance of their surfaces below `reach` [L] and those with gamma < 0,
+/// with their memory. The side of a cylinder, whose normal has no component along the axis of the
+/// particles, is left out.
 void list_pairs(StepContacts& step, const State& state, const Fluid& fluid,
                 std::span<const PlanePosition> obstacles, double reach, ThreadPool& pool) {
-  // Only the nearest images have a number, so that the search must stay below half a period.
+  // Particles are found by circles around them that overlap, whose radii must be below half a
+  // period, because only the nearest images of particles have a number (periods.hpp).
   constexpr double kShareOfPeriod = 0.499;
   const auto& p = state.particles;
   std::vector<double> extents = p.radii;
@@ -126,10 +132,10 @@ double along(const std::array<double, 2>& arm, const std::array<double, 2>& norm
 }
 
 /// Contact of a pair of which one is a plate, the other a plate, a disc or an obstacle: that of the
-/// discs about the nearest points of their spines. At an obstacle each end of the plate has a
-/// contact of its own, and two plates may have two, with the number Pair::place. `start` are the
-/// particles where the step begins, which say which places belong to which contact. Sets
-/// `place`.
+/// discs about the nearest points of their spines; the spine of a disc is its centre. At an
+/// obstacle each end of the plate has a contact of its own, and two plates may have two, with the
+/// number Pair::place. `start` are the particles at the beginning of the step, which decide what
+/// place belongs to what contact; `p` are those whose gap is computed. Sets `place`.
 Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const Particles& p,
                              const Pair& pair, std::span<const PlanePosition> obstacles,
                              FrictionPlace& place) {
@@ -169,16 +175,16 @@ Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const P
   };
   const auto of_first = arm(near.first, first), of_second = arm(near.second, second);
   contact.levers = {-cross(of_first, contact.normal), cross(of_second, contact.normal)};
-  // Both arms end at one point, so that friction keeps the angular momentum.
+  // Both arms of friction end at one point in the gap, so that it keeps the angular momentum.
   const double share = distance / (first.end_radius() + second.end_radius());
   place.arms = {along(of_first, contact.normal) + share * first.end_radius(),
                 share * second.end_radius() - along(of_second, contact.normal)};
   return contact;
 }
 
-/// The contact of a pair, as by contact_of(). On an axis the normal has one component. A round wall
-/// is taken as its tangent where the particle is after it moved with the velocities without
-/// contact. Sets `place` in the plane.
+/// The contact of any pair, with the distance of the surfaces as its gap. On an axis the normal has
+/// one component. In place of a round wall its tangent is taken, at the place that the particle
+/// reaches with its velocity without contact. Sets `place` in the plane.
 Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& pair,
                             std::span<const PlanePosition> obstacles,
                             const ContactConditions& conditions, FrictionPlace& place) {
@@ -214,7 +220,8 @@ Contact<2> contact_in_fluid(const Fluid& fluid, const Particles& p, const Pair& 
   return contact;
 }
 
-/// Makes the contacts of the listed pairs, and their friction unless `friction` is null.
+/// Appends the contacts of the listed pairs, and their friction unless `friction` is null. Gaps of
+/// these contacts are those above the threshold gap.
 void make_contacts(StepContacts& step, const Particles& p, const Fluid& fluid,
                    std::span<const PlanePosition> obstacles, const ContactConditions& conditions,
                    const FrictionOfStep* friction) {
@@ -230,10 +237,11 @@ void make_contacts(StepContacts& step, const Particles& p, const Fluid& fluid,
       contact.gap -= fluid.threshold_gap;
       contact.lowest /= conditions.share_of_impulse;
       contact.impulse /= conditions.share_of_impulse;
-      // A threshold gap that is crossed by less than the tolerance counts as reached.
+      // A distance that differs from the threshold gap by less than half of the tolerance counts
+      // as equal to it.
       if (std::abs(contact.gap) <= conditions.solver.tolerance * conditions.mean_radius / 2)
         contact.gap = 0;
-      // A mean flow moves an image of a particle relative to the particle.
+      // In a sheared cell an image of a particle moves relative to the particle.
       if (pair.first >= 0 && pair.image != 0) {
         const auto velocity = velocity_of_image(p.cell, pair.image);
         contact.gap +=
@@ -243,7 +251,7 @@ void make_contacts(StepContacts& step, const Particles& p, const Fluid& fluid,
     }
 }
 
-/// Where particles are after they moved and turned with velocities for a time h [T].
+/// The particles after they moved and turned with these velocities for a time h [T].
 Particles moved(const Particles& p, std::span<const double> velocities, double h,
                 const MotionLayout& layout) {
   auto result = p;
@@ -255,8 +263,9 @@ Particles moved(const Particles& p, std::span<const double> velocities, double h
   return result;
 }
 
-/// Adds to the gaps of contacts of plates the difference between the gap after the step and the
-/// linearised one. Returns false, and changes nothing, if no difference matters.
+/// Adds to the gaps of contacts of plates what the gap after the step, in which plates turn by
+/// finite angles, exceeds the linearised one. Returns false, and changes nothing, if that is at
+/// most a quarter of the tolerance for each contact that may act.
 bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
                    std::span<const PlanePosition> obstacles, const ContactConditions& conditions) {
   const double h = conditions.h;
@@ -268,7 +277,8 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
     const auto n = step.pairs.size();
     const auto& pair = c < n ? step.pairs[c] : step.walls[c - n];
     if (!has_plate(fluid, pair.first, pair.second)) continue;
-    // A gap within the tolerance counts as closed at the beginning, and so it does at the end.
+    // make_contacts() sets a gap within half of the tolerance to 0; the gap after the step is
+    // changed by as much.
     const auto gap_at = [&](const Particles& at) {
       FrictionPlace place;
       return contact_of_plates(fluid, p, at, pair, obstacles, place).gap - fluid.threshold_gap;
@@ -285,8 +295,8 @@ bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
   return true;
 }
 
-/// Throws Error(kNotConverged) if two plates are closer after the step than the tolerance allows:
-/// they turned so far that they touch at another place than where the step began.
+/// Throws Error(kNotConverged) if two plates are closer after the step than the tolerance allows,
+/// because they turned so far that they touch at a place that was no contact at its beginning.
 void check_plates_apart(const StepContacts& step, const Particles& p, const Fluid& fluid,
                         const ContactConditions& conditions) {
   if (fluid.plates.empty()) return;
@@ -345,8 +355,8 @@ void add_torques_of_stops(const Links& links, const Particles& particles,
 
 namespace {
 
-/// Whether a force of the contact changes its gap. It does not where a hinge holds the place at
-/// which it acts.
+/// Whether a force of the contact changes its gap. It does not if a hinge holds the place at which
+/// it acts.
 bool moves(const Contact<2>& contact, const Mobility& mobility,
            const ContactConditions& conditions) {
   if (!(conditions.least_w > 0)) return true;
@@ -359,14 +369,14 @@ bool moves(const Contact<2>& contact, const Mobility& mobility,
 
 namespace {
 
-/// A mobility that asks the same question once: problems with friction ask for the response to the
-/// unit force of a contact again and again.
+/// A mobility that remembers the velocities for the forces of single contacts, because problems
+/// with friction ask for them repeatedly.
 Mobility remembered(const Mobility& mobility) {
   return
       [&mobility, answers = std::make_shared<std::map<std::vector<double>, std::vector<double>>>()](
           std::span<const double> forces) {
-        // The force of one contact has at most six components. Sums of many forces are not asked
-        // for again.
+        // The force of one contact has at most six components that are not 0: two forces and a
+        // torque on each particle. Sums of more forces are not remembered; each is asked for once.
         constexpr std::ptrdiff_t kMost = 6;
         if (std::ranges::count_if(forces, [](double f) { return f != 0; }) > kMost)
           return mobility(forces);
@@ -434,7 +444,7 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
   const auto& p = state.particles;
   const auto& free = conditions.free_velocities;
   const auto stops = contacts_of_stops(links, p);
-  // Contacts push particles at speeds that are seldom above twice the largest one without contact.
+  // A guess: contacts seldom push particles to more than twice the largest speed without contact.
   double reach =
       std::max(conditions.least_reach, reach_of(state, fluid, free, conditions) +
                                            2 * conditions.h * fastest(free, conditions.layout) +
@@ -457,7 +467,8 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
     make_contacts(step, p, fluid, obstacles, conditions, friction);
     step.contacts.insert(step.contacts.end(), stops.begin(), stops.end());
     solve(step);
-    // Each correction multiplies the error by about the angle by which plates turn in the step.
+    // Each correction multiplies the error by about the angle [rad] by which plates turn in the
+    // step, so that few are needed; the limit is a free choice.
     constexpr int kMostCorrections = 20;
     for (int n = 0; n < kMostCorrections && !fluid.plates.empty(); ++n) {
       if (!correct_turns(step, p, fluid, obstacles, conditions)) break;
@@ -489,7 +500,7 @@ std::vector<double> set_allowed(std::span<Contact<2>> contacts,
   for (const auto& contact : contacts) {
     if (!(contact.w > 0)) continue;
     const double after = gap_after(contact, free.data(), h, layout);
-    // In a glued pair the film also pulls, so that an open gap calls for an impulse, too.
+    // If gamma < 0, the film also pulls, so that an impulse is needed to keep the gap from opening.
     const double stopping = (contact.lowest < 0 ? std::abs(after) : std::max(0.0, -after));
     const double impulse = std::max(std::abs(contact.impulse), stopping / contact.w);
     for_particles(contact,

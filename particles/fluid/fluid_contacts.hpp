@@ -1,10 +1,11 @@
 // The contacts of a step in a fluid, docs/physics.md (6.4): which pairs take part, and impulses
-// that keep their gaps open, as forces on particles whose velocities depend linearly on forces; and
-// their Coulomb friction (6.14): the tangents along which solids slide, and impulses of friction. A
-// gap of a contact is D - D_c here, with the threshold gap D_c. Lengths, masses and times are in
-// the units of the case; masses and impulses of discs are per length. fluid_simulation.cpp,
-// fluid_acceptance.cpp and the blows use it. Errors are those of the mobility. A change must keep
-// that the film carries no friction.
+// that keep their gaps open; and their Coulomb friction (6.14). The velocities of particles depend
+// linearly on forces. Contact is made at the threshold gap D_c (Fluid::threshold_gap): gaps of
+// contacts are D - D_c here, with the distance D of the surfaces. gamma <= 0 is minus the impulse
+// that the film of a contact has absorbed, and gamma_min the gamma at which the solids touch.
+// Lengths, masses and times are in any consistent units; masses and impulses of discs are per
+// length. The other sources of this folder and particles/membranes/ use it. Errors are those of the
+// mobility. A change must keep that the film carries no friction.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +30,8 @@
 
 namespace viscontact::particles {
 
-/// G v: the velocity at which the gap opens [L/T], for the velocities of all particles.
+/// The velocity at which the gap opens [L/T], for the velocities v of all particles: G v with the
+/// row G of the contact.
 inline double opening(const Contact<2>& contact, const double* velocities,
                       const MotionLayout& layout) {
   double sum = 0;
@@ -61,7 +63,7 @@ inline double fastest(std::span<const double> velocities, const MotionLayout& la
   return largest;
 }
 
-/// Adds G^T force to the forces of all particles [M L/T^2]. A positive force pushes both apart.
+/// Adds a contact force [M L/T^2], > 0 if it pushes, to the forces and torques on all particles.
 inline void add_contact_force(const Contact<2>& contact, double force, std::span<double> forces,
                               const MotionLayout& layout) {
   for (std::size_t d = 0; d < layout.directions(); ++d) {
@@ -72,9 +74,8 @@ inline void add_contact_force(const Contact<2>& contact, double force, std::span
   if (contact.levers[0] != 0) forces[layout.at(contact.first, 2)] += contact.levers[0] * force;
 }
 
-/// Velocities [L/T, 1/T] of all particles that forces and torques [M L/T^2, M L^2/T^2] add to those
-/// without contact; linear, and positive definite on the forces of contacts, along which it is
-/// symmetric except in a fluid with inertia.
+/// The velocities [L/T, 1/T] that forces and torques [M L/T^2, M L^2/T^2] add to those of all
+/// particles. It is linear and positive semidefinite, and symmetric except in a fluid with inertia.
 using Mobility = std::function<std::vector<double>(std::span<const double> forces)>;
 
 /// The step without contact, and how exact its contacts must be.
@@ -84,60 +85,61 @@ struct ContactConditions {
   MotionLayout layout;                      ///< of all velocities and forces
   SolverSettings solver;                    ///< tolerances, and the largest number of iterations
   double mean_radius = 0;                   ///< [L], > 0
-  /// Relative error of velocities, and of the mobility, which is otherwise linear; >= 0. It limits
-  /// how small residuals can be.
+  /// Relative error >= 0 of velocities and of the mobility. Residuals cannot be smaller than what
+  /// it causes.
   double velocity_error = 0;
-  /// The length of the step in which forces change the momentum, over h; 1 but in a fluid with
-  /// inertia. The impulse of a force lambda is h lambda times this share.
+  /// Impulse of a force in the step over h times the force; 1 but in a fluid with inertia, where it
+  /// is the length of the step before over h (BlowStep::kick).
   double share_of_impulse = 1;
-  /// Change of the velocity of a gap, or of a slip, by a unit force of its contact [T/M] up to
-  /// which the gap or slip counts as one that hinges hold, and takes no part; 0: none is held.
+  /// If a unit force of a contact changes the velocity of its gap, or of its slip, by no more than
+  /// this [T/M], hinges hold the gap or slip, which then takes no part; 0: hinges hold none.
   double least_w = 0;
   double least_reach = 0;  ///< pairs are listed up to this gap at least [L]
-  /// Whether the mobility is symmetric. Moving fluid carries what a contact does to the contacts
-  /// behind it, so that the mobility of a fluid with inertia is not.
+  /// Whether the mobility is symmetric. In a fluid with inertia it is not, because moving fluid
+  /// carries the effect of a contact to those downstream.
   bool is_symmetric = true;
-  /// Whether impulses that are a solution within the tolerances already stay as they are. Otherwise
-  /// the solution is made as exact as it can be.
+  /// Whether impulses that are a solution within the tolerances already stay as they are. If not,
+  /// they are improved as far as the errors of the mobility allow.
   bool keeps_solution = false;
 };
 
-/// What rounding errors of positions, and errors of velocities, change in a gap after the step [L].
+/// Error [L] of a gap after the step by rounding errors of positions and by errors of velocities.
 inline double rounding_error_of_gaps(const ContactConditions& conditions) {
-  constexpr double kOfPositions = 1e-14;  // in mean radii
+  constexpr double kOfPositions = 1e-14;  // in mean radii: some 50 units in the last place
   return kOfPositions * conditions.mean_radius +
          conditions.velocity_error * conditions.h *
              fastest(conditions.free_velocities, conditions.layout);
 }
 
-/// Contact::w of a contact whose gap a hinge holds, as no force of the contact can change it. It
-/// takes no part, and its gap is as exact as the hinge.
+/// Contact::w of a contact that takes no part, because hinges hold its gap.
 inline constexpr double kHeld = -1;
 
-/// Sets Contact::allowed. Contacts with w = 0 take no part, and only the tolerance of the gaps
-/// holds for them.
+/// Sets Contact::allowed, the allowed residual [L], from the tolerances of gaps and impulses. For
+/// contacts with w <= 0, which take no part, it is the tolerance of gaps alone.
 ///
-/// Returns the impulses at work in each contact [M L/T]: of its two particles the smaller one of
-/// the largest impulse on each. The impulses on a particle are those of its contacts, and those
-/// that would stop the motion without contact that changes a gap.
+/// Returns the impulses at work in each contact [M L/T]. For a particle this is the largest of the
+/// impulses of its contacts and of those that alone would keep their gaps from changing; for a
+/// contact it is the smaller value of its two particles.
 std::vector<double> set_allowed(std::span<Contact<2>> contacts,
                                 const ContactConditions& conditions);
 
-/// Measures the residuals of the impulses of contacts in the velocities that the particles have
-/// with them; gaps are D - D_c + h G v. Sets Contact::allowed.
+/// Measures the residuals of contacts, for their impulses and the velocities that the particles
+/// have with these. Sets Contact::allowed.
 StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const double> velocities,
                                 const ContactConditions& conditions);
 
-/// Largest number of contacts for which the matrix W is computed, by one product with the mobility
-/// for each contact. Above it, products take place within conjugate gradients, if W is symmetric.
+/// Largest number of contacts for which the matrix W (below) is computed, by one product with the
+/// mobility for each contact. Above it, if W is symmetric, conjugate gradients compute products
+/// with W. It changes the time, and results by rounding.
 inline constexpr std::size_t kMostDenseContacts = 24;
 
-/// Finds the impulses p of contacts with p >= gamma, D + h G v >= 0 where p = gamma, and
-/// D + h G v = 0 where p > gamma, with v = free velocities + mobility(G^T p/h). This is the dual
-/// problem (5.4) of docs/physics.md with W = G mobility G^T in place of h G M^-1 G^T.
+/// Finds the impulses p of contacts with gaps D and rows G such that p >= gamma, D + h G v >= 0 if
+/// p = gamma, and D + h G v = 0 if p > gamma, with v = free velocities + mobility(G^T p/h). This is
+/// the dual problem (5.4) of docs/physics.md with W = G mobility G^T in place of h G M^-1 G^T.
 ///
-/// Few contacts: W is assembled, and Newton's method on the set of contacts with p > gamma solves,
-/// or MPRGP where Newton's method cycles. Many contacts: MPRGP with products by the mobility.
+/// If contacts are few, W is assembled, and Newton's method on the set of contacts with p > gamma
+/// solves the problem, or, if it cycles, MPRGP: conjugate gradients with gradient projection. If
+/// they are many, MPRGP solves it with one call of the mobility for each product with W.
 class ContactProblem {
  public:
   /// `mobility` and the velocities of `conditions` must outlive the object.
@@ -146,15 +148,14 @@ class ContactProblem {
         mobility_(mobility),
         velocities_(conditions.free_velocities.begin(), conditions.free_velocities.end()) {}
 
-  /// Adds a contact, whose `impulse` is a first guess. Contacts of which the mobility moves neither
-  /// particle must not be added.
+  /// Adds a contact, whose `impulse` is a first guess. The mobility must move at least one of its
+  /// particles.
   void add(const Contact<2>& contact) { contacts_.push_back(contact); }
 
-  /// Finds the impulses and the `w` of all contacts. Further contacts may be added after it, and
-  /// their solution begins at the impulses found. A rough solution serves only to see which other
-  /// contacts take part, and saves products where there are many. Returns whether the residuals of
-  /// all contacts reached the tolerances (of a rough solution, the wide ones). May throw what the
-  /// mobility throws.
+  /// Finds the impulses and the `w` of all contacts. Further contacts may be added afterwards; the
+  /// next solution begins with the impulses found. A solution that `is_rough` has wider tolerances
+  /// and saves products: it serves to see which other contacts take part. Returns whether the
+  /// residuals of all contacts are within the tolerances. Throws what the mobility throws.
   [[nodiscard]] bool solve(bool is_rough);
 
   /// All contacts, in the order in which they were added, with the impulses of the last solve().
@@ -163,13 +164,13 @@ class ContactProblem {
   const std::vector<double>& velocities() const { return velocities_; }
   /// Sums of the contact forces p/h on each particle [M L/T^2].
   std::vector<double> loads() const;
-  /// Number of products with the mobility and of steps without such a product.
+  /// Number of products with the mobility and of iterations with the assembled W.
   int iterations() const { return iterations_; }
   /// True if the last solution was rough.
   bool is_rough() const { return is_rough_; }
 
  private:
-  /// Both improve the impulses until the residuals are those allowed.
+  // Both improve the impulses until the residuals are allowed.
   void solve_dense();
   void solve_by_products();
   /// Sets the velocities by the responses of all contacts to their impulses.
@@ -178,7 +179,7 @@ class ContactProblem {
   ContactConditions conditions_;
   const Mobility& mobility_;
   std::vector<Contact<2>> contacts_;
-  std::vector<std::vector<double>> responses_;  // to a unit force of each contact [T/M]
+  std::vector<std::vector<double>> responses_;  // velocities by a unit force of each contact
   std::vector<double> velocities_;
   int iterations_ = 0;
   bool is_rough_ = false;
@@ -191,24 +192,23 @@ struct ContactFrictionInFluid {
   std::array<double, 2> tangent{};
   /// Change of the slip per turn of the first and of the second particle, counter-clockwise [L].
   std::array<double, 2> levers{};
-  /// Slip of the step if no particle moved [L]: the displacement of the image of the second
-  /// particle relative to that particle, or minus that of the obstacle.
+  /// Slip of the step if no particle moved [L]: the displacement along the tangent of the periodic
+  /// image that touches, relative to the second particle, or minus that of the obstacle.
   double displacement = 0;
   /// gamma - gamma_min >= 0: the impulse that the film takes up before the solids touch [M L/T].
   double capacity = 0;
   /// Impulse of friction on the second particle along the tangent [M L/T]: a guess, then the
   /// solution.
   double impulse = 0;
-  /// Change of the slip per impulse of friction [T/M]; 0 if none is known, or if a hinge holds the
-  /// place at which the friction acts.
+  /// Change of the slip per impulse of friction [T/M]; 0 if it is not known yet, or if a hinge
+  /// holds the place at which the friction acts.
   double w = 0;
-  /// Where the solution slides, the sign of its friction; where it sticks, or the solids do not
+  /// If the solids slide in the solution, the sign of `impulse`, 1 or -1; if they stick, or do not
   /// touch, 0.
   int slides = 0;
 
   /// Velocity of the surface of the second particle relative to that of the first along the tangent
-  /// [L/T], for the velocities of all particles. Obstacles are at rest, and images do not move
-  /// relative to their particles.
+  /// [L/T], for the velocities of all particles, without the part that `displacement` contains.
   double slip_rate(const Contact<2>& of, const double* velocities,
                    const MotionLayout& layout) const {
     double sum = 0;
@@ -246,11 +246,11 @@ struct FrictionOfStep;
 struct StepContacts {
   std::vector<Pair> pairs,  ///< of particles in reach of each other in this step, with their memory
       walls;                ///< the same of particles and obstacles
-  /// Of all `pairs`, then of all `walls`, then of the stops of hinges, which remember nothing.
-  /// Contacts that take no part have the impulse 0 and w = 0.
+  /// The contacts of all `pairs`, then of all `walls`, then of the stops of hinges, which have no
+  /// film. Contacts that take no part have the impulse 0 and w = 0 or kHeld.
   std::vector<Contact<2>> contacts;
-  /// Of the contacts whose solids may touch, that is with a finite capacity, in the order of
-  /// `contacts`; empty without friction.
+  /// The friction of the contacts whose solids may touch, that is with a finite capacity, in the
+  /// order of `contacts`; empty without friction.
   std::vector<ContactFrictionInFluid> frictions;
   std::vector<double> loads;       ///< sums of contact forces on each particle [M L/T^2]
   std::vector<double> velocities;  ///< with the contact forces [L/T, 1/T]
@@ -259,13 +259,14 @@ struct StepContacts {
   double reach = 0;       ///< all pairs with a gap below it are listed [L]
 };
 
-/// Solves for contacts in rounds, in which those join whose gaps the others close. Takes
-/// `step.contacts` with their bounds and guesses; sets their impulses and w, and the loads,
-/// velocities and `is_solved` of the step. Adds to its iterations.
+/// Solves for `step.contacts`, whose impulses are first guesses, in rounds: after each one the
+/// contacts join whose gaps the others have closed. Sets the impulses and w of the contacts, and
+/// the loads, velocities and `is_solved` of the step; adds to its iterations. Throws what the
+/// mobility throws.
 void solve_listed(StepContacts& step, const Mobility& mobility,
                   const ContactConditions& conditions);
 
-/// Up to which gap pairs may meet in the step if particles have these velocities [L].
+/// The largest distance [L] of surfaces that can come to contact in a step with these velocities.
 double reach_of(const State& state, const Fluid& fluid, std::span<const double> velocities,
                 const ContactConditions& conditions);
 
@@ -273,21 +274,23 @@ double reach_of(const State& state, const Fluid& fluid, std::span<const double> 
 PairRadii radii_in_fluid(const Fluid& fluid, const Pair& pair, const Particles& particles,
                          std::span<const Plane> obstacles);
 
-/// The stops of hinges as contacts: with the radius of the particle that a hinge holds as its
-/// lever, the gap of a stop is a length, as those of other contacts.
+/// The stops of hinges as contacts. The gap of a stop is the angle that is left to it times the
+/// radius of the particle that the hinge holds [L].
 std::vector<Contact<2>> contacts_of_stops(const Links& links, const Particles& particles);
 
-/// Adds the torques of the stops, of which `contacts` ends with the contacts, to
-/// State::link_forces. `h` is the length of the step [T].
+/// Adds the torques [M L^2/T^2] of the stops of hinges to `link_forces`, which has the order of
+/// State::link_forces. The last of the `contacts` are those of contacts_of_stops() after a step of
+/// length `h` [T].
 void add_torques_of_stops(const Links& links, const Particles& particles,
                           std::span<const Contact<2>> contacts, double h,
                           std::span<double> link_forces);
 
-/// Finds the impulses of all contacts, such that no gap closes that was not among the contacts
-/// either. `state` is that before the step, `obstacles` are positions at the end of the step.
-/// Plates that turn by finite angles keep their gaps, but for a quarter of the tolerance. Pairs for
-/// which `is_left_out` is true are no contacts, because no contact force changes their distance.
+/// Lists the pairs that may come to contact in the step and finds the impulses of their contacts;
+/// the list is extended until no other gap can close. `state` is that before the step, `obstacles`
+/// are at their places at the end of the step. The finite rotation of plates is taken into account
+/// up to a quarter of the tolerance of gaps. Pairs for which `is_left_out` is true are no contacts.
 /// `friction` is null if there is none.
+///
 /// Throws what `mobility` throws, and Error(kNotConverged) if two plates turn so far that they
 /// overlap at a place that was no contact of theirs.
 StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links& links,
@@ -300,7 +303,7 @@ StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links&
 struct FrictionOfStep {
   const Setting& setting;            ///< with ContactLaws::friction and a fluid, in the plane
   std::span<const Plane> obstacles;  ///< obstacles_of(setting)
-  const PairMemories& memories;      ///< of the pairs, whose friction is the first guess
+  const PairMemories& memories;      ///< State::memories, with the friction of the step before
   double begin = 0;                  ///< time at which the step begins [T]
   double end = 0;                    ///< time at which it ends [T]
 };
@@ -313,31 +316,30 @@ struct FrictionPlace {
   Vector on_obstacle{};  ///< the point of the obstacle at the contact [L]
 };
 
-/// The friction of a contact, without ContactFrictionInFluid::contact. `contact` has the gap
-/// between the surfaces, and the particles are where the step begins. The first guess of the
-/// impulse is that in the memory of the pair.
+/// The friction of a contact, all but ContactFrictionInFluid::contact and w. `contact` has the gap
+/// D between the surfaces, and the particles are at their places at the beginning of the step. The
+/// first guess of the impulse is the friction in the memory of the pair.
 ContactFrictionInFluid friction_of_contact(const FrictionOfStep& step, const Particles& particles,
                                            const Pair& pair, const Contact<2>& contact,
                                            const FrictionPlace& place,
                                            const ContactConditions& conditions);
 
-/// Solves for contacts as solve_listed(), with the friction of `step.frictions`, of which
-/// `mu_s` >= 0 is the coefficient, without dimension. If Coulomb's law (5.7) is not reached within
-/// the tolerances, `step.is_solved` is false, and the friction has the bounds (5.17) of given
-/// loads; gaps and films are exact for the friction that was found. Throws what the mobility
-/// throws.
+/// Solves for contacts as solve_listed(), with the friction of `step.frictions` and its coefficient
+/// `mu_s` >= 0 [1]. If Coulomb's law is not reached within the tolerances, `step.is_solved` is
+/// false, and the friction is bounded by mu_s times loads from an earlier iteration,
+/// docs/physics.md (5.17); gaps and films are exact for it. Throws what the mobility throws.
 void solve_with_friction(StepContacts& step, double mu_s, const Mobility& mobility,
                          const ContactConditions& conditions);
 
-/// The heat that friction makes in a unit of time [M L^2/T^3], >= 0 but for the tolerances: minus
-/// the sum of the forces of friction times the slips of the step, for the velocities with which the
-/// particles move.
+/// The power [M L^2/T^3] that friction turns into heat in the step, >= 0 up to the tolerances:
+/// minus the sum over all contacts of force times velocity of slip, for the velocities with which
+/// the particles move.
 double heat_of_friction(const StepContacts& step, std::span<const double> velocities,
                         const ContactConditions& conditions);
 
-/// Takes the residuals of Coulomb's law into `residuals`, for the velocities that the particles
-/// have with the contact forces [L/T, 1/T]. The residual of a contact is its slip where it sticks,
-/// and the error of its friction times its tangential mobility where it slides [L].
+/// Adds the residuals [L] of Coulomb's law to `residuals`, for the velocities that the particles
+/// have with the contact forces [L/T, 1/T]. The residual of a contact that sticks is its slip, that
+/// of one that slides the error of its friction times ContactFrictionInFluid::w.
 void take_residuals_of_friction(const StepContacts& step, double mu_s,
                                 std::span<const double> velocities,
                                 const ContactConditions& conditions, StepResiduals& residuals);

@@ -1,10 +1,11 @@
-// Solves Coulomb's law of contacts in a fluid (docs/physics.md (6.14), fluid_contacts.hpp) in
-// rounds. A round has two parts. First solve_listed() finds the normal impulses that keep the gaps
-// open with the friction found so far; it also finds which contacts take part. Then, if the law is
-// not yet satisfied, solve_constraints() finds the normal and tangential impulses of all these
-// contacts together, as for particles without a fluid. Numbers are in the units of the case:
-// impulses in [M L/T], gaps and slips in [L]. Errors are those of the mobility. fluid_contacts.cpp
-// uses it. A change must end with the first part, so that gaps are exact for the friction found.
+// Solves Coulomb's law of contacts in a fluid (docs/physics.md (6.14), fluid_contacts.hpp): the
+// friction is at most mu_s, its coefficient, times the load of the solids, and equal to this bound
+// if they slide. There are rounds of two parts. First solve_listed() finds the normal impulses that
+// keep the gaps open with the friction found so far, and which contacts take part. Then, if the law
+// does not hold yet, solve_constraints() finds the normal and tangential impulses of all these
+// contacts together, as for particles without a fluid. Impulses are in [M L/T], gaps and slips in
+// [L]. Errors are those of the mobility. A change must keep that the first part comes last, so that
+// gaps are exact for the friction found.
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -23,9 +24,9 @@ namespace {
 
 using Eigen::Index;
 
-/// The problem of all contacts together is solved to this share of the allowed residuals, a free
-/// choice. The rest is left for errors of its velocities, which are sums of rounded velocities of
-/// the fluid solver.
+/// The problem of all contacts together is solved to this share of the allowed residuals. The rest
+/// is left for errors of its velocities, which are sums of rounded velocities of the fluid solver.
+/// Any share well below 1 works.
 constexpr double kShareOfAllowed = 0.1;
 
 /// The sides of a box that are walls, as indices of SideVelocities, in the order in which the walls
@@ -37,9 +38,9 @@ std::vector<std::size_t> walls_of(const BoxDomain& box) {
   return sides;
 }
 
-/// Mean velocity of the wall that is obstacle number `wall`, at `point` [L], over the step from
-/// time `begin` to `end` [L/T]. Only the component along the wall is used. It is 0 on an open side,
-/// and on a side whose velocity is a parabola.
+/// Mean velocity [L/T] of the wall with the number `wall` among the obstacles, at `point` [L], from
+/// the time `begin` to `end` [T]. The caller uses the component along the wall only. It is 0 on an
+/// open side, and on one with a parabolic velocity, which is normal to the side.
 std::array<double, 2> velocity_of_wall(const Setting& setting, std::size_t wall,
                                        const Vector& point, double begin, double end) {
   const auto& boundary = setting.fluid->boundary;
@@ -61,7 +62,7 @@ double residual_of_friction(double p_t, double bound, double slip, double w) {
   return w * std::abs(p_t - std::clamp(p_t - slip / w, -bound, bound));
 }
 
-/// The residual that is allowed for the friction of a contact [L]; needs Contact::allowed.
+/// The residual [L] that is allowed for the friction of a contact; Contact::allowed must be set.
 double allowed_for(const ContactFrictionInFluid& friction, const Contact<2>& contact,
                    const ContactConditions& conditions) {
   const double largest = conditions.solver.tolerance * conditions.mean_radius / 2;
@@ -69,8 +70,8 @@ double allowed_for(const ContactFrictionInFluid& friction, const Contact<2>& con
   return std::min(largest, contact.allowed * std::max(1.0, friction.w / contact.w));
 }
 
-/// The rows of all contacts that take part, for each contact a gap and, with friction, a slip. For
-/// the impulses p they are q + W p after the step, with the matrix W of matrix_of().
+/// The rows of all contacts that take part: for each contact a gap and, with friction, a slip. With
+/// the impulses p of the rows, gaps and slips after the step are q + W p (W: see matrix_of()).
 struct CoupledRows {
   std::vector<double> q;                            ///< gaps and slips without contact [L]
   std::vector<double> p;                            ///< normal and tangential impulses [M L/T]
@@ -78,16 +79,14 @@ struct CoupledRows {
   std::vector<ConstraintBlock> blocks;              ///< one for each contact
 };
 
-/// The eigenvectors of a symmetric matrix W that is known up to a relative error, with its rows and
-/// columns scaled to the diagonal 1, which must be positive before. They are divided into those
-/// that impulses move, and those whose eigenvalue is 0 within the error.
+/// The eigenvectors of a symmetric matrix W with a positive diagonal that is known up to a relative
+/// error, after its rows and columns were scaled to the diagonal 1. Eigenvectors whose eigenvalue
+/// is 0 within the error are called unmoved: no impulse changes the sum of the rows, each divided
+/// by (W_rr)^(1/2), with the entries of such a vector as weights.
 struct MovedDirections {
-  Eigen::MatrixXd root;  ///< a matrix L with W = L L^T within the error
-  /// The eigenvectors that impulses do not move, as columns. With the entries of a column as
-  /// weights, no impulse changes the weighted sum of the rows, each divided by (W_rr)^(1/2), by
-  /// more than the error of W explains.
-  Eigen::MatrixXd unmoved;
-  Eigen::VectorXd scales;  ///< roots of W_rr
+  Eigen::MatrixXd root;     ///< a matrix L with W = L L^T within the error
+  Eigen::MatrixXd unmoved;  ///< the unmoved eigenvectors, as columns
+  Eigen::VectorXd scales;   ///< roots of W_rr
 
   MovedDirections(const Eigen::MatrixXd& w, double error) : scales(w.diagonal().cwiseSqrt()) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
@@ -100,8 +99,8 @@ struct MovedDirections {
     root = scales.asDiagonal() * modes.eigenvectors() * roots.asDiagonal();
   }
 
-  /// Removes from the offsets, the gaps and slips without contact [L], those weighted sums that no
-  /// impulse changes, if the error `rounding` of the offsets [L] explains them. Without this the
+  /// Removes from the offsets, the gaps and slips without contact [L], the sums with the weights of
+  /// unmoved eigenvectors, if the error `rounding` [L] of each offset explains them. Otherwise the
   /// impulses would grow without end, because they cannot change these sums.
   Eigen::VectorXd consistent(const Eigen::VectorXd& offsets, double rounding) const {
     Eigen::VectorXd scaled = offsets.cwiseQuotient(scales);
@@ -116,8 +115,8 @@ struct MovedDirections {
 };
 
 /// Adds the rows to a problem of solve_constraints() whose matrix is W = root root^T. Each column
-/// of `root` is a degree of freedom, which a unit impulse moves by a unit length. Three of them are
-/// the degrees of freedom of one RigidUnit, of which only the numbers are used.
+/// of `root` is an imagined degree of freedom, which a unit impulse moves by a unit length. Three
+/// columns each take the place of the degrees of freedom of one RigidUnit.
 void add_rows(const Eigen::MatrixXd& root, std::span<const double> offsets,
               std::span<const double> guesses, ConstraintProblem<2>& problem) {
   constexpr Index kOfUnit = 3;
@@ -140,10 +139,10 @@ void add_rows(const Eigen::MatrixXd& root, std::span<const double> offsets,
 }
 
 /// Improves the impulses rows.p in at most about `most` iterations, and returns the number of
-/// iterations. W has the relative error `error`, and offsets have the error `rounding` [L]. In a
-/// fluid with inertia W is not symmetric: its skew part times the impulses of the round before is
-/// added to the offsets. With `gives_loads` the friction is bounded by mu_s times the load that the
-/// solids carry in the first guess, (5.17), instead of the load in the solution.
+/// iterations. `w` [T/M] has the relative error `error`, and gaps and slips have the error
+/// `rounding` [L]. In a fluid with inertia W is not symmetric: its skew part times the impulses of
+/// the round before is added to the offsets. With `gives_loads` the friction is bounded by mu_s
+/// times the load of the solids in the first guess, docs/physics.md (5.17), not in the solution.
 int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_loads, int most,
             CoupledRows& rows) {
   const Eigen::MatrixXd symmetric = (w + w.transpose()) / 2, skew = w - symmetric;
@@ -178,8 +177,8 @@ int improve(const Eigen::MatrixXd& w, double error, double rounding, bool gives_
   return iterations;
 }
 
-/// Solves the friction of a step. It keeps the velocities that unit forces of contacts cause, so
-/// that the fluid solver computes each of them once.
+/// Solves the friction of a step (solve_with_friction()). It keeps the velocities that unit forces
+/// of contacts cause, so that the fluid solver computes each of them once.
 class FrictionSolver {
  public:
   FrictionSolver(StepContacts& step, double mu_s, const Mobility& mobility,
@@ -192,8 +191,8 @@ class FrictionSolver {
         of_slips_(step.frictions.size()) {}
 
   void solve() {
-    // One round is enough unless further contacts take part after it. A packing then takes a few
-    // more; the limit is a free choice.
+    // One round is enough unless further contacts take part after it; a packing takes a few more.
+    // The limit is a free choice.
     constexpr int kMostRounds = 30;
     double least = std::numeric_limits<double>::infinity();
     auto best = impulses();
@@ -208,8 +207,8 @@ class FrictionSolver {
       if (step_.iterations >= conditions_.solver.max_iterations) break;
       solve_together(false);
     }
-    // The rounds have not converged. As without a fluid, the loads on the solids in the best round
-    // now bound the friction, (5.17), instead of the loads in the solution: this problem is convex.
+    // The rounds have not converged. As without a fluid, the friction is then bounded by the loads
+    // of the solids in the best round, (5.17), which is a convex problem.
     take(best);
     solve_together(true);
     solve_gaps(true);
@@ -223,8 +222,8 @@ class FrictionSolver {
   }
 
   /// Finds the normal impulses that keep the gaps open with the present friction. With
-  /// `keeps_solution`, impulses that already do so are not changed: those of redundant contacts are
-  /// not unique, and others would give friction another bound.
+  /// `keeps_solution`, impulses that already do so are not changed: in redundant contacts they are
+  /// not unique, and other ones would change the bounds of friction.
   void solve_gaps(bool keeps_solution) {
     std::vector<double> loads(conditions_.free_velocities.size());
     bool is_any = false;
@@ -261,8 +260,8 @@ class FrictionSolver {
       step_.frictions[f].impulse = found.second[f];
   }
 
-  /// The largest residual of Coulomb's law, divided by the allowed one; <= 1: the law holds. Asks
-  /// the fluid solver for the tangential mobility w of contacts that need it.
+  /// The largest residual of Coulomb's law over the allowed one; the law holds if it is <= 1. Sets
+  /// ContactFrictionInFluid::slides, and w where it is needed.
   double excess_of_coulomb() {
     double excess = 0;
     for (std::size_t f = 0; f < step_.frictions.size(); ++f) {
@@ -280,7 +279,7 @@ class FrictionSolver {
           friction.slip(contact, step_.velocities.data(), conditions_.h, conditions_.layout);
       const double aim = friction.impulse - slip / friction.w;
       if (std::abs(aim) > mu_s_ * carried) friction.slides = aim > 0 ? 1 : -1;
-      // The other half is left for the difference between this problem and the final velocities.
+      // The other half is left for errors of the velocities that the fluid solver computes at last.
       const double allowed = allowed_for(friction, contact, conditions_) / 2;
       const double residual =
           residual_of_friction(friction.impulse, mu_s_ * carried, slip, friction.w);
@@ -289,7 +288,7 @@ class FrictionSolver {
     return excess;
   }
 
-  /// Asks for the velocities by a unit force of friction, unless it is known.
+  /// The velocities by a unit force of friction number f. Sets its w.
   const std::vector<double>& respond(std::size_t f) {
     auto& friction = step_.frictions[f];
     if (of_slips_[f].empty()) {
@@ -305,10 +304,10 @@ class FrictionSolver {
     return of_slips_[f];
   }
 
-  /// Improves normal and tangential impulses of all contacts that take part together.
+  /// Improves the normal and tangential impulses of all contacts that take part, in one problem.
   void solve_together(bool gives_loads) {
     CoupledRows rows;
-    std::vector<std::size_t> contacts, frictions;  // of the blocks; kNone: no friction
+    std::vector<std::size_t> contacts, frictions;  // numbers for each block; kNone: no friction
     constexpr auto kNone = static_cast<std::size_t>(-1);
     const auto* free = conditions_.free_velocities.data();
     std::size_t f = 0;
@@ -342,7 +341,7 @@ class FrictionSolver {
       contacts.push_back(c);
       frictions.push_back(number);
     }
-    // The relative error of W is that of the fluid solver's velocities, of which W is made.
+    // W consists of velocities of the fluid solver and has their relative error.
     const double error =
         std::max(std::numeric_limits<double>::epsilon(), conditions_.velocity_error);
     const double rounding = rounding_error_of_gaps(conditions_);
@@ -376,6 +375,7 @@ class FrictionSolver {
     return w;
   }
 
+  /// The velocities by a unit force of contact c.
   const std::vector<double>& respond_to_gap(std::size_t c) {
     if (of_gaps_[c].empty()) {
       std::vector<double> forces(conditions_.free_velocities.size());
@@ -448,7 +448,7 @@ void take_residuals_of_friction(const StepContacts& step, double mu_s,
                                 const ContactConditions& conditions, StepResiduals& residuals) {
   for (const auto& friction : step.frictions) {
     const auto& contact = step.contacts[friction.contact];
-    // w is 0 if the mobility was not needed, or if a hinge holds the point: there is no friction.
+    // w is 0 if it was not needed, or if a hinge holds the point. There is then no friction.
     if (!(contact.w > 0 && friction.w > 0)) continue;
     const double slip = friction.slip(contact, velocities.data(), conditions.h, conditions.layout);
     residuals.take(

@@ -1,9 +1,9 @@
-// Makes bodies rigid, and hinges and arms hold, at the end of a step in a fluid (fluid_simulation.hpp
-// has the symbols). The rows of links hold to first order in the motion only, because bodies and
-// links turn by finite angles; the velocities are changed until what is left is within the
-// tolerance. Units are those of the case: velocities in [L/T, 1/T], forces in [M L/T^2, M L^2/T^2].
-// fluid_simulation.cpp calls these functions. A change must keep that a continued run gives the
-// same bits as one without a break.
+// Makes bodies rigid, and hinges and arms hold, at the end of a step in a fluid: functions of
+// FluidSimulation that its solve() calls. The fluid solver keeps linear conditions on velocities,
+// the rows (held_rows.hpp). These hold bodies and links to first order in the motion only, because
+// they turn by finite angles; here velocities are changed until the rest is within the tolerance.
+// Velocities are in [L/T, 1/T], forces of rows in [M L/T^2, M L^2/T^2]. A change must keep that a
+// continued run gives the same bits as one without a break.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -19,21 +19,20 @@
 namespace viscontact::particles {
 namespace {
 
-// Links hold up to this share of the tolerance of lengths, so that their errors do not add up over
-// the steps. They are corrected repeatedly: each correction multiplies the error by about the angle
-// [rad] by which a body or an arm turns in the step, so that few are needed unless this angle is
-// about 1. Both numbers are free choices.
+// Links hold up to the share kOfTolerance of the tolerance of lengths, so that their errors do not
+// add up over the steps. At most kMostChanges corrections are made. Each multiplies the error by
+// about the angle [rad] by which a body or an arm turns in the step, so that few are needed unless
+// this angle is about 1. Both numbers are free choices.
 constexpr double kOfTolerance = 1e-3;
 constexpr int kMostChanges = 20;
 
 }  // namespace
 
-/// Changes velocities until hinges and arms, and the springs of particles that accelerate, hold at
-/// the end of the step. The rows hold them to first order only, because bodies and links turn by
-/// finite angles. Sets `holds` to whether they hold within the tolerance. Returns the forces in the
-/// rows that the change needs, in addition to those of the last velocities(..., true) of the
-/// solver. Throws Error(kNotConverged) if a length or place would be off by more than a mean
-/// radius.
+/// Changes `velocities` without contact, with which particles move in the step of length h [T],
+/// until hinges and arms, and the springs of particles that accelerate, hold at its end. `flow` are
+/// the velocities that the fluid solver gave. Sets `holds` to whether they hold within the
+/// tolerance. Returns the forces of the rows in addition to those in `flow`. Throws
+/// Error(kNotConverged) if a length or place would be off by more than a mean radius.
 std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equation,
                                                      const HeldMotion& held,
                                                      std::span<const double> flow,
@@ -41,7 +40,8 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
                                                      bool& holds) const {
   const auto of_flow = held_->row_forces();
   auto forces = of_flow;
-  // Adds the forces in the rows that belong to the extrapolation, the difference of U^+ and U.
+  // The forces of the rows that belong to the difference of `velocities` and `flow`, by which the
+  // velocities were extrapolated.
   auto extrapolated = velocities;
   for (std::size_t i = 0; i < flow.size(); ++i) extrapolated[i] -= flow[i];
   add_elements(held_->row_forces_for(extrapolated), forces);
@@ -67,9 +67,9 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
   return forces;
 }
 
-/// Changes velocities until bodies are rigid and hinges and arms hold at the end of the step, in
-/// which they turn by finite angles. Adds the forces that this needs to `row_forces`; springs keep
-/// their forces. Returns the largest error of a row that is left [L].
+/// Changes velocities until hinges and arms hold at the end of the step. Adds the forces that this
+/// needs to `row_forces`; springs keep their forces. Returns the largest error of a row that is
+/// left [L].
 double FluidSimulation::hold_turned(const HeldMotion& held, double h,
                                     std::vector<double>& velocities,
                                     std::vector<double>& row_forces) const {
@@ -85,12 +85,11 @@ double FluidSimulation::hold_turned(const HeldMotion& held, double h,
   }
 }
 
-/// Makes bodies rigid, and hinges and arms hold, at the end of the step with contacts. Contacts
-/// change the angles by which bodies and links turn, so that the forces in the rows change, too;
-/// and these change the velocities without contact, for which the contacts are solved again. This
-/// is repeated until the changes are small. Changes Motion::free, linear and contact, adds the
-/// forces to `row_forces`, and sets Motion::links_hold. Does nothing in a step in which solids
-/// rebound.
+/// Makes bodies rigid, and hinges and arms hold, at the end of a step with contacts. Contacts
+/// change the angles by which bodies and links turn, and with them the forces of the rows. These
+/// change the velocities without contact, for which the contacts are solved again. This is repeated
+/// until the changes are small. Changes Motion::free, linear, contact, blow and links_hold, and
+/// adds the forces to `row_forces`. Does nothing in a step in which solids rebound.
 void FluidSimulation::hold_with_contacts(const StepEquation& equation, const HeldMotion& held,
                                          double h, double next, Motion& motion,
                                          std::vector<double>& row_forces) {
@@ -113,7 +112,7 @@ void FluidSimulation::hold_with_contacts(const StepEquation& equation, const Hel
       motion.free[i] += by;
       contact.velocities[i] += by;
     }
-    // If gaps changed by less than `allowed`, the contacts need not be solved again.
+    // If gaps changed by no more than `allowed`, the contacts need not be solved again.
     motion.links_hold = off <= tolerated_length() && h * change <= allowed;
     if (h * change <= allowed) return;
     const int iterations = contact.iterations;
@@ -124,9 +123,9 @@ void FluidSimulation::hold_with_contacts(const StepEquation& equation, const Hel
 }
 
 /// Changes the velocities `at_end` at the end of a step, in which particles moved with `moved`,
-/// until they agree with the hinges and arms at that time. Without this a part of the velocity that
-/// the link forbids would remain, and change its sign in each step. Only the velocities of
-/// particles that accelerate change. Returns the forces in the rows, as means over the step.
+/// until hinges and arms hold for them at that time. Otherwise a part of these velocities that a
+/// link does not allow would remain, and change its sign in each step. Only the velocities of
+/// particles that accelerate change. Returns the forces of the rows, as means over the step.
 std::vector<double> FluidSimulation::hold_at_end(const StepEquation& equation,
                                                  const HeldMotion& held,
                                                  std::span<const double> moved,

@@ -1,10 +1,11 @@
-// Computes a step of particles in a fluid (fluid_simulation.hpp has the formulas and the symbols):
-// velocities without contact, contact impulses, and velocities with them. fluid_acceptance.cpp then
-// changes gamma and the positions. Links are hinges, springs and arms between particles; bodies are
-// rigid bodies of several particles. Units are those of the case: velocities in [L/T, 1/T], forces
-// in [M L/T^2, M L^2/T^2]. Errors are those of step(). A change must keep that a continued run
-// gives the same bits as one without a break; therefore a step may depend on nothing but the
-// setting and the state.
+// Computes a step of particles in a fluid: velocities without contact, contact impulses, and
+// velocities with them (fluid_simulation.hpp has the formulas). fluid_acceptance.cpp then changes
+// the state. U is the velocity that the fluid gives a particle at its place before the step, U^+
+// that with which the particle moves; theta, 1/2 to 1, says how implicit the step is. Links are
+// hinges, springs and arms between particles; bodies are rigid bodies of several particles.
+// Velocities are in [L/T, 1/T], forces in [M L/T^2, M L^2/T^2]. Errors are those of step(). A
+// change must keep that a continued run gives the same bits as one without a break: a step may
+// depend on nothing but the setting and the state.
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The times of the links in a step of length h that ends at `next`.
+/// The times of the links in a step of length h [T] that ends at the time `next` [T].
 LinkTimes times_of_links(const StepEquation& equation, double h, double next) {
   const auto flow = equation.flow_step();
   return {h, h, next, false, flow.from, flow.to};
@@ -88,9 +89,9 @@ State FluidSimulation::state_to_save() {
   return state;
 }
 
-/// At the start of a run with inertia of the fluid, lets the solver keep the first flow. If
-/// fluid.start is rest, the fluid is at rest, and particles have the velocities of the case.
-/// Otherwise it is the Stokes flow at time 0, and free particles have the velocities of this flow.
+/// At the start of a run with inertia of the fluid, lets the solver keep the first flow. With
+/// FlowStart::kRest the fluid is at rest, and particles have the velocities of the case. Otherwise
+/// it is the Stokes flow at time 0, and free particles have the velocities of this flow.
 void FluidSimulation::begin_flow(double h) {
   if (!setting_.fluid->has_inertia() || has_flow_) return;
   const StepEquation equation(setting_, state_, h, state_.time + h);
@@ -134,8 +135,8 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
     return free;
   auto now = equation.right_side();
   if (held != nullptr) {
-    // The velocities of the step before are made those of a rigid motion at the present places of
-    // the members, because the body has turned since then.
+    // Bodies have turned since the step before. The velocities of their members in that step are
+    // replaced by those that the same rigid motion has at the present places of the members.
     held->make_rigid(earlier);
     add_elements(held_->forces_of_step(), now);
   }
@@ -148,9 +149,9 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
                                         : solver_->velocities(difference, false);
     for (std::size_t i = 0; i < changed.size(); ++i) changed[i] += added[i];
   }
-  // Links have turned since the step before. Therefore the earlier velocities are first changed
-  // until the links hold with their present directions; the difference is then only the change of
-  // the fluid's resistance, which is to be extrapolated.
+  // Links have turned since the step before. The earlier velocities are changed until the links
+  // hold with their present directions, so that the difference that is extrapolated comes from the
+  // resistance of the fluid alone.
   if (held_ != nullptr) held_->hold_velocities(earlier);
   const double share = h / (2 * state_.earlier_step);
   for (std::size_t i = 0; i < free.size(); ++i) {
@@ -168,10 +169,11 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
       free, h, layout_, setting_.solver, mean_radius_, error_of_answers(fluid), kick_length(h) / h};
   conditions.is_symmetric = !fluid.has_inertia() || fluid.coupling == Coupling::kSplitting;
   if (!setting_.links.hinges.empty()) {
-    // If a hinge holds a gap, the mobility w of the gap should be 0, but consists of errors;
-    // least_w must lie between these and the least true mobility. A particle resists a force with
-    // its mass over the step and with a drag of about the viscosity, or some 1e5 times the
-    // viscosity in the narrowest gap that a mesh resolves. Both factors are free choices.
+    // If a hinge holds a gap, the change w of its velocity by a unit force [T/M] should be 0, but
+    // consists of errors. least_w must lie between these errors and the least w of a gap that can
+    // change. A particle resists a force with its mass over the step plus a drag of about the
+    // viscosity, or some 1e5 times the viscosity in the narrowest gap that a mesh resolves. Both
+    // factors are free choices within these limits.
     constexpr double kShare = 1e-9, kErrors = 10;
     double heaviest = 0;
     const auto& p = state_.particles;
@@ -184,9 +186,9 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
   return conditions;
 }
 
-/// The time for which the forces of a step of length h act on its velocities [T]. It is h, but in a
+/// The time [T] for which the forces of a step of length h act on its velocities. It is h, but in a
 /// fluid with inertia the length of the step before: forces change the velocities in the step that
-/// ends at x^n, and particles move with these velocities in the step that begins there.
+/// ends at the present places, and particles move with them in the step that begins there.
 double FluidSimulation::kick_length(double h) const {
   const auto& fluid = *setting_.fluid;
   const bool is_of_flow = fluid.has_inertia() && fluid.coupling != Coupling::kSplitting;
@@ -198,8 +200,8 @@ bool FluidSimulation::is_computed_twice() const {
   return setting_.fluid->has_inertia() && !(state_.earlier_step > 0);
 }
 
-/// Solves the contacts of a step of length h that ends at `next` without restitution, and returns
-/// the blow if solids rebound.
+/// Solves the contacts of a step of length h that ends at the time `next` without restitution, for
+/// the velocities `free` without contact, and returns the blow if solids rebound.
 std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& equation,
                                                             std::span<const double> free, double h,
                                                             double next, StepContacts& contacts) {
@@ -218,8 +220,8 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
   };
   const auto& fluid = *setting_.fluid;
   const auto is_ellipse = [&](std::int32_t k) { return k >= 0 && fluid.is_ellipse(index_of(k)); };
-  // Contacts are not computed for ellipses (check_ellipses()), nor for two particles with an arm,
-  // because the arm prescribes their distance.
+  // Pairs of which no particle can be moved have no contact, nor have ellipses (check_ellipses())
+  // and the two ends of an arm, which prescribes their distance.
   const auto is_left_out = [&](const Pair& pair) {
     return (!is_movable(pair.first) && !is_movable(pair.second)) || is_ellipse(pair.first) ||
            is_ellipse(pair.second) || std::ranges::any_of(setting_.links.arms, [&](const Arm& arm) {
@@ -230,7 +232,7 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
   const FrictionOfStep friction{setting_, obstacles_, state_.memories, state_.time, next};
   const bool has_inertia = fluid.has_inertia();
   const auto before = has_inertia ? state_.earlier_velocities : equation.velocities();
-  // BlowStep::loaded: the velocities without contact if no particle had a momentum.
+  // BlowStep::loaded, the velocities without contact of particles that were at rest.
   const auto loaded = [&] {
     if (has_inertia) return solver_->velocities(equation.forces(), false);
     std::vector<double> momentum(before.size());
@@ -248,24 +250,23 @@ std::optional<FluidBlow> FluidSimulation::solve_contacts_of(const StepEquation& 
     const BlowStep step{setting_, state_, obstacles_, next, kick_length(h), before, loaded};
     auto blow = solve_blow(contacts, step, mobility, conditions);
     if (!blow) return blow;
-    // Solids may rebound faster than the particles were without contact. If they then reach
-    // particles whose contacts were not listed, the contacts are listed up to a larger gap.
+    // Solids may rebound faster than particles move without contact. If they could then reach
+    // particles that are not listed, the step is solved again with a list up to a larger gap.
     const double needed = reach_of(state_, fluid, blow->velocities, conditions);
     if (needed <= contacts.reach) return blow;
     conditions.least_reach = 2 * needed;
   }
 }
 
-/// Sets the velocities that a fluid with inertia keeps, and extrapolates them to the end of the
-/// step.
+/// In a fluid with inertia: sets Motion::kept, the velocities at the beginning of the step, and
+/// Motion::at_end, the same extrapolated to its end.
 void FluidSimulation::keep_and_extrapolate(const StepEquation& equation, Motion& motion) const {
   // With coupling = splitting, contacts change the velocities of the particles, but not the flow.
   motion.kept = motion.flow;
   if (setting_.fluid->coupling == Coupling::kSplitting)
     for (std::size_t i = 0; i < motion.kept.size(); ++i)
       motion.kept[i] += motion.after[i] - motion.free[i];
-  // The change of the velocities in the first step is not extrapolated, because the velocity of the
-  // fluid may jump at the start.
+  // The change in the first step is not extrapolated, because velocities may jump at the start.
   const double share = state_.steps > 1 ? 2 * equation.share_of_change() : 0;
   motion.at_end = motion.kept;
   for (std::size_t i = 0; i < motion.at_end.size(); ++i) {
@@ -277,8 +278,8 @@ void FluidSimulation::keep_and_extrapolate(const StepEquation& equation, Motion&
   }
 }
 
-/// Computes a step of length h that ends at the time `next` [T], without changing the state. With
-/// `is_estimated` it also estimates errors by a second mesh.
+/// Computes a step of length h [T] that ends at the time `next` [T], without changing the state.
+/// With `is_estimated`, and without inertia of the fluid, it also estimates errors.
 FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_estimated) {
   const auto begin = Clock::now();
   const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
@@ -287,8 +288,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   std::vector<double> forces;
   std::optional<HeldMotion> held;
   std::vector<double> further_row_forces;
-  // A contact with an impulse sets theta = 1 for its particles, which changes their M/(theta h) and
-  // with it the problem. The step is then solved again.
+  // A contact with an impulse sets theta = 1 for its particles, which changes the equation of
+  // motion. The step is then solved again.
   for (int iterations = 0;;) {
     if (held_ != nullptr) {
       held.emplace(setting_.links, state_.particles, times_of_links(equation, h, next),
@@ -315,8 +316,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   const auto& loads = motion.blow ? motion.blow->loads : motion.contact.loads;
   motion.after = motion.blow ? motion.blow->velocities : motion.contact.velocities;
   if (largest_magnitude(loads) > 0 && !is_split) {
-    // The fluid is solved again with the contact forces, because the flow and the forces of the
-    // fluid that are reported contain their effect.
+    // The fluid is solved again with the contact forces, because the reported flow and forces of
+    // the fluid contain their effect.
     const auto before = motion.flow;
     add_elements(loads, forces);
     motion.flow = solver_->velocities(forces, true);
@@ -375,7 +376,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   return motion;
 }
 
-/// Adds what is reported of a step of a fluid with inertia.
+/// Sets the members of FluidStepReport that only a fluid with inertia has.
 void FluidSimulation::report_inertia(Motion& motion) const {
   const auto& fluid = *setting_.fluid;
   const auto& p = state_.particles;
@@ -395,8 +396,8 @@ void FluidSimulation::report_inertia(Motion& motion) const {
   }
 }
 
-/// Estimates errors from the flow on two meshes under the same forces, which include those of
-/// contacts.
+/// Estimates errors from the flow on two meshes, and with two penalties, under the same `forces`,
+/// which include those of contacts. Replaces Motion::quantities by the extrapolated ones.
 void FluidSimulation::estimate(const StepEquation& equation, std::span<const double> forces,
                                const HeldMotion* held, Motion& motion) {
   std::function<std::vector<double>()> link_forces;
@@ -416,8 +417,8 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
 }
 
 /// Throws Error(kNotConverged) if an ellipse is closer to a wall, a plane or another particle than
-/// the threshold gap, because contacts of ellipses are not computed. It is no error if both are
-/// driven, that is if their motions are prescribed.
+/// the threshold gap, because contacts of ellipses are not computed. It is no error if the motions
+/// of both are prescribed.
 void FluidSimulation::check_ellipses() const {
   const auto& fluid = *setting_.fluid;
   if (fluid.semi_axes.empty()) return;

@@ -1,8 +1,9 @@
 // Simulates rigid particles in a fluid with viscous contact, docs/physics.md (6.1) to (6.5)
 // (Lefebvre 2007, "Fluid-particle simulations with FreeFem++"; Lefebvre 2009, "Numerical simulation
-// of gluey particles"). Lengths, masses and times are in any consistent units. fluid_motion.hpp and
-// particles/run/ use it. A change must keep that a run which was interrupted and continued gives
-// the same bits as a run without a break.
+// of gluey particles"). Lengths, masses and times are in any consistent units; in the plane masses,
+// forces and powers are per unit length. particles/run/ and the other sources of this folder use
+// it. A change must keep that a run which was interrupted and continued gives the same bits as a
+// run without a break.
 #pragma once
 
 #include <memory>
@@ -26,88 +27,90 @@ struct ContactConditions;
 struct FluidBlow;
 struct StepContacts;
 
-/// Estimates of the errors of the forces of one step, each >= 0 [M L/T^2, M L^2/T^2]; both are
-/// empty if they were not made.
+/// Estimates of the errors of the forces of one step, each >= 0 [M L/T^2, M L^2/T^2]; both members
+/// are empty if there are no estimates.
 struct ForceErrors {
   std::vector<double> of_fluid;  ///< of FluidSimulation::fluid_forces()
   std::vector<double> of_links;  ///< of State::link_forces
 };
 
 /// Rigid particles in a fluid. Each step asks the fluid solver for the velocities that the
-/// particles take at their places x^n under forces, torques and contact impulses, and moves them:
+/// particles take at their places under forces, torques and contact forces, and moves them. With
+/// Coupling::kConstrained contact forces act on the fluid; with Coupling::kSplitting the velocities
+/// that the fluid gives are projected onto those that keep gaps open, in the norm of the masses.
 ///
-/// - coupling = constrained: the impulses are forces in the problem of the fluid;
-/// - coupling = splitting: the velocities of the fluid are projected in the norm of the masses.
+/// Away from contact a step is of second order. Step n, of length h^n = h, begins at the time t^n
+/// with the places x^n and the velocities u^n. S^n g are the velocities that the fluid gives the
+/// particles at x^n under the forces g, F^{n-1} the forces on the fluid in the step before, M the
+/// masses. theta, from 1/2 to 1, says how implicit the step is (step_equation.hpp). With the sum
+/// g^n of the forces of the step and M/(theta h) u^n, a step is
 ///
-/// Away from contact a step is of second order. S^n g are the velocities that the fluid gives the
-/// particles at x^n under the forces g. M are the masses, and theta, from 1/2 to 1, says how
-/// implicit the step is (both in step_equation.hpp); g^n contains M/(theta h) u^n, with the
-/// velocity u^n at the time t^n. F^{n-1} are the forces on the fluid in the step before, and h^n =
-/// h. A step is
+///     U^n = S^n g^n,   U^+ = U^n + (h^n/(2 h^{n-1})) (S^n g* - U^{n-1}),   x^{n+1} = x^n + h U^+,
+///     g* = F^{n-1} + M/(theta h) U^{n-1}.
 ///
-///     U = S^n g^n,   U^+ = U + (h^n/(2 h^{n-1})) (S^n g* - U^{n-1}),   x^{n+1} = x^n + h U^+,
-///     g* = F^{n-1} + M/(theta h) U^{n-1},
-///
-/// in which the second term of U^+ estimates by how much the velocities change in half a step
-/// because the particles move. Without inertia and with a constant force g* = g^n, so that this is
-/// the formula of Adams and Bashforth; it remains of second order where a force jumps. Links act
-/// where the particles are in the middle of the step if a particle has mass, and U^{n-1} is
-/// replaced by the nearest velocities that the links allow (6.7). A particle that was in contact in
-/// the step before moves with U, which is of first order; all particles do in a step in which a
-/// given motion jumps.
+/// The second term of U^+ estimates by how much the velocities change in half a step because the
+/// particles move. Without inertia and with a constant force g* = g^n, so that this is the formula
+/// of Adams and Bashforth; it remains of second order if a force jumps. Links act where the
+/// particles are in the middle of the step if a particle has mass, and U^{n-1} is replaced by the
+/// nearest velocities that the links allow (6.7). A particle that was in contact in the step before
+/// moves with U^n, which is of first order; all particles do in a step in which a given motion
+/// jumps.
 ///
 /// In a fluid with inertia (docs/physics.md (6.9)) the solver has the masses, and U^n is the
 /// velocity at the time t^n of x^n. Away from contact the particles move with
 ///
 ///     U^+ = U^n + (h^n/(2 h^{n-1})) (U^n - U^{n-1}).
 ///
-/// The first step computes U^1 at x^0, and moves the particles by (U^0 + U^1)/2. The second step
-/// computes U^1 again, at x^1, and with it the impulses of the contacts. Therefore films do not
-/// remember the impulses of the first step: each film must absorb them once only.
+/// The first step computes U^1 at x^0, and moves the particles by h (U^0 + U^1)/2. The second step
+/// computes U^1 and the impulses of contacts again, at x^1. Therefore films do not remember the
+/// impulses of the first step: they would otherwise absorb them twice.
 class FluidSimulation {
  public:
-  /// `setting.fluid` must have a value. `state` is what read_restart returned, or a state of which
-  /// only the particles are set.
+  /// `setting.fluid` must have a value. `state` is that of a restart file, or one of which only the
+  /// particles are set. Throws Error(kBadInput) if the fluid has inertia and a state after steps
+  /// has no flow, and the errors of FluidSolver::load_flow().
   FluidSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
 
-  /// Computes one step of length h, shorter if `end` [T] is nearer; see Simulation::step. In the
-  /// first step of a simulation and in the step that reaches `end`, it estimates the error of the
-  /// velocities and forces. Throws Error(kNotConverged) if no solution of the contacts is found
-  /// that keeps overlaps below the mean radius, or if a particle moves too far for the precision of
-  /// a double; and the errors of FluidSolver. The state is then that before the step.
+  /// Computes one step of length Setting::time_step, or less if `end` [T] is nearer. In the first
+  /// step of a simulation and in the one that reaches `end` it estimates the errors of velocities
+  /// and forces, without inertia of the fluid. Throws the errors of FluidSolver, and
+  /// Error(kNotConverged) if an overlap of more than the mean radius is left, if links do not hold,
+  /// if an ellipse or plate touches where it must not, or if a particle moves too far for the
+  /// precision of a double. The state is then that before the step.
   StepReport step(double end);
 
-  /// Forces of the caller on the particles [M L/T^2]; see Simulation::added_forces. Those of driven
-  /// particles have no effect.
+  /// Forces of the caller on the particles [M L/T^2], which the caller may change between steps, in
+  /// the order of Particles::velocities. Those of driven particles have no effect.
   std::span<double> added_forces() { return added_forces_for(state_.particles, setting_); }
-  /// Torques of the caller [M L^2/T^2]; see Simulation::added_torques.
+  /// The same for torques [M L^2/T^2]; empty if particles do not turn.
   std::span<double> added_torques() { return added_torques_for(state_.particles, setting_); }
 
   const State& state() const { return state_; }  ///< after the last step
-  /// The state with the flow of a fluid with inertia, to be written.
+  /// The state with the flow of a fluid with inertia, for a restart file. Throws the errors of
+  /// FluidSolver.
   State state_to_save();
   const Setting& setting() const { return setting_; }  ///< with the added forces and torques
 
-  /// The flow of the last step: where the particles were at the beginning of the step.
+  /// The flow of the last step, around the places of the particles at its beginning. Throws the
+  /// errors of FluidSolver.
   FlowField flow() { return solver_->flow(); }
 
   /// The flow around the particles where they are now. It solves the problem of the next step,
-  /// whose length is that of the setting, and changes nothing else. Throws the errors of
-  /// FluidSolver.
+  /// whose length is that of the setting, and moves nothing. Throws the errors of step().
   FlowField flow_at_present();
 
-  /// Forces and torques of the fluid on the particles in the last step, motion_components() each;
-  /// empty before the first step.
+  /// Forces and torques of the fluid on the particles in the last step [M L/T^2, M L^2/T^2],
+  /// motion_components() numbers each; empty before the first step.
   const std::vector<double>& fluid_forces() const { return quantities_.fluid_forces; }
 
   /// The contacts in which solids rebounded in the last step.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
 
-  /// The errors of the forces of the last step, if the errors of velocities were estimated there.
+  /// The errors of the forces of the last step; empty if they were not estimated there.
   const ForceErrors& force_errors() const { return force_errors_; }
 
-  /// The particles with the velocities of the last step. If the error was estimated there, they are
-  /// those extrapolated from two meshes, which do not enter the next step.
+  /// The particles with their velocities after the last step. If errors were estimated there, the
+  /// velocities are extrapolated from two meshes; the next step does not use these.
   Particles reported_particles() const;
 
   /// Number of unknowns of the last mesh; 0 if the solver does not say.
@@ -153,14 +156,14 @@ class FluidSimulation {
   std::unique_ptr<FluidSolver> solver_;
   HeldSolver* held_ = nullptr;  // solver_, if the case has bodies or links
   MotionLayout layout_;
-  double mean_radius_;
+  double mean_radius_;  // [L]
   ThreadPool pool_;
   std::vector<Plane> obstacles_;
   FlowQuantities quantities_;
   ForceErrors force_errors_;
   std::vector<Rebound> rebounds_;
   bool has_flow_ = false;         // the solver has kept a flow, in a fluid with inertia
-  std::vector<double> reported_;  // extrapolated velocities of the last step; empty: there are none
+  std::vector<double> reported_;  // Motion::reported of the last step
 };
 
 }  // namespace viscontact::particles

@@ -1,6 +1,7 @@
 // What a simulation asks of a fluid: the velocities that rigid particles take in it under given
-// forces. Lengths, masses and times are in the units of the case. FluidSimulation asks;
-// freefem_flow/ answers. A change must agree with docs/fluid-solver.md.
+// forces. Lengths, masses and times are in any consistent units; in the plane masses, forces and
+// powers are per unit length of the third dimension. particles/fluid/ and particles/membranes/ ask;
+// freefem_flow/ answers, and app/ connects both. A change must agree with docs/fluid-solver.md.
 #pragma once
 
 #include <array>
@@ -25,24 +26,25 @@ namespace viscontact::particles {
 /// angular velocity), 1 on the axis of a cylinder (velocity along z).
 constexpr std::size_t motion_components(int dimension) { return dimension == 1 ? 1 : 3; }
 
-/// The place of the components of motions, velocities or forces of a particle in an array.
+/// The order of the components of velocities or forces of all particles in an array.
 struct MotionLayout {
   std::size_t components = 3;  ///< motion_components()
-  /// Number of components along the axes, and of a contact's normal.
+  /// Number of components that are not angular: 2 in the plane, 1 on an axis.
   std::size_t directions() const { return components == 1 ? 1 : 2; }
-  /// Place of component `d` of particle `k`, both from 0.
+  /// Place in the array of component `d` of particle `k`, both from 0.
   std::size_t at(std::int32_t k, std::size_t d) const { return index_of(k) * components + d; }
 };
 
-/// A step of a fluid with inertia. Rates are backward differences from the flows that were kept.
+/// A step of a fluid with inertia, from the flow that keep_flow() kept last to the flow of the next
+/// placement. Rates are backward differences of the flows at the ends of the last steps.
 struct FlowStep {
-  int order = 0;      ///< 1 or 2; 0: Stokes flow, without inertia
-  double length = 0;  ///< of the step from the flow that was kept last to the placement [T], > 0
+  int order = 0;      ///< of the differences: 1 or 2; 0: Stokes flow, without inertia
+  double length = 0;  ///< of the step [T], > 0
   double before = 0;  ///< of the step before it [T]; needed by order 2
   double time = 0;    ///< of the placement [T], at which walls have their velocities
   double from = 0;    ///< time [T] from which the pieces of a wall's velocity are averaged
   double to = 0;  ///< time [T] until which they are; if it is not larger, they are taken at `time`
-  /// Mass and moment of inertia of each component of each particle [M, M L^2]; empty: the fluid has
+  /// Mass or moment of inertia of each component of each particle [M, M L^2]; empty: the fluid has
   /// no inertia.
   std::span<const double> masses{};
 };
@@ -50,26 +52,28 @@ struct FlowStep {
 /// The particles at one time, as the fluid sees them.
 struct FluidParticles {
   const Particles* particles = nullptr;  ///< not null when place() is called
-  std::span<const double> angles;        ///< of each particle; empty on an axis
-  /// Motions of particles that are driven, by the number of the particle; the others are free.
+  std::span<const double> angles;        ///< of each particle [rad]; empty on an axis
+  /// Motions [L/T, 1/T] of particles that are driven, whose motion is given and not changed by
+  /// forces, by the number of the particle; the others are free.
   std::map<std::int32_t, std::array<double, 3>> driven;
-  /// Mass and moment of inertia over the time step of each component of each particle [M/T], added
-  /// to the resistance; empty: no inertia.
+  /// Mass or moment of inertia over the time step of each component of each particle [M/T, M L^2/T]
+  /// in a fluid without inertia, added to the resistance; empty: the particles have no inertia.
   std::span<const double> inertia;
   FlowStep flow_step{};  ///< in a fluid with inertia
 };
 
-/// Quantities of the flow that the last call of velocities() with `driving` computed.
+/// Quantities of the flow of the last FluidSolver::velocities(forces, true).
 struct FlowQuantities {
-  double dissipation = 0;  ///< 2 mu integral of D(u):D(u) [M L^2/T^3]
-  /// Dissipation over that of the fluid alone with the same boundary. 0 if the boundary is at rest,
+  /// 2 mu times the integral of D(u):D(u) [M L^2/T^3]; D(u): symmetric velocity gradient.
+  double dissipation = 0;
+  /// Dissipation over that of the fluid alone with the same walls [1]; 0 if the walls are at rest,
   /// or if the dissipation of the fluid alone is not known.
   double apparent_viscosity = 0;
-  /// Force and torque of the fluid on each particle, motion_components() numbers each.
+  /// Forces and torques of the fluid on all particles [M L/T^2, M L^2/T^2].
   std::vector<double> fluid_forces;
   // In a fluid with inertia:
   double kinetic_energy = 0;  ///< of the fluid [M L^2/T^2]
-  /// Largest way of the fluid in a step relative to the mesh, over the length of an edge.
+  /// Largest way of the fluid in a step relative to the mesh, over the size of a triangle [1].
   double courant_number = 0;
   /// Flow [L^2/T] and mean pressure [M/(L T^2)] of each of Fluid::probes.
   std::vector<std::array<double, 2>> probes{};
@@ -78,7 +82,7 @@ struct FlowQuantities {
 /// How results on a second mesh improve those on the mesh of a placement. With the change d of a
 /// result from the mesh of the placement to the second one, result + extrapolation * d is the most
 /// accurate value; error * |d| estimates its error, and error_of_one_mesh * |d| that of the result
-/// on the mesh of the placement. All are without dimension and >= 0. All are 0 if there is no mesh.
+/// on the mesh of the placement. All are >= 0, without dimension, and 0 if there is no mesh.
 struct SecondMesh {
   double extrapolation = 0;      ///< factor of d in the most accurate value
   double error = 0;              ///< factor of |d| in the error of the most accurate value
@@ -87,10 +91,11 @@ struct SecondMesh {
 
 using viscontact::FlowField;
 
-/// A fluid with rigid particles. All arrays have motion_components() numbers for each particle.
+/// A fluid with rigid particles. All arrays have motion_components() numbers for each particle:
+/// velocities in [L/T, 1/T], forces and torques in [M L/T^2, M L^2/T^2].
 ///
-/// Each function throws Error(kExternalProgram) with the last lines of the solver if it ends or
-/// answers with anything but numbers, and Error(kInterrupted) if a stop was requested.
+/// Each function throws Error(kExternalProgram) with the last lines of the solver if the solver
+/// ends or answers with anything but numbers, and Error(kInterrupted) if a stop was requested.
 class FluidSolver {
  public:
   virtual ~FluidSolver() = default;
@@ -104,17 +109,18 @@ class FluidSolver {
   /// forces. place() must have been called.
   virtual std::vector<double> velocities(std::span<const double> forces, bool driving) = 0;
 
-  /// The velocities under unit forces and torques on each component of each particle, without
-  /// `driving`: a symmetric matrix, row after row [T/M, ...]. By default it asks for each of them.
+  /// velocities(force, false) for a unit force or torque on each of the `components` components of
+  /// all particles in turn: a matrix with one row for each force [T/M, T/(M L), T/(M L^2)],
+  /// symmetric without inertia of the fluid.
   virtual std::vector<double> mobility(std::size_t components);
 
   /// Quantities of the last velocities(forces, true).
   virtual FlowQuantities quantities() = 0;
 
-  /// Takes the particles of the last placement with another penalty. Until the next call of place()
-  /// or vary_mesh(), velocities() and quantities() are those with this penalty. Returns the factor
-  /// >= 0 by which the change of a result is multiplied to estimate its error by the penalty; 0 if
-  /// there is no penalty, and then nothing changes. estimate_flow() compares the results.
+  /// Takes the particles of the last placement with another penalty (Fluid::penalty). Until the
+  /// next call of place() or vary_mesh(), velocities() and quantities() are those with this
+  /// penalty. Returns the factor >= 0 by which the change of a result is multiplied to estimate its
+  /// error by the penalty; 0 if there is no penalty, and then nothing changes.
   virtual double vary_penalty() = 0;
 
   /// Takes the particles of the last placement, with the penalty of the case, on a second mesh.
@@ -125,15 +131,15 @@ class FluidSolver {
   /// both meshes.
   virtual FlowField flow() = 0;
 
-  // A fluid with inertia remembers the flow. Solvers without inertia need none of these functions.
+  // A fluid with inertia remembers flows. For other fluids these three functions do nothing.
 
-  /// Takes the flow of the last velocities(forces, true), or a fluid `at_rest`, for the flow at the
-  /// time of the placement, from which the next placement continues. `motions` are those of the
-  /// particles, which may differ from the velocities that the fluid gave them (splitting).
+  /// Keeps the flow of the last velocities(forces, true), or a fluid at rest if `at_rest`, as that
+  /// at the time of the placement, from which the next placement continues. `motions` are those of
+  /// the particles, which Coupling::kSplitting may make different from the velocities in the flow.
   virtual void keep_flow(bool at_rest, std::span<const double> motions);
-  /// The flow that was kept, in a form that load_flow() understands.
+  /// The flows that were kept and still matter, for load_flow(); empty without inertia.
   virtual std::string saved_flow();
-  /// Continues from a flow that another object saved.
+  /// Continues from the flows that saved_flow() of another object returned.
   virtual void load_flow(const std::string& flow);
 
   /// Number of unknowns on the mesh of the last placement; 0 if the solver does not say.
@@ -157,8 +163,9 @@ inline void FluidSolver::keep_flow(bool /*at_rest*/, std::span<const double> /*m
 inline std::string FluidSolver::saved_flow() { return {}; }
 inline void FluidSolver::load_flow(const std::string& /*flow*/) {}
 
-/// Starts a solver of the fluid in `domain` around particles with `radii` [L] in `dimension` (2 or
-/// 3) dimensions, and waits until it is ready. freefem_flow::start_fluid_solver is such a function.
+/// Starts a solver of the fluid in `domain` around particles with `radii` [L], > 0, and waits until
+/// it is ready. `dimension`: 2 for discs in the plane, 1 for spheres on the axis of a cylinder.
+/// freefem_flow::start_fluid_solver is such a function.
 using StartFluidSolver = std::function<std::unique_ptr<FluidSolver>(
     const Fluid& fluid, const Domain& domain, std::span<const double> radii, int dimension,
     const StopToken& stop)>;

@@ -1,8 +1,8 @@
 // Computes the rows, linear conditions on the velocities of particles in a fluid, that make bodies
 // rigid and hold links: hinges, arms, springs and torsion springs (held_rows.hpp). A unit is a
-// rigid body, or a particle without a body. Units are those of the case: velocities in [L/T, 1/T],
-// forces in [M L/T^2, M L^2/T^2]. Nothing is checked or thrown. fluid_simulation.cpp uses it. A
-// change must keep bodies exactly rigid, and the order of the rows: bodies first, then links.
+// rigid body, or a particle without a body. Velocities are in [L/T, 1/T], forces in [M L/T^2,
+// M L^2/T^2]. Nothing is checked or thrown. A change must keep bodies exactly rigid, and the order
+// of the rows: bodies first, then links.
 #include "viscontact/particles/fluid/held_rows.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// True if a link must hold exactly after a step: a hinge or an arm.
+/// True for a hinge or an arm, which must hold exactly after a step.
 bool is_exact(const LinkEquations& link) {
   return link.kind == LinkEquations::Kind::kHinge || link.kind == LinkEquations::Kind::kArm;
 }
@@ -47,7 +47,7 @@ HeldMotion::HeldMotion(const Links& links, const Particles& particles, const Lin
   turn_rows();
 }
 
-/// The time in the step at which links act on a particle [T]; < 0: it does not accelerate.
+/// The time [T] in the step at which links act on a particle; < 0: it does not accelerate.
 double HeldMotion::link_time(std::int32_t particle) const {
   return link_times_.empty() ? -1 : link_times_[index_of(particle)];
 }
@@ -60,8 +60,8 @@ double HeldMotion::link_time(const LinkEquations& link) const {
   return latest;
 }
 
-/// Gives the rows of each link the directions that they have when its units have moved, with the
-/// velocities at the beginning of the step, until the time link_time() of the link.
+/// Sets in_rows_: the equations of each link with the directions that they have when its units have
+/// moved with the velocities at the beginning of the step for the time link_time().
 void HeldMotion::turn_rows() {
   if (link_times_.empty()) return;
   std::vector<double> velocities(particles_.count() * layout_.components);
@@ -80,8 +80,8 @@ void HeldMotion::turn_rows() {
   }
 }
 
-/// Adds the rows of a rigid body, three for each member but the first: the member has the
-/// velocities of the rigid motion of the first one.
+/// Adds the rows of a rigid body, three for each member but the first: its velocities are those of
+/// the rigid motion that the first member has.
 void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
                                std::vector<HeldRow>& rows) const {
   const auto first = body.members.front();
@@ -95,7 +95,7 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
       row.name = fmt::format("body {}", number);
       row.accelerates = link_time(first) >= 0;
       row.entries = {{layout_.at(member, d), 1}, {layout_.at(first, d), -1}};
-      // The turn of the body moves the place of the member about that of the first member.
+      // The rotation of the body adds its angular velocity times `apart`, turned by 90 degrees.
       if (d < 2) {
         row.entries.emplace_back(layout_.at(first, 2), d == 0 ? apart[1] : -apart[0]);
         row.image_rate = of_images[m][d] - of_images[0][d];
@@ -105,6 +105,7 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
   }
 }
 
+/// Adds the part of one unit to the entries of a row.
 void HeldMotion::add_entries(const LinkPart& part, HeldRow& row) const {
   if (part.is_turn) {
     row.entries.emplace_back(layout_.at(part.particle, 2), 1);
@@ -122,10 +123,10 @@ void HeldMotion::add_entries(const LinkPart& part, HeldRow& row) const {
 std::vector<HeldRow> HeldMotion::rows() const { return rows_of(in_rows_); }
 
 /// The rate that the row of a hinge or an arm prescribes [L/T]. Without inertia of the fluid the
-/// velocities are those of the whole step, and the rate also removes the error that the length or
-/// place has at its beginning. In a fluid with inertia (rate_to > rate_from) the velocities are
-/// those at the beginning of the step, and the rate is that of the arm alone, because a correction
-/// of places must not change the momentum of the fluid.
+/// velocities are those of the whole step, and the rate also removes the error that the place or
+/// length has at its beginning. In a fluid with inertia (rate_to > rate_from) the velocities are
+/// those at the beginning of the step. The rate is then 0, for an arm the mean rate of its length,
+/// because a correction of places must not change the momentum of the fluid.
 double HeldMotion::rate_of(const LinkEquations& link, const LinkRow& row) const {
   if (!(times_.rate_to > times_.rate_from)) return -row.value / times_.h;
   if (link.kind != LinkEquations::Kind::kArm) return 0;
@@ -168,7 +169,8 @@ UnitMotion HeldMotion::motion_of_body(std::size_t body, std::span<const double> 
   return motion;
 }
 
-/// Displacement and turn in the step of the unit of a part, at the image that the part names.
+/// Displacement [L] and turn [rad] in the step of the unit of a part, with the motion of the image
+/// that the part names.
 UnitMotion HeldMotion::motion_of(const LinkPart& part, std::span<const double> velocities) const {
   UnitMotion motion;
   const auto particle = part.particle;
@@ -217,7 +219,7 @@ std::vector<double> HeldMotion::missing(std::span<const double> velocities,
   return changes;
 }
 
-/// The sum of a row for these velocities, which contains the velocities of images [L/T, 1/T].
+/// The sum of the parts of a row for these velocities, with the motions of images [L/T, 1/T].
 double HeldMotion::sum_of(const LinkRow& row, std::span<const double> velocities) const {
   double sum = 0;
   for (const auto& part : row.parts) sum += value_of(part, motion_of(part, velocities));
@@ -228,8 +230,8 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
                                             std::span<const double> mobility,
                                             const std::vector<char>& is_stiff,
                                             std::span<double> at_end) const {
-  // The rate at the end of the step is taken slightly earlier, because the length of an arm may
-  // have a corner there, and rounding errors of the time must not lead beyond it.
+  // The rate of an arm's length may jump at the end of the step. It is therefore taken slightly
+  // earlier, by more than the rounding error of the time.
   const double end = times_.end - 1e-9 * times_.h;
   std::vector<LinkEquations> turned;
   std::vector<double> rates(body_rows_, 0.0);
@@ -270,9 +272,10 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
       right[c] /= norm;
     }
   }
-  // The change of the velocities is the smallest one, with each component divided by the root of
-  // its mobility W. Redundant rows get the smallest forces; a row counts as redundant if the others
-  // give it up to 1e-10, a free choice far above rounding errors.
+  // With x = W^(-1/2) times the change of the velocities, W the diagonal matrix `mobility`, the
+  // rows require matrix x = right, and x is the shortest solution. The forces f obey matrix^T f =
+  // x; those of redundant rows are the smallest ones. A row counts as redundant if it follows from
+  // the others up to kRank, a free choice far above rounding errors.
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor;
   constexpr double kRank = 1e-10;
   factor.setThreshold(kRank);
@@ -284,8 +287,8 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
   const Eigen::VectorXd of_chosen = factor.solve(change);
   for (Eigen::Index c = 0; c < n; ++c) {
     const auto& row = rows[chosen[static_cast<std::size_t>(c)]];
-    // A force is reported only if a mass of the row accelerates. Without mass the change of these
-    // velocities takes no impulse, and is no part of the mean force of the step.
+    // Without a mass that accelerates, the change of velocities at the end of the step takes no
+    // impulse, so that its force is no part of the mean force of the step.
     if (!row.accelerates) continue;
     double square = 0;
     for (const auto& [component, coefficient] : row.entries)
@@ -341,7 +344,7 @@ void HeldMotion::keep_torques(std::span<const double> velocities, std::span<cons
   }
 }
 
-/// The index of arm number `k` in equations_.
+/// The place of arm number `k` in equations_.
 std::size_t HeldMotion::arm(std::size_t k) const {
   const auto found = std::ranges::find_if(equations_, [&](const LinkEquations& link) {
     return link.kind == LinkEquations::Kind::kArm && link.number == k;

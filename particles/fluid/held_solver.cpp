@@ -1,10 +1,9 @@
 // Finds the forces that keep linear conditions on the velocities of particles in a fluid
 // (held_solver.hpp). With the mobility S of the fluid (velocities per force), the velocities v and
 // the rows A of the conditions, the sums of the rows are A v, and forces l of the rows add A S A^T
-// l to them. Lengths, masses and times are in the units of the case: sums in [L/T, 1/T], forces in
-// [M L/T^2, M L^2/T^2]. Conditions that contradict each other are an Error(kNotConverged).
-// fluid_simulation.cpp uses it. A change must keep that redundant rows get the smallest forces, and
-// that soft and stiff springs do not spoil each other's digits.
+// l to them. Sums are in [L/T, 1/T], forces in [M L/T^2, M L^2/T^2]. Conditions that contradict
+// each other are an Error(kNotConverged). A change must keep that redundant rows get the smallest
+// forces, and that the forces of soft springs stay accurate beside stiff ones.
 #include "viscontact/particles/fluid/held_solver.hpp"
 
 #include <fmt/format.h>
@@ -21,8 +20,8 @@ using Eigen::Index;
 
 namespace {
 
-// Numbers smaller than this times the errors of the fluid solver's velocities count as zero. The
-// factor is a free choice.
+// Numbers below this factor times the relative errors of the fluid solver's velocities count as
+// zero; a free choice.
 constexpr double kAboveErrors = 10;
 
 }  // namespace
@@ -35,7 +34,7 @@ void HeldSolver::hold(std::vector<HeldRow> rows, double h) {
   h_ = h;
 }
 
-/// The sums of the rows, A v, for these velocities.
+/// The sums of the rows, A v, without HeldRow::image_rate.
 Eigen::VectorXd HeldSolver::sums(std::span<const double> velocities) const {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
   for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -78,9 +77,8 @@ double HeldSolver::theta(Index r) const {
   const auto& row = rows_[static_cast<std::size_t>(r)];
   const double of_row = h_ * row.stiffness * matrix_(r, r);
   if (has_inertia_) {
-    // With this bound 1/theta is finite. It is at most the relative error of the fluid solver's
-    // velocities (error_of_answers()), so that it changes a force by less than the error of the
-    // force.
+    // The bound keeps 1/theta finite. It changes the force of a spring by less than the relative
+    // error of the fluid solver's velocities does, which is at least 1e-9 (error_of_answers()).
     constexpr double kLeast = 1e-9;
     const double z = of_row * of_row;
     return std::isfinite(z) ? std::max(kLeast, 2 * z / (2 + z)) : 2;
@@ -90,7 +88,7 @@ double HeldSolver::theta(Index r) const {
 }
 
 /// For each row without stiffness, its prescribed rate minus its sum with these velocities; for
-/// each spring, minus its sum.
+/// each spring, which has the rate 0, minus its sum.
 Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
   Eigen::VectorXd missing = -sums(velocities);
   for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -119,9 +117,9 @@ void HeldSolver::factorise() {
   if (springs_.empty()) return;
   spring_responses_ = solve_fixed(scaled(fixed_, springs_));
   spring_matrix_ = scaled(springs_, springs_) - coupling_ * spring_responses_;
-  // If the other rows allow a spring no motion, its mobility should be 0, but consists of errors.
-  // Eigenvalues as small as these errors are set to 0, because a stiff spring would take them for a
-  // mobility.
+  // If the other rows hold both ends of a spring, its mobility should be 0, but consists of errors.
+  // Eigenvalues as small as these errors are set to 0: beside the small compliance of a stiff
+  // spring they would count as a mobility.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
       (spring_matrix_ + spring_matrix_.transpose()) / 2);
   const Eigen::VectorXd kept =
@@ -132,7 +130,7 @@ void HeldSolver::factorise() {
 }
 
 /// The scaled forces of the rows without stiffness whose effect on the scaled sums of these rows is
-/// `right`, column by column. One step of iterative refinement follows.
+/// `right`, column by column, with one step of iterative refinement.
 Eigen::MatrixXd HeldSolver::solve_fixed(const Eigen::MatrixXd& right) const {
   if (fixed_.empty()) return right;
   Eigen::MatrixXd forces = factor_.solve(right);
@@ -141,8 +139,8 @@ Eigen::MatrixXd HeldSolver::solve_fixed(const Eigen::MatrixXd& right) const {
 }
 
 /// The forces of the rows that add `right` to the sums of the rows without stiffness. For a spring,
-/// what they add plus the compliance 1/(theta h stiffness) times its force is `right`. If
-/// `with_springs` is false, springs have the force 0.
+/// what they add to its sum plus the compliance 1/(theta h stiffness) times its force is `right`;
+/// but if `with_springs` is false, springs have the force 0.
 Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_springs) const {
   const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
   Eigen::VectorXd of_fixed = solve_fixed(scaled(fixed_));
@@ -155,7 +153,7 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
       const double k = rows_[static_cast<std::size_t>(r)].stiffness;
       matrix.diagonal()[static_cast<Index>(i)] += scale_[r] * scale_[r] / (k * theta(r) * h_);
     }
-    // Rows are scaled to the diagonal 1, so that soft and stiff springs have the same size.
+    // Scaled again to the diagonal 1, so that soft and stiff springs have entries of one size.
     const Eigen::VectorXd own = matrix.diagonal().cwiseSqrt().cwiseInverse();
     matrix = own.asDiagonal() * matrix * own.asDiagonal();
     const Eigen::VectorXd of_springs =
@@ -172,12 +170,12 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
 void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const {
   const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
   const Eigen::VectorXd added = scale_.cwiseProduct(matrix_ * forces);
-  // The effects of the rows' forces may cancel each other. Errors are then relative to the sum of
-  // their absolute values.
+  // The effects of the forces may cancel each other. Errors are therefore relative to the sum of
+  // the absolute values of the effects.
   const Eigen::VectorXd parts = scale_.cwiseProduct(matrix_.cwiseAbs() * forces.cwiseAbs());
   double largest = 0;
   for (const Index r : fixed_) largest = std::max(largest, std::abs(scaled[r]) + parts[r]);
-  // Free choice, far above the relative error of the velocities, which is usually 1e-9.
+  // A free choice, far above the relative error of the velocities, which is usually 1e-9.
   constexpr double kBroken = 1e-4;
   std::string names;
   for (const Index r : fixed_) {
@@ -197,8 +195,7 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
 std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool driving) {
   auto velocities = solver_->velocities(forces, driving);
   if (rows_.empty()) return velocities;
-  // The prescribed sums of the rows, in which the sum of a spring contains its compliance times its
-  // force.
+  // The prescribed values of the rows: of the sum, for a spring of sum plus compliance times force.
   Eigen::VectorXd given = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
   if (driving)
     for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -276,11 +273,11 @@ SecondMesh HeldSolver::vary_mesh() {
   return solver_->vary_mesh();
 }
 
-/// Corrects `of_rows`, forces of the rows that were computed with the mobility of place(), for the
+/// Corrects `of_rows`, forces of the rows that were computed with the mobility at place(), for the
 /// other mesh or penalty that the fluid solver has after vary_mesh() or vary_penalty(). Each
 /// correction multiplies the error of the sums by about the relative difference of both mobilities,
-/// which is small; two corrections are a free choice. `right` are the prescribed sums, in which
-/// those of springs contain compliance times force.
+/// which is small; the number of corrections is a free choice. `right` are the prescribed sums, for
+/// springs those of sum and compliance times force.
 void HeldSolver::correct(const Eigen::VectorXd& right, std::span<const double> forces,
                          Eigen::VectorXd& of_rows) {
   constexpr int kCorrections = 2;

@@ -1,6 +1,7 @@
 // A fluid whose particles are held by rigid bodies, hinges, springs and arms, docs/physics.md
-// (6.7). Lengths, masses and times are in the units of the case. fluid_simulation.cpp uses it. A
-// change must keep that redundant rows are no error, and those that contradict each other are.
+// (6.7). Lengths, masses and times are in any consistent units: velocities in [L/T, 1/T], forces
+// in [M L/T^2, M L^2/T^2]. fluid_simulation.cpp, fluid_links.cpp and held_rows.hpp use it. A change
+// must keep that redundant rows are no error, but rows that contradict each other are.
 #pragma once
 
 #include <Eigen/QR>
@@ -15,55 +16,60 @@
 
 namespace viscontact::particles {
 
-/// A linear condition on the velocities v of all particles: the sum of coefficient times component,
-/// plus `image_rate`, is `rate`. For a spring, the force follows from this sum instead.
+/// A linear condition on the velocities of all particles. Its sum is that of coefficient times
+/// velocity over `entries`, plus `image_rate`. The condition is sum = `rate`, but for a spring
+/// force = -stiffness (extension + theta h sum) with the length h of the step; theta: HeldSolver.
 struct HeldRow {
-  /// Components of the motions (motion_components() of each particle) and their coefficients.
+  /// Places of velocities in the array of all particles (MotionLayout), with their coefficients
+  /// [1], or [L] of an angular velocity in a sum that is a velocity.
   std::vector<std::pair<std::size_t, double>> entries;
-  double rate = 0;  ///< [L/T], [1/T]; not of a spring
-  /// Part of the sum because images of the particles move relative to them in a sheared cell [L/T].
+  double rate = 0;  ///< [L/T], [1/T]; not used of a spring
+  /// Part of the sum by the motion of periodic images relative to particles in a sheared cell
+  /// [L/T].
   double image_rate = 0;
-  // Of a spring, whose force is -stiffness (extension + theta h sum); stiffness 0: not a spring.
-  double stiffness = 0;  ///< [M/T^2], [M L^2/T^2]
-  double extension = 0;  ///< at the beginning of the step [L], [rad]
-  /// Whether a particle of the row accelerates (StepEquation::link_times).
+  double stiffness = 0;  ///< of a spring [M/T^2, M L^2/T^2], > 0; 0: the row is no spring
+  double extension = 0;  ///< of a spring at the beginning of the step [L, rad]
+  /// Whether a particle of the row accelerates: it has a mass and no given motion.
   bool accelerates = false;
   std::string name{};  ///< in messages
 };
 
-/// A fluid solver that holds the particles: it adds forces in the rows, so that the conditions are
-/// kept, and passes the questions on to the solver that it owns.
+/// A fluid solver that holds the particles: it adds forces along the rows with which the conditions
+/// hold, and asks the fluid solver that it owns.
 ///
-/// With the mobility S of the fluid, the forces l of the rows A v = rate solve A S A^T l = rate -
-/// A S f. Each placement asks the fluid one question for each row. Each question to this solver
-/// then asks the fluid once, or twice if walls and driven particles move (`driving`). Springs have
-/// theta = (1 + z)/(2 + z) with z = h stiffness (A S A^T)_rr, as masses have in StepEquation;
-/// between particles that accelerate z^2 takes the place of z = (omega h)^2 theta, with the
-/// frequency omega, because an oscillation that the step resolves must not be damped.
+/// With the mobility S of the fluid (velocities per force), forces f of the caller and the matrix A
+/// of the rows, the velocities are v = S (f + A^T l), and the forces l of the rows solve
+/// A S A^T l = rate - A S f. Each placement asks the fluid solver once for each row, and each call
+/// of velocities() asks it once, with `driving` twice.
+///
+/// Springs have theta = (1 + z)/(2 + z) with z = h stiffness (A S A^T)_rr of their row r. If an end
+/// of the spring accelerates, z^2 takes the place of z: an oscillation of angular frequency omega
+/// has z = (omega h)^2 theta, and theta is then nearly 1/2, without damping, if omega h is small.
 ///
 /// In a fluid with inertia the velocities are those at the beginning of the step, where the
 /// extensions are known, and theta = 2 z^2/(2 + z^2): a spring that the step resolves has the force
 /// at that time up to the second order of the step, and a stiff one is damped. The limit 2 is above
-/// 1 because the step extrapolates velocities by half of their change: with V = -x/theta, x^{n+1} =
-/// x^n + 3/2 V^n - 1/2 V^{n-1} would not decay with theta = 1. S is not symmetric there, because
-/// moving fluid carries the effect of a force along.
+/// 1 because the step extrapolates velocities by half of their change: the extension x of a stiff
+/// spring, with h V = -x/theta, obeys x^{n+1} = x^n + h (3/2 V^n - 1/2 V^{n-1}), which would not
+/// decay with theta = 1. S is not symmetric there, because moving fluid carries the effect of a
+/// force along.
 ///
-/// A S A^T of rows that depend on each other is singular, up to the errors of the answers. Its rank
-/// is found without the springs, whose compliance 1/(theta h stiffness) may be far larger or
-/// smaller than all other entries: the rows without stiffness are eliminated first, which leaves a
-/// mobility for the springs.
+/// If rows depend on each other, A S A^T is singular up to the errors of the velocities. The
+/// compliance 1/(theta h stiffness) of a spring may be far larger or smaller than the entries of
+/// A S A^T. Therefore the rank is found for the rows without stiffness alone; these are eliminated,
+/// which leaves a mobility for the springs.
 class HeldSolver : public FluidSolver {
  public:
-  /// `relative_error` > 0 is that of the answers of `solver`; `has_inertia` says whether its fluid
-  /// has inertia.
+  /// `relative_error` > 0 is that of the velocities of `solver`; `has_inertia` says whether its
+  /// fluid has inertia.
   HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error, bool has_inertia);
 
   /// Sets the rows that hold from the next placement on, in steps of length h > 0 [T].
   void hold(std::vector<HeldRow> rows, double h);
 
-  /// Besides the errors of the fluid solver, throws Error(kNotConverged), which names the rows, if
-  /// they contradict each other.
   void place(const FluidParticles& bodies) override;
+  /// With `driving`, besides the errors of the fluid solver, throws Error(kNotConverged), which
+  /// names the rows, if rows contradict each other.
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
   FlowQuantities quantities() override { return solver_->quantities(); }
   double vary_penalty() override;
@@ -77,37 +83,38 @@ class HeldSolver : public FluidSolver {
   std::size_t unknowns() const override { return solver_->unknowns(); }
   double peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }
 
-  /// velocities(forces, false) without springs, whose forces are then among `forces`.
+  /// velocities(forces, false), but with the force 0 of all springs. The rows without stiffness
+  /// have the sum 0.
   std::vector<double> velocities_without_springs(std::span<const double> forces);
 
-  /// Adds forces in the rows that change the sum of each row without stiffness by `changes`, one
-  /// number for each row [L/T, 1/T]. `with_springs`, the sum plus compliance times force of each
-  /// spring changes by its number, too; otherwise springs keep their forces. Returns the forces [M
-  /// L/T^2, M L^2/T^2]. No question is asked.
+  /// Changes `velocities` by forces along the rows that change the sum of each row without
+  /// stiffness by its number in `changes` [L/T, 1/T]. `with_springs`, the sum plus compliance times
+  /// force of each spring changes by its number, too; otherwise springs keep their forces. Returns
+  /// the forces of all rows. The fluid solver is not asked.
   std::vector<double> change(std::span<double> velocities, std::span<const double> changes,
                              bool with_springs) const;
 
-  /// The forces of the rows without stiffness that change their sums as `changes` of the velocities
-  /// do [L/T, 1/T].
+  /// The forces of the rows without stiffness that change the sums of these rows by as much as the
+  /// velocities `changes` of all particles do; 0 for springs.
   std::vector<double> row_forces_for(std::span<const double> changes) const;
 
-  /// The theta of each row, 1/2 to 1, in a fluid with inertia up to 2; of rows without stiffness
-  /// the least one.
+  /// The theta of each row [1]: of a spring 1/2 to 1, in a fluid with inertia 1e-9 to 2; of other
+  /// rows the least of these numbers.
   std::vector<double> thetas() const;
 
-  /// True if row `r` is a spring whose oscillation is too fast for the step, or whose relaxation is
-  /// shorter than it.
+  /// True if row `r` is a spring with theta > 2/3, that is z > 1 for the z above or, if it
+  /// accelerates or the fluid has inertia, z^2 > 1: the step does not resolve its motion.
   bool is_stiff(std::size_t r) const { return theta(static_cast<Eigen::Index>(r)) > 2.0 / 3; }
 
-  /// The forces of the rows in the last velocities(forces, true) [M L/T^2, M L^2/T^2].
+  /// The forces of the rows in the last velocities(forces, true).
   const std::vector<double>& row_forces() const { return row_forces_; }
 
-  /// The forces on all particles of the springs and of the rows with a particle that accelerates,
-  /// in the last velocities(forces, true). The extrapolation of FluidSimulation takes them for
-  /// forces from outside, because they are those of the whole step.
+  /// The forces and torques on all particles by the springs and by the rows with a particle that
+  /// accelerates, in the last velocities(forces, true).
   std::vector<double> forces_of_step() const;
 
-  /// Adds forces in the rows until the rows without stiffness hold. No question is asked.
+  /// Changes `velocities` by forces along the rows until the rows without stiffness hold. The fluid
+  /// solver is not asked.
   void hold_velocities(std::span<double> velocities) const;
 
  private:
@@ -126,18 +133,19 @@ class HeldSolver : public FluidSolver {
   std::unique_ptr<FluidSolver> solver_;
   double relative_error_;
   bool has_inertia_;
-  double h_ = 0;
+  double h_ = 0;  // [T]
   std::vector<HeldRow> rows_;
-  std::vector<std::vector<double>> responses_;  // S A^T of each row
+  std::vector<std::vector<double>> responses_;  // velocities by a unit force of each row: S A^T
   Eigen::MatrixXd matrix_;                      // A S A^T
-  // The parts of the matrix in scaled rows: of the rows without stiffness (fixed), of springs for
-  // forces of the fixed rows, and of the springs if the fixed rows hold.
+  // Numbers of the rows without stiffness (fixed) and of the springs.
   std::vector<Eigen::Index> fixed_, springs_;
-  Eigen::VectorXd scale_;
+  Eigen::VectorXd scale_;  // factor of each row with which the diagonal of the matrix is 1
+  // In scaled rows: matrix_ of the fixed rows; sums of springs by forces of fixed rows; forces of
+  // fixed rows that undo the effect of a spring on them; matrix of the springs with these forces.
   Eigen::MatrixXd fixed_matrix_, coupling_, spring_responses_, spring_matrix_;
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor_;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor_;  // of fixed_matrix_
   std::vector<double> row_forces_;
-  bool is_varied_ = false;  // the fluid is another one than that of matrix_ and responses_
+  bool is_varied_ = false;  // the fluid solver has another mesh or penalty than at place()
 };
 
 }  // namespace viscontact::particles

@@ -1,8 +1,8 @@
-// Computes the terms of the equation of motion of a step (step_equation.hpp, which defines the
-// symbols): forces, inertia, theta, and given motions. A component is a direction or the rotation
-// of a particle. Numbers are in the units of the case. Nothing is checked or thrown.
-// fluid_simulation.cpp depends on it. A change must keep the second order in time away from
-// contact.
+// Computes the terms of the equation of motion of a step in a fluid (step_equation.hpp): forces,
+// inertia, given motions and theta, with which the velocities in the step are theta times those at
+// its end plus 1 - theta times those at its beginning. A component is a direction or the rotation
+// of a particle. Units are those of the arguments; nothing is checked or thrown. A change must keep
+// the second order in time away from contact.
 #include "viscontact/particles/fluid/step_equation.hpp"
 
 #include <algorithm>
@@ -47,12 +47,15 @@ std::vector<double> masses_of(const Particles& p, const Fluid& fluid, const Moti
   return masses;
 }
 
+/// The mean forces and torques on all particles [M L/T^2, M L^2/T^2] between the times `from` and
+/// `to` [T]: weight minus buoyancy, and those of the case and of the caller.
 std::vector<double> mean_forces(const Setting& setting, const Particles& p,
                                 std::span<const double> masses, const MotionLayout& layout,
                                 double from, double to) {
   std::vector<double> forces(p.count() * layout.components);
   for (std::size_t k = 0; k < p.count(); ++k) {
-    // Buoyancy: the pressure that carries the weight of the fluid also acts on the particle.
+    // Mass of the fluid that the particle displaces, whose weight is the buoyancy. In Stokes flow
+    // the density is 0.
     const double displaced =
         setting.fluid->density * setting.fluid->size_of(p.dimension, k, p.radii[k]);
     for (std::size_t d = 0; d < layout.directions(); ++d)
@@ -82,8 +85,8 @@ bool has_kink(const Arm& arm, double from, double to) {
   if (length == nullptr) return false;
   const auto& points = length->points;
   const std::size_t n = points.size();
-  // Rate of the length [L/T] in the interval that begins at point i, or that ends at the first
-  // point.
+  // Rate of the length [L/T] in the interval that begins at point i. After the last point it is 0,
+  // or, if the length is periodic, that until the first point of the next period.
   const auto rate_after = [&](std::size_t i) {
     if (i + 1 < n) return (points[i + 1][1] - points[i][1]) / (points[i + 1][0] - points[i][0]);
     if (!(length->period > 0)) return 0.0;
@@ -110,10 +113,10 @@ StepEquation::Window StepEquation::window(const Setting& setting, const State& s
   const double now = state.time;
   if (!setting.fluid->has_inertia() || state.steps == 0) return {now, now, next};
   const double from = now - state.earlier_step / 2;
-  // The backward difference from t^0 to t^1 is of first order. In the sum of the differences over
-  // all steps those of second order that follow give it the weight 3/2. Its forces are therefore
-  // means over the first 3/2 steps, from t^0 on, so that the forces of all steps together have the
-  // whole impulse.
+  // The velocity at t^1 is found from a difference of first order, those after it from differences
+  // of second order. In the sum of all steps the latter give the change of the velocity in the
+  // first step the weight 3/2. Its forces are therefore means over the first 3/2 steps, from t^0
+  // on, so that the forces of all steps together have the whole impulse.
   return {state.steps == 1 ? now - state.earlier_step : from, from, now + h / 2};
 }
 
@@ -145,7 +148,7 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
   add_inertia();
 }
 
-/// Sets theta and the inertia of all components.
+/// Sets thetas_, inertia_ and link_times_.
 void StepEquation::add_inertia() {
   thetas_.assign(masses_.size(), 1);
   inertia_.assign(masses_.size(), 0);
@@ -167,19 +170,19 @@ void StepEquation::add_inertia() {
     if (!(masses_[i] > 0) || is_driven(static_cast<std::int32_t>(k))) continue;
     link_times_.resize(state_.particles.count(), -1);
     const double theta = thetas_[i];
-    // The angular momentum is kept if links act at the time (1 - theta) h of the step, but drag
-    // needs them at h/2. The time is the mean of both with the weights 2 (1 - theta), which is 1
-    // without drag, and 2 theta - 1 (docs/physics.md (6.7)).
+    // The angular momentum is kept if links act at the time (1 - theta) h of the step; with drag
+    // the step is of second order if they act at h/2. The time is the mean of both with the weights
+    // 2 (1 - theta), which is 1 without drag, and 2 theta - 1 (docs/physics.md (6.7)).
     const bool may_jump = in_contact_[k] != 0 || !(state_.earlier_step > 0);
     link_times_[k] = may_jump ? 0 : (0.5 - (2 * theta - 1) * (1 - theta)) * h_;
   }
 }
 
-/// Finds which particles move with each other, and puts those in contact whose velocities jump
-/// because of a link.
+/// Sets companions_, and in_contact_ of particles whose velocities may jump because of a link.
 void StepEquation::find_companions() {
   const auto& p = state_.particles;
-  // The set of each particle, named by one of its particles.
+  // Particles that move with each other form sets. set[k] is a particle of the set of k, and
+  // set_of() follows these numbers to the one that names the set.
   std::vector<std::int32_t> set(p.count());
   std::iota(set.begin(), set.end(), 0);
   const auto set_of = [&](std::int32_t k) {
@@ -193,12 +196,13 @@ void StepEquation::find_companions() {
   };
   for (const auto& body : p.bodies.bodies)
     for (const auto member : body.members) unite(body.members.front(), member, false);
-  // Where the length of an arm has a kink, the velocities of its ends jump as in a contact.
+  // If the rate of an arm's length jumps, the velocities of its ends jump as in a contact.
   for (const auto& arm : setting_.links.arms)
     unite(arm.first, arm.second,
           has_kink(arm, state_.time - state_.earlier_step, state_.time + h_));
   for (const auto& spring : setting_.links.springs) {
-    // If the oscillation of a spring is too fast for the step, h^2 k > m, the step must damp it.
+    // The ends of a spring whose oscillation the step cannot resolve, h^2 stiffness > mass, count
+    // as moving with each other.
     const auto mass_of = [&](std::int32_t k) {
       const auto body = p.bodies.body_of(k);
       if (is_driven(k)) return std::numeric_limits<double>::infinity();
@@ -214,7 +218,7 @@ void StepEquation::find_companions() {
     if (particles.size() > 1) companions_.push_back(std::move(particles));
 }
 
-/// If a particle is in contact, all that move with it are.
+/// Puts all particles in contact that move with a particle in contact.
 void StepEquation::spread_contact() {
   for (const auto& particles : companions_)
     if (std::ranges::any_of(particles,
@@ -236,10 +240,10 @@ double StepEquation::earlier_drag(std::size_t k, std::size_t component) const {
   return speed > 0 ? std::sqrt(force / speed) : 0;
 }
 
-/// The theta of all components of a rigid body. Its rate of damping is estimated by the power of
-/// the drag in the step before over twice the kinetic energy [1/T]. This quotient lies between the
-/// rates of the least and of the most damped motion of the body, and does not depend on the forces
-/// between its members.
+/// The theta of all components of a rigid body, from its rate of damping c/m [1/T]. This is
+/// estimated as the power of the drag in the step before over twice the kinetic energy. The
+/// quotient lies between the rates of the least and of the most damped motion of the body, and does
+/// not depend on the forces between its members.
 double StepEquation::theta_of_body(const RigidBody& body) const {
   if (!(body.mass > 0) || in_contact_[index_of(body.members.front())] != 0) return 1;
   const auto &u = state_.earlier_velocities, &f = state_.earlier_forces;
@@ -257,9 +261,9 @@ double StepEquation::theta_of_body(const RigidBody& body) const {
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
-/// The drag per velocity of a sphere (Stokes), or the torque per angular velocity of a disc. A disc
-/// that translates has no drag in an unbounded Stokes flow (Stokes' paradox); 4 pi mu, of the right
-/// dimension, is taken in its place.
+/// The Stokes drag per velocity of a sphere [M/T], or the torque per angular velocity of a disc
+/// [M L/T]. A disc that translates in an unbounded fluid has no drag in proportion to its velocity
+/// (Stokes' paradox); 4 pi mu [M/(L T)], of the right dimension, is taken in its place.
 double StepEquation::stokes_drag(std::size_t k, std::size_t component) const {
   const double r = state_.particles.radii[k], mu = setting_.fluid->viscosity;
   constexpr double kPi = std::numbers::pi;
@@ -267,6 +271,7 @@ double StepEquation::stokes_drag(std::size_t k, std::size_t component) const {
   return component == 2 ? 4 * kPi * mu * r * r : 4 * kPi * mu;
 }
 
+/// The theta of a component of particle k with this mass or moment of inertia, without a body.
 double StepEquation::theta(std::size_t k, std::size_t component, double mass) const {
   if (in_contact_[k] != 0) return 1;
   const double z = h_ * std::max(stokes_drag(k, component), earlier_drag(k, component)) / mass;
@@ -371,9 +376,9 @@ std::vector<double> StepEquation::velocities_of_work(std::span<const double> flo
     const double before = velocity(k, i % layout_.components);
     const double accelerating = masses_[i] / h_ * (at_end[i] - before);
     const double all = accelerating + drag[i];
-    // If drag and acceleration nearly cancel, `all` is nearly 0, although the links of the particle
-    // may exert large forces that cancel each other. The share then means nothing. The bound, a
-    // free choice, keeps the powers of such links finite; it changes nothing but what they report.
+    // If drag and acceleration nearly cancel, `all` is nearly 0, and the share means nothing,
+    // although the links of the particle may exert large forces that cancel each other. The bound,
+    // a free choice, keeps the powers of such links finite. It changes only reported powers.
     constexpr double kLargestShare = 10;
     const double share =
         all != 0 ? std::clamp(accelerating / all, -kLargestShare, kLargestShare) : 0;
@@ -414,7 +419,7 @@ std::array<double, 3> StepEquation::given_motion(const GivenMotion& motion, doub
 
 /// True if the given velocity of a driven particle differs from that in the step before.
 bool StepEquation::has_jump(std::int32_t driven) const {
-  // The first step has theta = 1, which damps all jumps.
+  // In the first step theta = 1 in any case.
   if (!(state_.earlier_step > 0)) return false;
   const double before = std::max(0.0, state_.time - state_.earlier_step);
   const auto earlier = given_motion(setting_.given_motions.at(driven), before, state_.time);
