@@ -1,9 +1,9 @@
 // Places discs or spheres at random in a disc or box such that all gaps have at least a given
 // length; arrangement.hpp describes the method. Lengths are in the unit of the case file. Throws
 // Error(kBadInput) if the particles do not fit. particles/case uses it. A change must keep the
-// arrangement of each seed bit for bit on every machine. Therefore the compiler must not fuse a
-// product and a sum into one operation (-ffp-contract=off in CMakeLists.txt), and only + - * / and
-// sqrt may be used.
+// arrangement of each seed bit for bit on every machine. Therefore only + - * / and sqrt may be
+// used, and the compiler must not fuse a product and a sum into one operation (-ffp-contract=off in
+// CMakeLists.txt).
 #include "viscontact/particles/arrangement/arrangement.hpp"
 
 #include <fmt/format.h>
@@ -24,8 +24,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// The region in which the centre of a particle may lie: a disc, or a box with sides that may be
-/// periodic.
+/// The region for the centre of a particle: a disc, or a box with sides that may be periodic.
 class Places {
  public:
   /// `from_wall` is the least distance of the centre from a wall [L]. Throws
@@ -133,9 +132,8 @@ class Places {
 
 double length_of(const Vector& x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
 
-/// Edge of a square (dimension 2) or cube (3) of the area or volume `size` > 0: its square or cube
-/// root. The cube root is computed by Newton's method, because that of the C library differs
-/// between machines.
+/// Square root (dimension 2) or cube root (3) of `size` > 0. The cube root is computed by Newton's
+/// method, because that of the C library differs between machines.
 double edge_of(double size, std::size_t dimension) {
   if (dimension == 2) return std::sqrt(size);
   double root = size < 1 ? 1 : size;  // at least the cube root, so that the iterates fall to it
@@ -153,13 +151,11 @@ struct FixedParticle {
 
 /// The particles that are placed so far, in the order of falling radii, sorted into a grid of
 /// cells. Each cell is at least as wide as the least distance that the centres of the two largest
-/// particles must have. Therefore only particles in one cell or in neighbouring cells can be too
-/// close.
+/// particles must have. Only particles in one cell or in neighbouring cells can thus be too close.
 class PlacedParticles {
  public:
-  /// `radii` [L] are sorted from large to small. `places` has the region of each particle, or one
-  /// region if all radii are equal, and must outlive the object. `gap` [L] >= 0 is the least gap of
-  /// two particles.
+  /// `radii` [L] are sorted from large to small. `places` has their regions, or one if all radii
+  /// are equal, and must outlive the object. `gap` [L] >= 0 is the least gap of two particles.
   PlacedParticles(const std::vector<Places>& places, std::vector<double> radii, double gap,
                   std::vector<FixedParticle> fixed)
       : places_(places), radii_(std::move(radii)), gap_(gap), fixed_(std::move(fixed)) {
@@ -275,9 +271,8 @@ class PlacedParticles {
   std::vector<Vector> centres_;
 };
 
-/// Moves particles that are too close away from each other, in up to `rounds` rounds over all of
-/// them. Returns true after a round in which none was too close when its turn came, otherwise
-/// false.
+/// Moves particles that are too close apart, in up to `rounds` rounds over all of them. Returns
+/// true after a round in which none was too close when its turn came, otherwise false.
 bool push_apart(PlacedParticles& placed, int rounds) {
   // The aim of a push is 1.001 times the distance that two particles must have, because pushes
   // approach their aim without reaching it.
@@ -316,8 +311,8 @@ void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
   // If the same number of particles formed the densest lattice (triangular or face-centred cubic)
   // in the domain, the distance of neighbours would be `lattice`. About half of the moves are kept
   // if the largest move along an axis is half of the gap in this lattice. It is at least 0.01 of
-  // the distance of touching particles, so that a dense arrangement can move too, and at most half
-  // of the width of the region.
+  // the least distance, so that a dense arrangement can move too, and at most half of the width of
+  // the region.
   const double n = static_cast<double>(count);
   const double lattice = edge_of(
       dimension == 2 ? 2 * size / (std::sqrt(3.0) * n) : std::sqrt(2.0) * size / n, dimension);
@@ -327,8 +322,7 @@ void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
   const double step =
       std::min(span, std::max(0.5 * (lattice - placed.distance()), 0.01 * placed.distance()));
   // 500 moves of each particle, on average, are taken as enough to forget the first places. To
-  // bound the time, more than 40 000 particles make 20 million moves together, but at least 20
-  // each.
+  // bound the time, more than 40 000 particles make 20 million moves in all, but at least 20 each.
   constexpr std::size_t kMoves = 20000000, kMost = 500, kLeast = 20;
   const std::size_t moves = count * std::clamp(kMoves / count, kLeast, kMost);
   for (std::size_t move = 0; move < moves; ++move) {

@@ -1,9 +1,8 @@
-// A source adds particles to a simulation while it runs (source.hpp). This file decides when its
-// particles are due, and at which places they appear. Lengths, masses and times are in the units of
-// the case file; nothing is thrown. simulation.cpp and particles/run use it. A change must keep the
-// due times and places bit for bit, because users repeat runs by their seeds. Therefore the
-// compiler must not fuse a product and a sum into one operation (-ffp-contract=off in
-// CMakeLists.txt).
+// Decides when the particles that a source adds to a simulation are due, and where they appear
+// (source.hpp). Lengths, masses and times are in the units of the case file; nothing is thrown.
+// simulation.cpp and particles/run use it. A change must keep the due times and places bit for bit,
+// because users repeat runs by their seeds. Therefore the compiler must not fuse a product and a
+// sum into one operation (-ffp-contract=off in CMakeLists.txt).
 #include "viscontact/particles/arrangement/source.hpp"
 
 #include <algorithm>
@@ -29,8 +28,7 @@ std::size_t Source::due(double time) const {
 
 namespace {
 
-/// Numbers of the particles that may touch a new particle of this radius [L], whose centre is in
-/// the box of the source.
+/// Numbers of the particles that a new one of this radius [L] in the box of the source may touch.
 std::vector<std::size_t> near_region(const Source& source, double radius, const Particles& p) {
   const Vector middle = 0.5 * (source.from + source.to), half = source.to - middle;
   std::vector<std::size_t> near;
@@ -73,8 +71,7 @@ std::optional<Vector> free_place(const Source& source, double radius, std::size_
   return {};
 }
 
-/// Appends a particle to all arrays, without angular velocity. `turns` says whether it needs a
-/// rotation.
+/// Appends a particle to all arrays; `turns` says whether it needs a rotation.
 void add(const DrawnParticle& particle, const Vector& place, const Vector& velocity, bool turns,
          Particles& p) {
   for (std::size_t d = 0; d < static_cast<std::size_t>(p.dimension); ++d) {

@@ -38,7 +38,7 @@ double portable_log(double x) {
 /// and its product with the number `halvings` are rounded. Here x is the logarithm of a radius over
 /// the median, which is at most 12 in magnitude (sigma is at most 1), so that the error is at most
 /// 2e-15. Splitting log 2 in two parts (Cody & Waite 1980) would be more accurate, but would change
-/// the radii that belong to a seed.
+/// the radii of seeds.
 double portable_exp(double x) {
   const double halvings = std::floor(x / kLog2 + 0.5);
   const double rest = x - halvings * kLog2;  // at most 0.347 in magnitude
@@ -98,8 +98,7 @@ DrawnParticle DrawnSpecies::next() {
     const double share = species_[s].share / shares, count = static_cast<double>(counts_[s]);
     const double lag = share * total - count, deadline = (count + farthest) / share;
     if (lag < 1 - farthest - kRounding) continue;
-    // If two species have the same deadline within rounding errors, the one with the larger lag
-    // behind its share comes next.
+    // If two species have the same deadline within rounding errors, the larger lag decides.
     if (deadline < first_deadline * (1 - kRounding) ||
         (deadline <= first_deadline * (1 + kRounding) && lag > largest_lag)) {
       next = s;

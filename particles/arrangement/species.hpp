@@ -35,8 +35,7 @@ struct Species {
   RadiusDistribution radius;  ///< of each particle
   double share = 1;           ///< > 0; the numbers of particles are in the ratio of the shares
   double mass = 0;            ///< of each particle [M], >= 0; used if `density` is 0
-  /// Mass over the area of a disc [M/L^2], or over the volume of a sphere [M/L^3]. If it is 0, each
-  /// particle has the mass `mass`.
+  /// Mass over the area of a disc [M/L^2] or volume of a sphere [M/L^3]; 0: `mass` is used.
   double density = 0;
 };
 
@@ -49,12 +48,10 @@ struct DrawnParticle {
 };
 
 /// Draws particles of several species one after the other. Among the first n particles, for every
-/// n, the number of particles of each species is its share of n, rounded up or down. The radii have
-/// the same bits on every machine.
+/// n, the number of particles of each species is its share of n, rounded up or down.
 class DrawnSpecies {
  public:
-  /// `dimension` is 2 for discs and 3 for spheres; `species` must not be empty. Every seed is
-  /// allowed.
+  /// `dimension` is 2 for discs and 3 for spheres; `species` must not be empty; any seed.
   DrawnSpecies(std::vector<Species> species, int dimension, std::uint64_t seed);
 
   DrawnParticle next();  ///< the next particle
@@ -74,8 +71,7 @@ std::vector<DrawnParticle> drawn(DrawnSpecies species, std::size_t count);
 std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, double size,
                                          std::size_t largest_count);
 
-/// A hash of all numbers of the species. Equal hashes mean that the same seed gives the same radii
-/// and masses.
+/// A hash of all numbers on which the radii and masses that a seed gives depend.
 std::uint64_t hash_of(const std::vector<Species>& species);
 
 }  // namespace viscontact::particles

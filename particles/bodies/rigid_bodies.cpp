@@ -22,8 +22,7 @@ void add_point_mass(Matrix3& inertia, double mass, const Vector& r) {
       inertia[3 * i + j] += mass * ((i == j ? square : 0) - r[i] * r[j]);
 }
 
-/// Vector `k` of an array that has one number for each disc (component 2) and three for each
-/// sphere.
+/// Vector `k` of an array with one number for each disc (component 2), three for each sphere.
 Vector turn_of(const std::vector<double>& values, std::size_t k, int dimension) {
   if (dimension == 3) return {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
   return {0, 0, values[k]};
@@ -59,8 +58,7 @@ Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::si
   }
   auto sorted = places;
   std::ranges::sort(sorted);
-  // The distance from each member to the next one, and from the last one to the next image of the
-  // first one.
+  // The distance from each member to the next one, and from the last one to an image of the first.
   std::vector<double> distances;
   for (std::size_t m = 0; m < sorted.size(); ++m)
     distances.push_back(m + 1 < sorted.size() ? sorted[m + 1] - sorted[m]
@@ -105,8 +103,7 @@ std::vector<MemberImage> images_of(const Particles& p, const std::vector<std::in
   return images;
 }
 
-/// Sets mass, centre, velocity, offsets, inertia and angular momentum of `body` from its members
-/// and `request`.
+/// Sets mass, inertia, offsets and motion of `body` from its members and `request`.
 void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody& body) {
   for (const auto member : body.members) body.mass += p.masses[index_of(member)];
   if (request.mass >= 0) body.mass = request.mass;
@@ -134,8 +131,7 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
               own * turn_of(p.angular_velocities, k, p.dimension);
   }
   if (request.moment_of_inertia >= 0) {
-    // The angular momentum is scaled like the inertia, so that the angular velocity does not
-    // change.
+    // The angular momentum is scaled as the inertia is: the angular velocity stays.
     const double before = body.inertia[8];
     body.inertia[8] = request.moment_of_inertia;
     if (before > 0) turning = (body.inertia[8] / before) * turning;
@@ -210,8 +206,7 @@ Vector present_offset(const RigidBody& body, std::size_t m, int dimension) {
 
 Matrix3 present_inertia(const RigidBody& body, int dimension) {
   if (dimension != 3) return body.inertia;
-  // R I R^T, with the rotation matrix R, whose column j is axis j of the body as it is directed
-  // now.
+  // R I R^T, where column j of R is the present direction of axis j of the body.
   std::array<Vector, 3> axes;
   for (std::size_t j = 0; j < 3; ++j) {
     Vector axis{};
@@ -257,9 +252,8 @@ void place_members(Particles& p) {
     for (std::size_t m = 0; m < body.members.size(); ++m) {
       const auto k = index_of(body.members[m]);
       const Vector offset = present_offset(body, m, p.dimension);
-      // Of all images of the new place, the member gets the one nearest to its last position. A
-      // position that jumped by a period would make the numbers of images in the neighbour list
-      // wrong.
+      // Of all images of the new place, the member gets the one nearest to its last position. If it
+      // jumped by a period, the numbers of images in the neighbour list would be wrong.
       const auto periods = periods_of_member(body, m, p);
       const Vector x = body.centre + offset - shift_of(p.cell, periods);
       const Vector v = body.velocity + cross(w, offset) - velocity_of_image(p.cell, periods);
@@ -295,9 +289,8 @@ Matrix3 scaled(double factor, Matrix3 a) {
   return a;
 }
 
-/// Turn [rad] of a body of spheres in a step of length h [T] by the implicit midpoint rule: the
-/// fixed point of turn = h I^-1 L, with the angular momentum L [M L^2/T] and the moment of inertia
-/// I after half of the turn.
+/// Turn [rad] of a body of spheres in a step of length h by the implicit midpoint rule: the fixed
+/// point of turn = h I^-1 L, with the angular momentum L and the inertia I after half of the turn.
 Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, double h) {
   Vector turn = h * (inverse_of(present_inertia(body, 3)) * angular_momentum);
   // Each iteration multiplies the error by about the turn in radians, so that 50 iterations are

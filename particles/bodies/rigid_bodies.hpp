@@ -35,8 +35,7 @@ inline Vector operator*(const Matrix3& a, const Vector& x) {
 struct RigidBody {
   std::vector<std::int32_t> members;  ///< numbers of particles, increasing, at least one
   std::vector<Vector> offsets;  ///< vectors from `centre` to the members' centres, at the start [L]
-  /// Angles of the members at the start [rad], of discs. Not used for spheres, whose orientation is
-  /// that of the body.
+  /// Angles of discs at the start [rad]. Not used for spheres, which have the body's orientation.
   std::vector<double> member_angles;
   double mass = 0;  ///< [M], > 0; >= 0 in a fluid
   /// Moment of inertia about the centre, with the orientation at the start [M L^2], positive
@@ -58,8 +57,7 @@ struct RigidBody {
 /// The rigid bodies of a case, and which particle belongs to which.
 struct RigidBodies {
   std::vector<RigidBody> bodies;  ///< in the order of the case
-  /// For each particle the number of its body in `bodies`; -1: it belongs to none. Empty if there
-  /// are no bodies.
+  /// For each particle the number of its body, -1: none. Empty if there are no bodies.
   std::vector<std::int32_t> of_particle;
 
   bool empty() const { return bodies.empty(); }        ///< whether there are no bodies
@@ -80,9 +78,9 @@ struct RigidBodies {
 struct RigidBodyRequest {
   std::vector<std::int32_t> members;  ///< numbers of particles, at least one, each only once
   double mass = -1;                   ///< [M]; < 0: the sum of the members' masses
-  /// Moment of inertia about the centre of mass [M L^2]. If it is < 0, it is computed from the
-  /// members at their places, whose masses and own moments are scaled if `mass` is given. For
-  /// spheres it must be < 0.
+  /// Moment of inertia about the centre of mass [M L^2]; < 0: computed from the members at their
+  /// places, whose masses and own moments are scaled if `mass` is given. For spheres it must be <
+  /// 0.
   double moment_of_inertia = -1;
 };
 
@@ -110,8 +108,7 @@ struct AmbiguousImages {
 std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
                                                 const std::vector<std::int32_t>& members);
 
-/// Diameter of the smallest circle or sphere about the centre of a body that contains its members
-/// [L].
+/// Diameter of the circle or sphere about the centre of a body that contains its members [L].
 double diameter(const RigidBody& body, const Particles& particles);
 
 /// Numbers of periods from the position of member number `m` to its image in the body.
@@ -129,12 +126,11 @@ Vector offset_in_body(const Particles& particles, std::int32_t particle);
 /// The present value of a vector that is fixed to the body and was `at_start` at the start.
 Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension);
 
-/// The moment of inertia about the centre in the present orientation [M L^2]; of discs only the
-/// last entry counts.
+/// The present moment of inertia about the centre [M L^2]; of discs only the last entry counts.
 Matrix3 present_inertia(const RigidBody& body, int dimension);
 
-/// Sets the angular velocity from the angular momentum. A body whose last entry of inertia is 0
-/// keeps its angular velocity.
+/// Sets the angular velocity from the angular momentum; if the last entry of inertia is 0, it
+/// stays.
 void update_angular_velocity(RigidBody& body, int dimension);
 
 /// The masses of the members [M], scaled so that their sum is the mass of the body. If no member
@@ -142,12 +138,11 @@ void update_angular_velocity(RigidBody& body, int dimension);
 std::vector<double> member_masses(const RigidBody& body, const Particles& particles);
 
 /// Sets positions, velocities, orientations and angular velocities of all members to those of their
-/// bodies. In a periodic cell, unless it is sheared, the centres of bodies are first moved by whole
-/// periods into the cell.
+/// bodies. If the domain is periodic and not sheared, centres of bodies are first moved into the
+/// cell.
 void place_members(Particles& particles);
 
-/// Inverse of a symmetric positive definite matrix; a singular one gives infinite or undefined
-/// entries.
+/// Inverse of a symmetric positive definite matrix; of a singular one infinite or NaN.
 Matrix3 inverse_of(const Matrix3& a);
 
 /// Mean force on a body in a step, and mean torque about its centre.
@@ -156,9 +151,8 @@ struct BodyLoad {
   Vector torque{};  ///< [M L^2/T^2]
 };
 
-/// The motion of a body in a step of length h [T], with its velocity u, angular velocity w, mass m
-/// and moment of inertia I: first without contacts and links (free_step()), then with them
-/// (constrain()).
+/// The motion of a body in a step of length h [T], with the velocity u, angular velocity w, mass m
+/// and inertia I: first without contacts and links (free_step()), then with them (constrain()).
 struct BodyStep {
   Vector displacement{};      ///< h u of the centre [L]
   Vector turn{};              ///< h w [rad]; of discs only component 2
@@ -177,9 +171,8 @@ struct BodyStep {
 /// inertia must be > 0. `load` changes its momentum by the load times `kick` [T], which is h, or
 /// another time with the leapfrog scheme (Simulation::kick_length()).
 ///
-/// For spheres the turn is that of the implicit midpoint rule: h w = h I^-1 L, with the moment of
-/// inertia I after half of the turn and the angular momentum L, which is constant where no torque
-/// acts.
+/// For spheres the turn is that of the implicit midpoint rule: h w = h I^-1 L, with the angular
+/// momentum L and the moment of inertia I after half of the turn.
 BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double kick,
                    int dimension);
 
@@ -192,8 +185,7 @@ void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, i
 Vector displacement_at(const Vector& displacement, const Vector& turn, const Vector& arm,
                        int dimension);
 
-/// Moves a body by a step of length h > 0 [T]. Its members stay where they are until
-/// place_members() is called.
+/// Moves a body by a step of length h > 0 [T]. place_members() then moves its members.
 void move_body(RigidBody& body, const BodyStep& step, double h, int dimension);
 
 }  // namespace viscontact::particles

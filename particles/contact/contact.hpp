@@ -2,8 +2,8 @@
 // docs/physics.md (5.1), and whether given displacements close the gap. Lengths, masses and times
 // are in any consistent units; D is the number of dimensions, 1 (spheres on an axis), 2 (discs) or
 // 3 (spheres). Nothing is checked or thrown. projection/, dual_problem/, constraints/, fluid/,
-// impacts/ and current_contacts.cpp use it. A change must keep that a gap that is only a rounding
-// error counts as 0.
+// impacts/ and current_contacts.cpp use it. A change must keep that rounding errors count as the
+// gap 0.
 #pragma once
 
 #include <algorithm>
@@ -39,8 +39,7 @@ struct Contact {
   double allowed = 0;
   double tolerated = 0;    ///< overlap that the step does not remove [L], >= 0 (resolved())
   std::int32_t image = 0;  ///< number of the periodic image of `second` that meets `first`
-  /// If `first` is negative: number of the obstacle from 0, or -1 for a stop, which bounds the
-  /// angle of a hinge.
+  /// If `first` is negative: number of the obstacle, or -1 for a stop, a bound of a hinge's angle.
   std::int32_t obstacle = 0;
   /// Change of the gap per impulse of this contact [T/M]: without a fluid h (1/m_i + 1/m_j), with
   /// the length h of the step and the masses of both particles.
@@ -126,8 +125,7 @@ double gap_after(const Contact<D>& contact, std::span<const double> displacement
 /// that it is computed from. In a step of length h a gap D causes an impulse m D/h; if the step is
 /// short, that of a rounding error would exceed any load. An overlap of up to `tolerated` [L]
 /// counts as the gap 0. The step then keeps the overlap from growing but does not remove it,
-/// because a packing may have no space for that, and because removing it would move particles
-/// without a force.
+/// because a packing may have no space for that, and because particles would move without a force.
 template <int D>
 Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
                     std::span<const PlanePosition> places, double tolerated) {

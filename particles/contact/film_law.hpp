@@ -3,8 +3,8 @@
 // absorbed while it was pressed; the film holds the surfaces together until a pull has given this
 // impulse back. At gamma = gamma_min the solids touch. Lengths, masses and times are in any
 // consistent units. Nothing is checked or thrown. All of particles/ uses the law through
-// contact_laws.hpp. Where solids do not rebound, a simulation changes gamma by absorb() alone, and
-// a change must keep that.
+// contact_laws.hpp. A change must keep that a simulation changes gamma by absorb() alone, unless
+// solids rebound.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,7 @@
 // Coulomb's friction of the solids of a contact, whose surfaces may have a film between them,
 // docs/physics.md (5.7), (5.9) and (5.17). Lengths, masses and times are in any consistent units.
 // Nothing is checked or thrown. contact_laws.hpp has the law of a case; constraints/, impacts/ and
-// fluid/ solve it. A change must keep that the part of the load that the film carries causes no
-// friction.
+// fluid/ solve it. A change must keep that the film carries no friction.
 #pragma once
 
 #include <algorithm>
@@ -45,8 +44,7 @@ struct FrictionCone {
 
   /// The point of the cone nearest to the impulses p_s = `p_s`, of any sign, and |p_t| = `length`
   /// >= 0 [M L/T], in the norm sqrt(w_n p_s^2 + w_t |p_t|^2). Only the ratio of the weights w_n,
-  /// w_t > 0 matters; they are the mobilities of the contact along its normal and its tangent
-  /// [T/M].
+  /// w_t > 0 matters; they are the contact's mobilities [T/M].
   static FrictionCone nearest(double mu_s, double p_s, double length, double w_n, double w_t) {
     if (length <= mu_s * p_s) return {Part::kInside, p_s, 1};
     const double load = (w_n * p_s + w_t * mu_s * length) / (w_n + w_t * mu_s * mu_s);

@@ -73,8 +73,7 @@ std::vector<Plane> walls(const BoxDomain& box) {
   return planes;
 }
 
-/// Component 0 of a vector is z, and component 1 the distance from the axis, which is 0 for all
-/// particles.
+/// Component 0 of a vector is z, component 1 the distance from the axis, 0 for all particles.
 std::vector<Plane> walls(const CylinderDomain& cylinder) {
   return {wall({{0, -cylinder.radius, 0}, {0, 1, 0}}), wall({{0, 0, 0}, {1, 0, 0}}),
           wall({{cylinder.height, 0, 0}, {-1, 0, 0}})};

@@ -82,8 +82,7 @@ struct DiscDomain {
 /// files, in the order smallest x, largest x, smallest y, largest y, smallest z, largest z. A
 /// periodic side is no wall and has no number.
 struct BoxDomain {
-  /// Corner with the smallest coordinates [L], each < that of `to`; in two dimensions both third
-  /// components are 0.
+  /// Corner with the smallest coordinates [L]; in two dimensions both third components are 0.
   std::array<double, 3> from{}, to{};  ///< the opposite corner [L]
   std::array<bool, 3> periodic{};      ///< whether the domain is periodic along x, y and z
 
@@ -92,8 +91,7 @@ struct BoxDomain {
 };
 
 /// A closed cylinder about the axis z, with its floor at z = 0. All particles are spheres on the
-/// axis. In files, its side, which no particle reaches, has the number -1, its floor -2 and its lid
-/// -3.
+/// axis. Its side, which no particle reaches, has the number -1 in files, its floor -2, its lid -3.
 struct CylinderDomain {
   double radius = 0,  ///< [L], > 0
       height = 0;     ///< [L], > 0

@@ -99,9 +99,8 @@ inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
   return shift_of(cell, Periods{double(x), double(y), double(z)});
 }
 
-/// The inverse of the motion of the cell, applied to `apart` [L]: (1 + moved_for gradient)^-1
-/// apart. The motion changes each shift of an image to (1 + moved_for gradient) times its value at
-/// the start.
+/// The inverse of the motion of the cell, applied to `apart` [L]: the motion has changed each shift
+/// of an image to (1 + moved_for gradient) times its value at the start.
 inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
   const double t = cell.is_sheared() ? cell.moved_for : 0;
   const auto& g = cell.gradient;
@@ -120,8 +119,7 @@ inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
   return periods;
 }
 
-/// `apart` [L] minus the shift nearest to it (periods_towards()): the shortest vector between
-/// images.
+/// `apart` [L] minus the shift nearest to it (periods_towards()), the shortest vector of images.
 inline Vector nearest_image(const PeriodicCell& cell, const Vector& apart) {
   return apart - shift_of(cell, periods_towards(cell, apart));
 }

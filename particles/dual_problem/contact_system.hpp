@@ -18,15 +18,14 @@ namespace viscontact::particles {
 
 /// Each particle that takes part is called a body here, also if it belongs to a rigid body. Bodies
 /// are numbered in the order in which the contacts name them. Bodies that contacts connect,
-/// directly or through other bodies, form an island. Contacts are only added, never removed. h is
-/// the length of the step [T], u* the velocity of a body without contacts [L/T], v that with them,
-/// and m its mass [M].
+/// directly or through other bodies, form an island. Contacts are only added. h is the length of
+/// the step [T], u* the velocity of a body without contacts [L/T], v with them, m its mass [M].
 template <int D>
 class ContactSystem {
  public:
   /// `displacements`: h u* of all particles [L], D numbers for each. `mobilities`: h/m of all
   /// particles [T/M], > 0. `rigid_bodies`: if one particle of a rigid body takes part, all do. All
-  /// must outlive this object.
+  /// must outlive the object.
   ContactSystem(std::span<double> displacements, std::span<const double> mobilities,
                 const RigidBodies& rigid_bodies)
       : displacements_(displacements),
@@ -37,15 +36,13 @@ class ContactSystem {
   /// Adds a contact, makes its particles take part, and joins them to one island.
   void add(const Contact<D>& contact);
 
-  /// Makes two particles take part and joins them to one island. If `first` is -1, only `second`
-  /// takes part.
+  /// Makes two particles take part, in one island; if `first` is -1, only `second`.
   void connect(std::int32_t first, std::int32_t second);
 
   /// Solves the dual problem, with the impulses of `contacts` as the first guess and at most
   /// `max_iterations` > 0 iterations. Sets these impulses, and in the array of the constructor the
   /// displacements h v of the bodies. If `is_rough`, the caller uses the solution only to find
-  /// contacts that it must add. A problem that is not solved is not thrown: SolverResult::residual
-  /// is then larger than 1.
+  /// contacts that it must add. If it is not solved, SolverResult::residual is larger than 1.
   SolverResult solve(bool is_rough, int max_iterations, ThreadPool& pool);
 
   /// The contacts, which name particles by their own numbers, not by those of bodies. A caller may
@@ -57,8 +54,7 @@ class ContactSystem {
   std::int32_t body_of(std::int32_t particle) const { return body_of_[index_of(particle)]; }
   /// Displacement h u* of a body: D numbers [L].
   const double* free_displacement(std::size_t body) const { return &free_[body * D]; }
-  /// The number of the body that represents the island of `body`; add() and connect() may change
-  /// it.
+  /// The body that represents the island of `body`; add() and connect() may change it.
   std::int32_t island(std::int32_t body);
 
  private:

@@ -57,9 +57,9 @@ class DualProblem {
   /// True if z of contact c is above its bound: the contact is then called free.
   bool is_free(std::size_t c) const { return z[c] > bound[c]; }
 
-  /// Residual |min(D + h G v, w (p - gamma^n))| of contact c [L] over the residual that is allowed
-  /// for it, for the scaled impulse `z_c` and the scaled gradient `gradient`. The contact has
-  /// converged if this is at most 1.
+  /// Residual |min(D + h G v, w (p - gamma^n))| of contact c over the residual that is allowed for
+  /// it [1], for the scaled impulse `z_c` and gradient. The contact has converged if it is at most
+  /// 1.
   double residual(std::size_t c, double z_c, double gradient) const {
     return per_allowed[c] * contact_residual(gradient, z_c - bound[c]);
   }

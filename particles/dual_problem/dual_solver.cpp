@@ -1,8 +1,8 @@
 // Solves the dual problem of a time step (mass_dual_problem.hpp): chooses between conjugate
 // gradients, a sparse factor of the matrix W and Newton's method. A problem that is not solved is
 // reported by its residual, not thrown. contact_system.cpp uses it. The constants change how long a
-// solution takes, and the results within the tolerances. A change must keep the results independent
-// of the number of threads.
+// solution takes, and results within the tolerances. A change must keep results independent of the
+// number of threads.
 #include <algorithm>
 #include <cstddef>
 #include <span>
@@ -42,8 +42,7 @@ class Preconditioner {
     return factor_.factorise(problem_, free);
   }
 
-  /// Computes half_swept_ = (I + L)^-1 gradient, the forward half of the sweep. If sweeps(), it
-  /// must precede each apply().
+  /// The forward half of the sweep, half_swept_ = (I + L)^-1 gradient, before the first apply().
   void sweep_forward(std::span<const double> gradient) {
     problem_.pool().for_blocks(problem_.count(), [&](std::size_t begin, std::size_t end) {
       auto y = problem_.block_bodies(begin);
@@ -107,7 +106,7 @@ SolverResult solve_dual_problem(MassDualProblem<D>& problem, int max_iterations,
   // After so many iterations with the same free contacts, a (new) factor is made. If a factor
   // exists but the iterations have not converged, it belongs to other free contacts. A rough
   // solution (MassDualProblem::is_rough) changes the free contacts often, so that a factor would
-  // soon be out of date. For an accurate solution, 10 in place of 30 saves 7 % of the time on
+  // soon be out of date. For an accurate solution, 10 and not 30 saves 7 % of the time on
   // bench/box2d.cpp.
   constexpr int kPatienceWithFactor = 10;
   const int patience_without = problem.is_rough ? 40 : 10;

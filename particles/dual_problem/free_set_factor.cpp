@@ -1,8 +1,7 @@
 // FreeSetFactor (mass_dual_problem.hpp): computes and applies a sparse Cholesky factor of the
 // matrix W of the dual problem with Eigen. W is scaled and has no dimension. If the factor cannot
 // be computed, nothing is thrown: exists() is then false. dual_solver.cpp uses it. A change must
-// keep that the order of elimination depends only on the pattern of W, so that equal problems give
-// equal bits.
+// keep that the order of elimination depends on the pattern of W alone.
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <utility>
@@ -15,9 +14,8 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Lower triangle of W + epsilon I between the `free` contacts. Entries of all other contacts are
-/// stored as 0 beside the diagonal 1 + epsilon, so that the pattern does not depend on which
-/// contacts are free.
+/// Lower triangle of W + epsilon I. Entries of contacts that are not `free` are stored as 0 beside
+/// the diagonal 1 + epsilon, so that the pattern does not depend on which contacts are free.
 template <int D>
 SparseMatrix lower_triangle(const MassDualProblem<D>& problem, const std::vector<char>& free,
                             double epsilon) {

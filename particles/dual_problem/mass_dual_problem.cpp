@@ -1,7 +1,6 @@
-// Fills the arrays of a MassDualProblem, the problem for the impulses of contacts in a time step,
-// and adds displacements. Equations and units are those of mass_dual_problem.hpp. Nothing is
-// checked or thrown. A change must keep the order of all sums, because the bits of the results
-// depend on it.
+// Fills the arrays of a MassDualProblem, the problem for the impulses of contacts in a time step;
+// mass_dual_problem.hpp has the equations, the units and who uses it. Nothing is checked or thrown.
+// A change must keep the order of all sums, because bits of results depend on it.
 #include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 #include <Eigen/Core>
@@ -46,9 +45,8 @@ MassDualProblem<D>::MassDualProblem(std::span<const Contact<D>> contacts,
   number_bodies_of_blocks();
 }
 
-/// Fills shares_: for each body, the displacements that its contacts give it. Before the call,
-/// offsets_[b + 1] is the number of contacts of body b; after it, offsets_[b] is where the shares
-/// of body b begin.
+/// Fills shares_: what contacts add to the motion of each body. Before the call, offsets_[b + 1] is
+/// the number of contacts of body b; after it, offsets_[b] is where its shares begin.
 template <int D>
 void MassDualProblem<D>::list_shares() {
   const auto wall = static_cast<std::int32_t>(bodies() - 1);
@@ -66,8 +64,7 @@ void MassDualProblem<D>::list_shares() {
   }
 }
 
-/// Numbers the bodies of each block of contacts, from 0, in the order in which its contacts name
-/// them.
+/// Numbers the bodies of each block of contacts in the order in which its contacts name them.
 template <int D>
 void MassDualProblem<D>::number_bodies_of_blocks() {
   const bool is_single = rows_.size() <= ThreadPool::kBlock;  // bodies then keep their numbers
@@ -97,8 +94,7 @@ double MassDualProblem<D>::combine(std::span<const double> y, double factor,
   return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
     const auto first = static_cast<Eigen::Index>(begin * D);
     const auto size = static_cast<Eigen::Index>((end - begin) * D);
-    // Eigen adds to several partial sums, which is faster than a single sum, where each addition
-    // waits for the one before it.
+    // Eigen's several partial sums are faster than one, where each addition waits for the last.
     const auto from = Eigen::Map<const Eigen::ArrayXd>(y.data() + first, size);
     const auto per_mobility =
         Eigen::Map<const Eigen::ArrayXd>(inverse_mobilities_.data() + first, size);

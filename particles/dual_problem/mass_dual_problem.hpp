@@ -73,12 +73,10 @@ class MassDualProblem : public DualProblem {
     });
   }
 
-  /// Replaces `into` by y + factor * into, both displacements of the form B z. Returns z^T W z of
-  /// the sum.
+  /// Replaces `into` by y + factor * into, which is B z for some z. Returns z^T W z for this z.
   double combine(std::span<const double> y, double factor, std::span<double> into) const;
 
-  /// Returns entry c of W z for y = B z: what the displacements `y` add to the gradient of contact
-  /// c.
+  /// Returns entry c of W z for y = B z: what `y` adds to the gradient of contact c.
   double to_contact(std::size_t c, const double* y) const {
     const auto& row = rows_[c];
     return product(row, y + index_of(row.first) * D, y + index_of(row.second) * D);
@@ -177,9 +175,8 @@ class MassDualProblem : public DualProblem {
 template <int D>
 class FreeSetFactor {
  public:
-  /// `epsilon` >= 0 is added to the diagonal of W, which is 1. If contacts are redundant, W is
-  /// singular, and W + epsilon I is not. 1e-10 is far above rounding errors, and far below the
-  /// diagonal.
+  /// `epsilon` >= 0 is added to the diagonal of W, which is 1. W is singular if contacts are
+  /// redundant. 1e-10 is far above rounding errors, and far below 1.
   explicit FreeSetFactor(double epsilon = 1e-10);
   ~FreeSetFactor();
 
@@ -192,14 +189,13 @@ class FreeSetFactor {
   bool exists() const;
 
   /// Sets solved = (W + epsilon I)^-1 gradient for the contacts of the factor, 0 for all others.
-  /// exists() must be true.
   void solve(std::span<const double> gradient, std::span<double> solved) const;
 
   /// Applies the factor as a preconditioner, which is symmetric and positive definite on the
   /// contacts that are free now. Free contacts that the factor does not have keep their gradient;
   /// contacts that are not free get 0. `problem` is that of factorise(), or this problem with
-  /// further contacts at its end. exists() must be true. Returns the inner product of `solved` and
-  /// `gradient`.
+  /// further contacts at its end. Returns the inner product of `solved` and `gradient`. As for
+  /// solve(), exists() must be true.
   double precondition(const MassDualProblem<D>& problem, std::span<const double> gradient,
                       std::span<double> solved) const;
 

@@ -44,8 +44,7 @@ class Mprgp {
     refresh();
   }
 
-  /// Projects z on its bounds and computes the gradient from z itself, which removes the rounding
-  /// errors of many updates.
+  /// Projects z on its bounds and computes the gradient without the rounding errors of updates.
   void refresh() {
     problem_.pool().for_blocks(problem_.count(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t c = begin; c < end; ++c)
@@ -92,8 +91,7 @@ class Mprgp {
     before_ = problem_.z;
     ++steps_between_same_;
     // If contacts contradict each other, the objective has no minimum, and the length of the step
-    // is almost infinite. 1e12 is a free choice far above lengths of other steps, which are about
-    // 1.
+    // is almost infinite. 1e12 is a free choice; other lengths are about 1.
     constexpr double kEndless = 1e12;
     const double length = slope_ / curvature_;
     if (!(length < kEndless)) return go_to_bound();
@@ -135,8 +133,7 @@ class Mprgp {
     }
   };
 
-  /// Entries `begin` to `end` - 1 as an array of Eigen, which sums faster than a loop because it
-  /// uses several partial sums.
+  /// Entries `begin` to `end` - 1 as an array of Eigen, which sums faster than a simple loop.
   static Eigen::Map<Eigen::ArrayXd> part(std::vector<double>& numbers, std::size_t begin,
                                          std::size_t end) {
     return {numbers.data() + begin, static_cast<Eigen::Index>(end - begin)};
@@ -230,19 +227,16 @@ class Mprgp {
   }
 
   /// Expansion, after a step of this length that left the bounds: projects the new z on the bounds.
-  /// If the objective has not fallen, goes to the first bound instead. Returns the number of
-  /// products with W.
+  /// If the objective has not fallen, goes to the first bound instead. Returns the products with W.
   int expand(double length) {
-    // The objective before the step is computed from the present one, because it is a quadratic
-    // function along the direction.
+    // The objective is a quadratic function of the length, which gives its value before the step.
     const double before = objective() + length * (slope_ - length * curvature_ / 2);
     refresh();
     return objective() < before ? 1 : 2 + go_to_bound();
   }
 
   /// Goes from the point before the step along the direction to the first bound, if there is one,
-  /// and makes a projected gradient step from there. The objective does not rise. Returns the
-  /// number of products with W.
+  /// and makes a projected gradient step from there. Returns the products with W.
   int go_to_bound() {
     double feasible = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < problem_.count(); ++c)
@@ -267,8 +261,7 @@ class Mprgp {
       // At this step length a rise of the objective is a rounding error, and the step is accepted.
       constexpr double kShortest = 1e-6;
       if (objective() <= before || step_ < kShortest) return products;
-      // A particle with many contacts can make an eigenvalue of W exceed 4, so that 0.5 is too
-      // long.
+      // An eigenvalue of W exceeds 4, as a particle with many contacts can cause.
       step_ /= 2;
       problem_.z = here;
       refresh();

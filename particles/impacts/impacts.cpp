@@ -1,8 +1,8 @@
 // Finds the blows of a time step, collisions of solids that rebound, in the order of their times
 // (impacts.hpp, which has the symbols and who uses them). Lengths, masses and times are in any
 // consistent units; a time `t` is counted from the beginning of the step, 0 to its length h.
-// Nothing is thrown. A change must keep that results depend on the order of the particles by
-// rounding errors only.
+// Nothing is thrown. A change must keep that the order of the particles changes results by rounding
+// errors only.
 #include "viscontact/particles/impacts/impacts.hpp"
 
 #include <algorithm>
@@ -149,8 +149,7 @@ double Impacts<D>::gap_of(const Approach& approach, double t) const {
              : norm(x) - approach.sum;
 }
 
-/// Velocity of the surface of the obstacle at its point nearest to the second particle [L/T]; 0 for
-/// a pair of particles.
+/// Velocity of the obstacle at its point nearest to the second particle [L/T]; 0 without obstacle.
 template <int D>
 Vector Impacts<D>::surface_of(const Approach& approach, double t) const {
   if (approach.obstacle == nullptr) return {};
@@ -230,8 +229,8 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   return t > from && t <= until ? std::optional(t) : std::nullopt;
 }
 
-/// The contact of pair `k` if it is hit at the time `time`: its gap is closed, and it approaches
-/// faster than the limits below.
+/// The contact of pair `k` if it is hit at `time`: the gap is closed, and it approaches fast
+/// enough.
 template <int D>
 std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double time) {
   const auto approach = approach_of(k);
@@ -272,22 +271,19 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   return Hit{k, normal, rate, flies};
 }
 
-/// Finds the next hit of pair `k` at or after the time `from`, and adds it to expected_ if it is
-/// within the step.
+/// Adds the next hit of pair `k` from the time `from` on to expected_, if it is within the step.
 template <int D>
 void Impacts<D>::expect(std::size_t k, double from) {
   const auto& of = pair(k);
   const std::array versions = {version(of.first), version(of.second)};
   if (!hits_of_.empty()) {
-    // A pair that has been hit so often in a step is not hit again; the projection decides it.
-    // Blows under load can otherwise follow each other without end. Both numbers bound the
-    // computing time of a step.
+    // A pair that has been hit so often in a step is not hit again; the projection decides it. Both
+    // numbers bound the computing time, because blows under load can follow each other without end.
     constexpr int kMostHits = 1000, kMostUnderLoad = 30;
     if (hits_of_[k] >= (of.impulse == 0 ? kMostHits : kMostUnderLoad)) return;
   }
   const auto approach = approach_of(k);
-  // Each pass searches from `begin` to the next jump of the obstacle's velocity, or to the end of
-  // the step.
+  // Each pass searches from `begin` to the next jump of the obstacle's velocity or the step's end.
   for (double begin = from, end = 0; begin < step_.h; begin = end) {
     constexpr double kBeyondRounding = 1e-12;
     // Hits that rounding errors move beyond the end of the step count as hits at its end.

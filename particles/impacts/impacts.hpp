@@ -27,8 +27,7 @@
 namespace viscontact::particles {
 
 /// The step that the blows belong to. u* and w* are the velocities and angular velocities at its
-/// end without contacts. The arrays are those of the simulation; run() adds to the motions what the
-/// blows change.
+/// end without contacts. The arrays belong to the simulation; run() adds what the blows change.
 struct ImpactStep {
   const ContactLaws& laws;           ///< of all contacts
   std::span<const Plane> obstacles;  ///< planes, which may move, and circles
@@ -110,8 +109,7 @@ class Impacts {
     }
   };
   // The motion of the second particle of a pair: at the time t of the step, c + a t + b t^2 is the
-  // vector from the centre of the first particle to its centre, or, at an obstacle, the position of
-  // its centre.
+  // vector to its centre from that of the first particle, or, at an obstacle, from the origin.
   struct Approach {
     Vector c{}, a{}, b{};
     double sum = 0;  // sum of both radii; at an obstacle the radius of the second particle [L]

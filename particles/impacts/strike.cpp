@@ -19,8 +19,7 @@
 
 namespace viscontact::particles {
 
-/// Vector from the centre of its rigid body to particle k at the time `t` of the step [L]; 0 if it
-/// belongs to no body.
+/// Vector from the centre of its rigid body to particle k at the time `t` [L]; 0 without a body.
 template <int D>
 Vector Impacts<D>::offset_at(std::int32_t k, double t) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
@@ -216,8 +215,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     solids_touch = solids_touch || phase.solid > 0;
     phases.push_back(phase);
   }
-  // If films absorb the whole blow, nothing rebounds, and the projection of the step decides the
-  // contacts.
+  // If films absorb the whole blow, nothing rebounds; the projection of the step then decides.
   if (!solids_touch) return;
   // The problem of the whole blow has the impulses of compression and restitution together.
   const double e = laws.restitution.coefficient;
@@ -279,9 +277,8 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     const auto& phase = phases[c];
     const auto& block = problem.blocks[c];
     before_.push_back({hits[c].pair, of, state_.memories.of(of.memory)});
-    // remember() subtracts of.impulse from gamma. It is set to the difference of gamma for this
-    // call, and restored afterwards, because the impulse of the last step decides whether the pair
-    // bore a load.
+    // remember() subtracts of.impulse from gamma. For this call it is the change of gamma; then the
+    // impulse of the last step is restored, by which hit_at() knows whether the pair bore a load.
     const double gamma = laws.restitution.gamma_after(block.lowest, problem.impulses[block.row],
                                                       of.gamma - phase.capacity, of.gamma);
     const double impulse = std::exchange(of.impulse, of.gamma - gamma);

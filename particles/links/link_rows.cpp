@@ -76,8 +76,7 @@ LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
 }
 
 /// Sets the row of a spring by Newmark's method. With the extension e before the step and its rate,
-/// the impulse is -kick stiffness (e + beta (change of e in this step - h rate)), where kick, h and
-/// beta are those of LinkTimes.
+/// the impulse is -kick stiffness (e + beta (change of e in this step - h rate)), with the `times`.
 void make_spring(LinkRow& row, double extension, double rate, double stiffness,
                  const LinkTimes& times) {
   const double beta = times.beta();
@@ -139,8 +138,7 @@ Vector moved(const LinkPart& part, const UnitMotion& motion, int dimension) {
   return displacement_at(motion.displacement, motion.turn, part.arm, dimension);
 }
 
-/// Vector from the first to the second end of an arm or spring after the motions of their units
-/// [L].
+/// Vector from the first to the second end of an arm or spring after these motions [L].
 Vector apart_after(const LinkEquations& equations, const Links& links, const Particles& p,
                    std::span<const UnitMotion> motions) {
   const auto k = equations.number;

@@ -3,9 +3,8 @@
 // membranes/necklace.hpp. Lengths, masses and times are in any consistent units. Equations of
 // displacements [L] have impulses [M L/T], equations of turns [rad] moments of impulses [M L^2/T];
 // where a member has two dimensions, the first is that of displacements. Nothing is checked or
-// thrown. constraints/ and fluid/ solve the equations; simulation.cpp, membranes/ and run/ use this
-// file, too. A change must keep the order of forces in State::link_forces, which restart files
-// store.
+// thrown. constraints/ and fluid/ solve the equations; simulation.cpp, membranes/ and run/ use
+// them. A change must keep the order of forces in State::link_forces, which restart files store.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +22,7 @@ namespace viscontact::particles {
 /// the turn of the unit about z [rad], times the third component of `direction`.
 struct LinkPart {
   std::int32_t particle = 0;  ///< number of the particle, or of a member of the body
-  /// A unit vector; for a membrane any vector, of rows of turns [1/L]. With `is_turn` (0, 0, 1) or
-  /// (0, 0, -1).
+  /// A unit vector; of a membrane any [1], of its turns [1/L]. With `is_turn` (0, 0, 1 or -1).
   Vector direction{};
   Vector arm{};          ///< vector from the centre of the unit to the point [L]
   bool is_turn = false;  ///< true: the turn about z; false: the displacement
@@ -36,9 +34,8 @@ struct LinkPart {
 /// sheared periodic cell, h image_rate() is added to the sum.
 struct LinkRow {
   std::vector<LinkPart> parts;  ///< of all units that the link holds; a fixed end has none
-  /// Value of the sum without motion [L, rad]: how far the places before the step are from the
-  /// condition at the end of the step, for example the distance minus the length that an arm then
-  /// has.
+  /// Value of the sum without motion [L, rad]: for example the distance of the ends of an arm
+  /// before the step minus its length at the end of the step.
   double value = 0;
   double compliance = 0;  ///< >= 0 [T/M, T/(M L^2)]; 0: the link is rigid
   // Of springs: value and compliance are computed from these two.
@@ -104,8 +101,7 @@ std::vector<LinkEquations> link_equations(const Links& links, const Particles& p
 /// 0. Its force has the place of the torsion spring of the hinge. Only discs have stops.
 std::vector<LinkEquations> stop_equations(const Links& links, const Particles& particles);
 
-/// Numbers of periods from a particle to the image of it that belongs to its body; 0 without a
-/// body.
+/// Numbers of periods from a particle to its image that belongs to its body; 0 without a body.
 Periods periods_in_unit(const Particles& particles, std::int32_t particle);
 
 /// Rate at which the sum of the parts of a row changes [L/T] because images move relative to their
@@ -124,8 +120,7 @@ struct UnitMotion {
 /// Value of a part for the motion of its unit, to first order in the turn [L, rad].
 double value_of(const LinkPart& part, const UnitMotion& motion);
 
-/// The same equations, with LinkPart::arm, and the directions of arms and springs, after these
-/// motions.
+/// The same equations with LinkPart::arm, and directions of arms and springs, after these motions.
 LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
                                const Particles& particles, std::span<const UnitMotion> motions);
 
@@ -140,8 +135,7 @@ double extension_after(const LinkEquations& spring, const Links& links, const Pa
                        std::span<const UnitMotion> motions);
 
 /// Rate at which the length of an arm grows [L/T], with the direction that it has at the beginning
-/// of a step. `first` and `second` are the velocities [L/T] and angular velocities [1/T] of the
-/// units of its ends.
+/// of a step. `first` and `second` are the velocities [L/T, 1/T] of the units of its ends.
 double rate_of_arm(const Arm& arm, const Particles& particles, const UnitMotion& first,
                    const UnitMotion& second);
 

@@ -13,8 +13,7 @@
 namespace viscontact::particles {
 namespace {
 
-// Largest number of times at which the checks of a case look at a length. It bounds their duration:
-// 10000 times take milliseconds.
+// Largest number of times at which the checks of a case look at a length; bounds their duration.
 constexpr std::size_t kMostTimes = 10000;
 
 /// The linear piece that holds at a time, between two points (time, length).
@@ -24,8 +23,8 @@ struct Piece {
 };
 
 /// The piece that holds at the time `t`, which is moved by periods into the first one. std::nullopt
-/// before the first point and, without a period, after the last one. At a point it is the piece
-/// that begins there.
+/// before the first point and, without a period, after the last one. At a point, the piece begins
+/// there.
 std::optional<Piece> piece_at(const PiecewiseLinearLength& length, double& t) {
   const auto& points = length.points;
   const double first = points.front()[0];

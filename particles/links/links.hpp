@@ -1,9 +1,8 @@
 // The links of a case: hinges, springs, arms and membranes that hold particles and rigid bodies.
 // Lengths, masses and times are in any consistent units. Nothing is checked or thrown here;
 // particles/case checks the values. setting.hpp, case/, constraints/, fluid/, io/ and run/ use
-// them, and link_rows.hpp makes their equations. A change must keep the order of the forces in
-// State::link_forces, which restart files contain, and that rate_at() is the derivative of
-// length_at().
+// them. A change must keep the order of the forces in State::link_forces, which restart files
+// contain, and that rate_at() is the derivative of length_at().
 #pragma once
 
 #include <array>
@@ -42,8 +41,7 @@ using ArmLength = std::variant<PiecewiseLinearLength, SinusoidalLength>;
 /// Length at time `t` >= 0 [T].
 double length_at(const ArmLength& length, double t);
 
-/// Rate at which the length grows at time `t` >= 0 [L/T]; at a point it is that of the piece that
-/// begins there.
+/// Rate at which the length grows at time `t` >= 0 [L/T]; at a point that of the next piece.
 double rate_at(const ArmLength& length, double t);
 
 /// Least length [L] at the decisive_times() from 0 to `end` >= 0 [T].
@@ -59,9 +57,8 @@ std::vector<double> decisive_times(const ArmLength& length, double end);
 struct LinkedPoint {
   /// Number of a particle. If it belongs to a rigid body, the point moves with the body.
   std::int32_t particle = 0;
-  /// Vector to the point [L]: from the centre of the body, in its orientation at the start of the
-  /// simulation; or from the centre of a particle without a body, in the orientation in which its
-  /// angle is 0.
+  /// Vector to the point [L]: from the centre of the body, in its orientation at the start; or from
+  /// the centre of a particle without a body, in the orientation in which its angle is 0.
   Vector offset{};
 };
 

@@ -104,8 +104,7 @@ namespace {
 /// exponentially; for an ellipse of axes 1:20 this number leaves errors near rounding errors.
 constexpr int kPoints = 4096;
 
-/// Lengths along an ellipse of semi-axes a and b [L]: entry i is that from the parameter 0 to 2 pi
-/// i/kPoints.
+/// Entry i: length of an ellipse of semi-axes a and b from the angle 0 to 2 pi i/kPoints [L].
 std::vector<double> lengths_along(double a, double b) {
   std::vector<double> lengths = {0};
   for (int i = 0; i < kPoints; ++i) {
@@ -141,8 +140,8 @@ bool sides_cross(std::span<const double> first, std::size_t i, std::span<const d
 
 std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Vector& centre,
                                               double angle) {
-  // The semi-axes a and b have a b = area/pi = mean^2, and the perimeter grows with a/mean. This
-  // ratio is found by bisection.
+  // The semi-axes a and b have a b = area/pi = mean^2, and the perimeter grows with a/mean, which
+  // is found by bisection.
   const double mean = std::sqrt(membrane.area / std::numbers::pi);
   double low = 1, high = 1e3;  // bounds of a/mean
   for (int i = 0; i < 100; ++i) {

@@ -1,8 +1,7 @@
 // Checks of membranes (closed lines through particles, the beads) when a case file is read;
 // case/particles_sections.hpp declares and explains the functions, and membrane_keys.cpp calls
-// them. Lengths are in the unit of the case file. Every fault throws Error(kBadInput) with the line
-// of the case file. A change must not refuse what has been allowed, because users have written
-// cases with it.
+// them. Lengths are in the unit of the case file. Every fault throws Error(kBadInput) with its
+// line. A change must not refuse what users' cases may contain now.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,8 +24,7 @@ void check_case_without_fluid(const case_file::TomlSection& root, const Particle
                "must be left out, because the case has membranes, through which a blow would pass");
 }
 
-/// Throws if a case with a fluid has something that cannot be combined with membranes. `first` is
-/// its first section [[membrane]].
+/// Throws if a case with a fluid has what membranes exclude. `first` is the first [[membrane]].
 void check_case_in_fluid(const case_file::TomlSection& root, const case_file::TomlSection& first,
                          const ParticlesCase& c) {
   const FilePosition at{c.path.string(), first.line()};
@@ -65,9 +63,8 @@ void check_case_in_fluid(const case_file::TomlSection& root, const case_file::To
                     "have walls below and above");
 }
 
-/// The rate at which the boundary deforms the fluid, as an order of magnitude [1/T]: the largest
-/// entry of the given velocity gradient, or the largest speed of a side over the smallest extent of
-/// the box.
+/// An estimate of the rate at which the boundary deforms the fluid [1/T]: the largest entry of the
+/// velocity gradient, or the largest speed of a side over the smallest extent of the box.
 double rate_of_deformation(const ParticlesCase& c) {
   const auto& boundary = c.setting.fluid->boundary;
   double largest = 0;
@@ -96,9 +93,8 @@ void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& 
                   "times as large",
                   membrane.viscosity_ratio);
   // The lengths are kept, and stiff bending keeps the curve smooth; a curve of few beads can then
-  // hardly run around the area inside, as it should in a shear flow. With 12 beads and a rigidity
-  // of 1000, measured as in the message below, the inclination is 0.43 rad, where 0.58 rad is
-  // right.
+  // hardly run around the area inside, as it should in a shear flow. With 12 beads and 1000 times
+  // `scale` as the rigidity, the inclination is 0.43 rad, where 0.58 rad is right.
   constexpr double kStiff = 100;
   constexpr std::int32_t kBeadsOfStiff = 32;
   const double scale = c.setting.fluid->viscosity * rate_of_deformation(c) *
@@ -182,8 +178,7 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
                       "larger, or its beads smaller",
                       p.id(a), p.id(b));
     }
-  // The bounds are those of the key reduced_area (membrane_keys.cpp), 0.3 and 0.999, with room for
-  // rounding errors.
+  // The bounds are those of the key reduced_area (membrane_keys.cpp) with room for rounding errors.
   section.require(!c.setting.fluid || (reduced_area > 0.2999 && reduced_area < 0.99901), shape,
                   "makes a membrane of the reduced area {:.6g}; in a fluid it must be from 0.3 to "
                   "0.999",

@@ -176,8 +176,8 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
   constexpr int kMostRounds = 50;
   constexpr double kExact = 1e-13;
   for (int round = 0; round < kMostRounds; ++round) {
-    // Residuals and rows are divided by `speed`, a measure of the size of the membrane, so that the
-    // entries of all rows are near 1.
+    // Residuals and rows are divided by powers of `speed`, so that the entries of all rows are near
+    // 1.
     Eigen::VectorXd missing(n + 1);
     missing.head(n) = Eigen::VectorXd::Constant(n, 1) - curve.speeds(positions) / speed;
     missing(n) = (area - curve.area(positions)) / (speed * speed);
@@ -201,8 +201,7 @@ namespace {
 AreaMoments moments_of(const MembraneCurve& curve, const Eigen::VectorXd& positions) {
   const int n = curve.beads();
   const Eigen::MatrixXd tangents = curve.tangents(positions);
-  // Integrals over the area, about the mean of the beads, are computed as integrals along the curve
-  // (Green's theorem).
+  // By Green's theorem, integrals over the area (about the mean of the beads) are line integrals.
   const double mean_x = positions.head(n).mean(), mean_y = positions.tail(n).mean();
   double mx = 0, my = 0;
   AreaMoments moments{mean_x, mean_y};

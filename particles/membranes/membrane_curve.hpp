@@ -89,15 +89,14 @@ struct AreaMoments {
   void move_to_centre(double area, double mx, double my);
 };
 
-/// What measure() needs to know of a closed line through beads, a MembraneCurve or the polygon of
-/// necklace.hpp.
+/// What measure() must know of a closed line: of a MembraneCurve or the polygon of necklace.hpp.
 struct MeasuredLine {
   double area = 0;       ///< area inside [L^2]
   double perimeter = 0;  ///< length of the line [L]
   /// Returns the moments of the area inside if the beads are at the given positions.
   std::function<AreaMoments(const Eigen::VectorXd&)> moments;
-  /// Returns the integral along the line of the tangential component of the velocity, for given
-  /// velocities of the beads [L^2/T].
+  /// Returns the line integral of the tangential velocity for given velocities of the beads
+  /// [L^2/T].
   std::function<double(const Eigen::VectorXd&)> circulation;
 };
 

@@ -29,8 +29,7 @@ struct MembraneTable {
   double bead_radius = 0;  // [L]; 0: the default
 };
 
-/// Reads the keys of a membrane whose beads are made here; a section with `particles` has none of
-/// them.
+/// Reads the keys of a membrane whose beads are made; a section with `particles` has none of them.
 void shape_keys(case_file::Keys& keys, MembraneTable& table, bool in_fluid) {
   auto& membrane = table.membrane;
   const bool is_made = !keys.has("particles");
@@ -117,8 +116,7 @@ void take_shape(const case_file::TomlSection& section, ParticlesCase& c, Membran
     shape_polygon(membrane, c.particles);
     return;
   }
-  // The positions in a file may be rounded. Beads are moved to equal distances, by at most this
-  // fraction of their distance.
+  // Positions in a file may be rounded: beads may be moved by this fraction of their distance.
   constexpr double kRounded = 0.02;
   const double moved = shape_curve(membrane, c.particles);
   const double allowed = kRounded * membrane.perimeter / membrane.count();
@@ -146,8 +144,7 @@ void make_beads(const case_file::TomlSection& section, ParticlesCase& c, Membran
   require_ids(section, "beads", p, static_cast<std::size_t>(table.beads));
   p.positions.insert(p.positions.end(), places->begin(), places->end());
   // `in_case` has the line of each particle of a section [[particle]]. The discs of an
-  // [arrangement] have no line, and come before the beads. Therefore entries of 0 are added for
-  // them.
+  // [arrangement], which come before the beads, have no line and get entries of 0.
   lines.in_case.resize(p.count() - lines.in_file.size());
   for (std::int32_t k = 0; k < table.beads; ++k) {
     p.velocities.insert(p.velocities.end(), {table.velocity[0], table.velocity[1]});

@@ -90,9 +90,8 @@ Eigen::VectorXd Membranes::bending_forces(const Eigen::VectorXd& positions) cons
   return forces;
 }
 
-/// Second derivatives, with respect to the positions, of the sum of the bending energy, the
-/// tensions times the speeds (MembraneCurve::speeds), and the pressures times the areas: 2 beads()
-/// rows and columns [M/T^2].
+/// Second derivatives by the 2 beads() positions of bending energy plus tensions times speeds
+/// (MembraneCurve::speeds) plus pressures times areas [M/T^2].
 Eigen::MatrixXd Membranes::stiffness(const Eigen::VectorXd& positions,
                                      const MembraneMotion& motion) const {
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(2 * beads(), 2 * beads());
@@ -126,8 +125,7 @@ MembraneMotion Membranes::motion_at(const Eigen::VectorXd& positions,
   return motion;
 }
 
-/// Derivatives of the areas with respect to all positions: 2 beads() rows, a column for each
-/// membrane [L].
+/// Derivatives of the areas by the positions: 2 beads() rows, a column for each membrane [L].
 Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const {
   const auto count = static_cast<Eigen::Index>(curves_.size());
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(2 * beads(), count);
@@ -156,8 +154,7 @@ Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
   matrix.block(0, 2 * n, 2 * n, n) = unit * moves * rows.transpose();
   matrix.topRightCorner(2 * n, count) = unit * moves * scaled_areas;
   matrix.block(2 * n, 0, n, 2 * n) = rows;
-  // The rows of the condition that the forces without the pressure do no work when the area of a
-  // membrane changes.
+  // These rows demand that flow_forces do no work when the area of a membrane changes.
   matrix.bottomLeftCorner(count, 2 * n) = scaled_areas.transpose() * of_forces / unit;
   for (std::size_t m = 0; m < curves_.size(); ++m) {
     const auto row = static_cast<Eigen::Index>(m);
@@ -175,8 +172,7 @@ Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
 bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                            Eigen::VectorXd& positions, MembraneMotion& motion) const {
   const auto n = beads(), count = static_cast<Eigen::Index>(curves_.size());
-  // Unit of the tensions in the matrix: a force that moves a bead by about the length 1 in the
-  // step.
+  // The unit of tensions is a force that moves a bead by about the length 1 in the step.
   const double unit = static_cast<double>(2 * n) / (time * answer.mobility.trace());
   Eigen::VectorXd wanted(n);
   double size = 0;

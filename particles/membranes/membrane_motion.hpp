@@ -18,8 +18,7 @@
 
 namespace viscontact::particles {
 
-/// How the fluid moves the beads at given places: their velocities are `flow` + `mobility` *
-/// forces.
+/// How the fluid moves the beads at given places: with the velocities `flow` + `mobility` * forces.
 struct FluidAnswer {
   Eigen::VectorXd flow;      ///< velocities without forces on the beads [L/T]
   Eigen::MatrixXd mobility;  ///< velocities per force [T/M], symmetric
@@ -57,11 +56,9 @@ class Membranes {
   Eigen::VectorXd places(std::span<const double> positions, const PeriodicCell& cell,
                          const Eigen::VectorXd* near = nullptr) const;
 
-  /// An array of all beads from the first two of the `components` >= 2 numbers that `numbers` has
-  /// for each particle.
+  /// An array of all beads from the first two of the `components` numbers of each particle.
   Eigen::VectorXd from_particles(std::span<const double> numbers, std::size_t components) const;
-  /// The inverse of from_particles(): writes the array `all` into `numbers`, whose other entries
-  /// stay.
+  /// The inverse of from_particles(): writes the array `all` into `numbers`.
   void to_particles(const Eigen::VectorXd& all, std::size_t components,
                     std::vector<double>& numbers) const;
 

@@ -205,9 +205,8 @@ void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, do
   solver_->place(bodies);
 }
 
-/// Asks the fluid solver how beads and discs at `places` move: without forces, but with moving
-/// walls and driven discs, whose mean velocities are those between the times `from` and `to` [T];
-/// and per force.
+/// Asks the fluid solver for the velocities of beads and discs at `places`: without forces, with
+/// walls and driven discs that move as between the times `from` and `to` [T]; and per force.
 FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& places, double from,
                                                     double to) {
   place(places, from, to);
@@ -229,8 +228,7 @@ FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& place
   return answer;
 }
 
-/// The part of `answer` for the beads: their velocities without forces on them, but with `loads` on
-/// the discs, and their mobility.
+/// The `answer` for the beads alone, whose flow is that with `loads` on the discs.
 FluidAnswer MembraneSimulation::Implementation::answer_to_beads(
     const FluidAnswer& answer, const Eigen::VectorXd& loads) const {
   const auto b = bead_components(), d = answer.flow.size() - b;
@@ -238,8 +236,7 @@ FluidAnswer MembraneSimulation::Implementation::answer_to_beads(
           answer.mobility.topLeftCorner(b, b)};
 }
 
-/// The velocities of beads and discs under the forces of `motion` at the beads and `loads` on the
-/// discs.
+/// The velocities of all, with the forces of `motion` at the beads and `loads` on the discs.
 Eigen::VectorXd MembraneSimulation::Implementation::velocities_of_all(
     const FluidAnswer& answer, const MembraneMotion& motion, const Eigen::VectorXd& loads) const {
   const auto b = bead_components(), d = answer.flow.size() - b;

@@ -1,8 +1,7 @@
 // Simulates membranes (closed curves through particles, their beads) and rigid discs in a Stokes
 // flow, docs/physics.md (8.1) to (8.8). Lengths, masses and times are in the units of the case
 // file; M stands for a mass per length of the third dimension. run/particle_simulation.hpp uses it.
-// A change must keep that a run which continues from a restart file gives the same bits as an
-// uninterrupted one.
+// A change must keep that a run from a restart file gives the same bits as an uninterrupted one.
 #pragma once
 
 #include <memory>
@@ -48,12 +47,10 @@ class MembraneSimulation {
   /// The flow with the membranes and discs at their places before the last step; there must have
   /// been a step. Throws the errors of FluidSolver.
   FlowField flow();
-  /// The flow with the membranes and discs at their present places. Throws the errors of
-  /// FluidSolver.
+  /// The flow with the membranes and discs at their present places. Throws as flow() does.
   FlowField flow_at_present();
 
-  /// Forces [M L/T^2] and torques [M L^2/T^2] of the fluid on all particles in the last step: x, y
-  /// and torque for each.
+  /// Forces of the fluid on all particles in the last step: x, y [M L/T^2], torque [M L^2/T^2].
   std::vector<double> fluid_forces() const;
 
   std::size_t unknowns() const;  ///< number of unknowns on the last mesh

@@ -28,8 +28,7 @@ AreaMoments moments_of_polygon(const Eigen::VectorXd& necklace) {
   const Eigen::Vector2d mean(necklace.head(n).mean(), necklace.tail(n).mean());
   double area = 0, mx = 0, my = 0;
   AreaMoments moments{mean.x(), mean.y()};
-  // The moments are sums over the triangles that each pair of neighbours forms with the mean of the
-  // beads.
+  // Sums over the triangles that each pair of neighbours forms with the mean of the beads.
   for (Eigen::Index k = 0; k < n; ++k) {
     const Eigen::Vector2d a = bead(necklace, k) - mean, b = bead(necklace, k + 1) - mean;
     const double twice = cross(a, b);
@@ -68,8 +67,7 @@ Eigen::VectorXd distances_of(const Eigen::VectorXd& necklace) {
 }
 
 double area_of(const Eigen::VectorXd& necklace) {
-  // Positions are taken relative to the first bead, so that rounding errors do not grow with the
-  // distance from the origin.
+  // Relative to the first bead, rounding errors do not grow with the distance from the origin.
   const Eigen::Vector2d first = bead(necklace, 0);
   double twice = 0;
   for (Eigen::Index k = 1; k + 1 < necklace.size() / 2; ++k)

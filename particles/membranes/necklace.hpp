@@ -30,8 +30,7 @@ double area_of(const Eigen::VectorXd& necklace);
 /// The derivatives of area_of() with respect to the positions, 2 N numbers [L].
 Eigen::VectorXd area_gradient(const Eigen::VectorXd& necklace);
 
-/// The angles by which the polygon turns at the beads, N numbers in (-pi, pi], > 0 to the left
-/// [rad].
+/// The angles by which the polygon turns (> 0: left) at the N beads, each in (-pi, pi] [rad].
 Eigen::VectorXd turns_of(const Eigen::VectorXd& necklace);
 
 /// The bending energy over the bending rigidity [1/L]: the sum over beads of turn^2/(2 length),

@@ -83,8 +83,7 @@ LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
   return row;
 }
 
-/// The row of a turn: by how much more bead k turns in the step than the line between its two
-/// neighbours [rad].
+/// The row of a turn: by how much more bead k turns than the line between its neighbours [rad].
 LinkRow turn_row(const Membrane& membrane, const Particles& p, std::int32_t k) {
   const Vector chord = across(membrane, p, k);
   const Vector of_ends = (1 / dot(chord, chord)) * left_of(chord);

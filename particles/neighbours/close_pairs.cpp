@@ -23,8 +23,7 @@ struct Entry {
 };
 
 /// Sorts entries by cell and keeps the order of entries with equal cells. `most` is the largest
-/// cell number. It is a radix sort with 11 bits in a pass: the table of a pass then fits into the
-/// fast cache.
+/// cell number. A radix sort with 11 bits in a pass (a table of 16 kB).
 void sort_by_cell(std::vector<Entry>& entries, std::uint64_t most) {
   constexpr int kBits = 11;
   std::vector<Entry> sorted(entries.size());
@@ -40,8 +39,7 @@ void sort_by_cell(std::vector<Entry>& entries, std::uint64_t most) {
   }
 }
 
-/// Cells of one size that cover all particles, numbered row by row, and some of the particles in
-/// them.
+/// Cells of one size that cover all particles, numbered row by row, and some of the particles.
 template <int D>
 class Grid {
  public:
@@ -197,8 +195,7 @@ class Search {
         });
   }
 
-  /// The pairs in order: sorted by `first` with a counting sort, then those with equal `first` by
-  /// `second`.
+  /// The pairs in order: sorted by `first` with a counting sort, then by `second`.
   std::vector<ClosePair> sorted() const {
     std::vector<std::size_t> begin(extents_.size() + 1, 0);
     for (const auto& pair : found_.values) ++begin[static_cast<std::size_t>(pair.first) + 1];
@@ -219,9 +216,8 @@ class Search {
   ConcatenatedBlocks<ClosePair> found_;
 };
 
-/// Close pairs in one dimension. Particle k has the interval position -+ extent. Visits the
-/// particles in the order of the lower ends, and compares each with those before it whose intervals
-/// reach it.
+/// Close pairs in one dimension. Particle k has the interval position -+ extent. Compares each
+/// particle, in order of the lower ends, with those before it whose intervals reach it.
 std::vector<ClosePair> close_pairs_on_line(std::span<const double> positions,
                                            std::span<const double> extents) {
   std::vector<std::int32_t> order(extents.size());
@@ -263,8 +259,8 @@ std::vector<ClosePair> close_pairs(int dimension, std::span<const double> positi
 
 namespace {
 
-/// Points of which close pairs are sought: first all particles, moved into the cell, then copies of
-/// those near its sides.
+/// Points among which pairs are sought: all particles, moved into the cell, then copies near its
+/// sides.
 struct Copies {
   std::vector<double> positions, extents;  // of the points [L]
   std::vector<std::int32_t> particles;     // of each point: the particle that it is an image of

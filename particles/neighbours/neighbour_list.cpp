@@ -60,8 +60,7 @@ double half_shortest_period(const PeriodicCell& cell) {
 /// Error(kNotConverged) if the particle moves by `moved`, further than this largest skin.
 double skin_within_period(const Particles& p, std::size_t k, double half_period, double skin,
                           double moved) {
-  // The largest skin is a little smaller than that, because rounding errors of positions add to the
-  // sum.
+  // Slightly smaller than that, because rounding errors of positions add to the sum.
   constexpr double kLess = 1 - 1e-9;
   const double longest = kLess * (half_period - p.radii[k]) / 2;
   if (!(moved <= longest))

@@ -13,8 +13,8 @@
 namespace viscontact::particles {
 
 /// Moves all positions by whole periods into the cell of a periodic domain (Particles::cell). The
-/// numbers of images in State::pairs change accordingly, so that the list stays valid; nothing else
-/// changes. Does nothing if the domain has no period, or if images move relative to their particles
+/// numbers of images in State::pairs change accordingly, so that the list stays valid. Does nothing
+/// if the domain has no period, or if images move relative to their particles
 /// (PeriodicCell::is_sheared).
 void wrap_into_cell(State& state);
 

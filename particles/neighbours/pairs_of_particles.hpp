@@ -18,9 +18,9 @@ namespace viscontact::particles {
 /// solved; otherwise each solution would show only the next gap that closes.
 class PairsOfParticles {
  public:
-  /// `state` must outlive the object, and its lists of pairs must not change. The pairs of a
-  /// particle and an obstacle (State::walls) are in the graph only if `with_walls`; connected()
-  /// must not be called then.
+  /// `state` must outlive the object, and its lists of pairs must not change. Pairs with an
+  /// obstacle (State::walls) are in the graph only `with_walls`; connected() must not be called
+  /// then.
   explicit PairsOfParticles(const State& state, bool with_walls = false)
       : state_(&state), pair_count_(state.pairs.size()), offsets_(state.particles.count() + 1, 0) {
     const std::size_t count = pair_count_ + (with_walls ? state.walls.size() : 0);
@@ -36,8 +36,7 @@ class PairsOfParticles {
     for_particles([&](std::size_t k, std::size_t f) { pairs_of_[next[k]++] = f; });
   }
 
-  /// The numbers of the pairs of a particle: the places of pairs in State::pairs, from 0, and after
-  /// them those of State::walls.
+  /// The numbers of the pairs of a particle: places in State::pairs, continued by State::walls.
   std::span<const std::size_t> of(std::int32_t particle) const {
     const auto k = index_of(particle);
     return std::span(pairs_of_).subspan(offsets_[k], offsets_[k + 1] - offsets_[k]);

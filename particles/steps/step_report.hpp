@@ -29,13 +29,11 @@ struct RelativeErrors {
 /// What is recorded of one step in a fluid.
 struct FluidStepReport {
   double dissipation = 0;  ///< of the flow [M L^2/T^3], in two dimensions per length [M L/T^3]
-  /// Dissipation over that of the flow without particles [1], docs/physics.md (6.6); 0 if the
-  /// latter is 0 or not known.
+  /// Dissipation over that without particles [1], docs/physics.md (6.6); 0 if that is 0 or unknown.
   double apparent_viscosity = 0;
   // In a fluid with inertia:
   double kinetic_energy = 0;  ///< of the fluid [M L^2/T^2], in two dimensions per length [M L/T^2]
-  /// Largest value for a particle of the velocity V and the radius r: |V| 2 r fluid
-  /// density/viscosity [1].
+  /// Largest 2 r |V| density/viscosity of a particle of velocity V and radius r in the fluid [1].
   double reynolds_number = 0;
   /// Largest path of the fluid relative to the mesh in the step, over the length of an edge [1].
   double courant_number = 0;
@@ -72,8 +70,7 @@ struct StepReport {
   /// Largest overlap -d after the step, divided by the mean radius [1]. The true overlap is at most
   /// as large, because no gap is smaller than its linearised gap.
   double largest_overlap = 0;
-  /// Number of parts that the step was divided into because particles moved fast around each other,
-  /// 1 to 256 (simulation.hpp).
+  /// Number of parts into which the step was divided, 1 to 256, where particles move fast.
   int parts = 0;
   /// Number of contacts whose particles move around each other too far for linearised gaps, even in
   /// the smallest parts of the step (kLargestTurn in contact.hpp).
@@ -99,13 +96,11 @@ struct StepResiduals {
   /// Takes the residual of an impulse into account. `at_work` >= 0 are the impulses at work, both
   /// [M L/T]; if they are 0, the residual is ignored.
   void take_impulse(double residual, double at_work);
-  /// Takes the linearised gap of a pair after the step into account [L]. A gap that is not a number
-  /// remains the smallest one.
+  /// Takes the linearised gap of a pair after the step into account [L]; NaN stays the smallest.
   void take_gap(double gap, const Pair& pair);
 };
 
-/// Enters the residuals of a step, or of one part of a divided step, in the report. `mean_radius` >
-/// 0 is that of all particles [L].
+/// Enters the residuals of a step, or of a part of it, in the report. `mean_radius` > 0 [L].
 void report_residuals(const StepResiduals& residuals, double mean_radius, StepReport& report);
 
 /// Throws Error(kNotConverged) if a step that ends at `time` [T] has not converged and leaves an

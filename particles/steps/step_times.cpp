@@ -46,8 +46,7 @@ double leapfrog_step_end(double time, double grid_end, double h, std::span<const
   if (until_jump <= h / 2) return time + 2 * until_jump;
   if (until_jump <= kNear * h) return time + until_jump * 2 / 3;
   const double rest = grid_end - time;
-  // The steps return to the grid: in one step of the length `rest` or, if this is less than h/2, in
-  // two.
+  // The steps return to the grid in one step of the length `rest` or, below h/2, in two.
   if (rest < h / 2 - kTiny * h) return time + (rest + h) / 2;
   return grid_end;
 }
@@ -73,8 +72,8 @@ std::optional<StepInterval> StepGrid::next(const State& state, double end) const
     step.new_grid = (step.end < on_grid - tiny ? on_grid : on_grid + time_step_) - time_step_;
   }
   step.reaches_end = step.end >= end - tiny;
-  // A step from one point of the grid to the next has exactly the length h, so that no rounding
-  // error of the times gets into it.
+  // A step from one point of the grid to the next has exactly the length h, without rounding
+  // errors.
   if (is_cut || std::abs(step.end - state.time - time_step_) > tiny) step.h = step.end - state.time;
   return step;
 }

@@ -55,8 +55,7 @@ class StepGrid {
   /// left until `end`, because rounding errors of the times would otherwise cause tiny steps.
   std::optional<StepInterval> next(const State& state, double end) const;
 
-  /// Adds `step` to the number of steps in `state`, and replaces the grid if the step did not end
-  /// on it.
+  /// Counts `step` in `state`, and replaces the grid if the step did not end on it.
   static void count(State& state, const StepInterval& step);
 
  private:
