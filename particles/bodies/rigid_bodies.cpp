@@ -1,8 +1,8 @@
 // Makes rigid bodies of several discs or spheres, and moves them in a time step; rigid_bodies.hpp
-// has the equations and the units. Nothing is checked or thrown: if the iteration for the turn of a
-// body does not converge, its last value is taken. A change must keep that a body that crosses no
-// side of a periodic cell has the same bits as without periods, and that the angular momentum stays
-// constant to rounding without a torque.
+// has the equations, the units and who uses them. Nothing is checked or thrown: if the iteration
+// for the turn of a body does not converge, its last value is taken. A change must keep that a body
+// that crosses no side of a periodic cell has the same bits as without periods, and that the
+// angular momentum stays constant to rounding without a torque.
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ void set_turn(std::vector<double>& values, std::size_t k, int dimension, const V
 
 /// Which images of its members make a body, along one axis of a periodic cell.
 struct Cut {
-  std::vector<double> periods;  ///< from the image in the body to each member
+  std::vector<double> periods;  ///< of each member: periods to it from its image in the body
   double widest = 0;  ///< largest distance of two neighbours, which is outside the body [L]
   int count = 0;  ///< number of distances equal to `widest`; if it is 1, the images are determined
 };

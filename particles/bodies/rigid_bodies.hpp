@@ -79,8 +79,7 @@ struct RigidBodyRequest {
   std::vector<std::int32_t> members;  ///< numbers of particles, at least one, each only once
   double mass = -1;                   ///< [M]; < 0: the sum of the members' masses
   /// Moment of inertia about the centre of mass [M L^2]; < 0: computed from the members at their
-  /// places, whose masses and own moments are scaled if `mass` is given. For spheres it must be <
-  /// 0.
+  /// places, whose masses and moments are scaled if `mass` is given. For spheres it must be < 0.
   double moment_of_inertia = -1;
 };
 
@@ -129,8 +128,7 @@ Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension)
 /// The present moment of inertia about the centre [M L^2]; of discs only the last entry counts.
 Matrix3 present_inertia(const RigidBody& body, int dimension);
 
-/// Sets the angular velocity from the angular momentum; if the last entry of inertia is 0, it
-/// stays.
+/// Sets the angular velocity from the angular momentum, unless the last entry of inertia is 0.
 void update_angular_velocity(RigidBody& body, int dimension);
 
 /// The masses of the members [M], scaled so that their sum is the mass of the body. If no member
@@ -138,8 +136,7 @@ void update_angular_velocity(RigidBody& body, int dimension);
 std::vector<double> member_masses(const RigidBody& body, const Particles& particles);
 
 /// Sets positions, velocities, orientations and angular velocities of all members to those of their
-/// bodies. If the domain is periodic and not sheared, centres of bodies are first moved into the
-/// cell.
+/// bodies. In a periodic cell that is not sheared, centres of bodies are first moved into it.
 void place_members(Particles& particles);
 
 /// Inverse of a symmetric positive definite matrix; of a singular one infinite or NaN.

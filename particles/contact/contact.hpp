@@ -2,8 +2,8 @@
 // docs/physics.md (5.1), and whether given displacements close the gap. Lengths, masses and times
 // are in any consistent units; D is the number of dimensions, 1 (spheres on an axis), 2 (discs) or
 // 3 (spheres). Nothing is checked or thrown. projection/, dual_problem/, constraints/, fluid/,
-// impacts/ and current_contacts.cpp use it. A change must keep that rounding errors count as the
-// gap 0.
+// impacts/ and current_contacts.cpp use it. A change must keep that a gap of rounding errors counts
+// as 0.
 #pragma once
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 // ContactLaws, and, if it remembers something, a row in pair_memory.hpp. docs/extending.md shows
 // how; it quotes lines of this file, so that a change of one must be made there too. Lengths,
 // masses and times are in any consistent units; gamma and impulses of discs in a fluid are per
-// length [M/T], all others [M L/T]. Nothing is checked or thrown. setting.hpp, constraints/, fluid/
-// and impacts/ use it.
+// length [M/T], all others [M L/T]. Nothing is checked or thrown. Used in setting.hpp,
+// constraints/, fluid/, impacts/.
 #pragma once
 
 #include <limits>

@@ -1,10 +1,9 @@
-// The law of the viscous film between two surfaces that touch (Maury 2007, Lefebvre 2008):
+// The law of the viscous film between two surfaces in contact (Maury 2007, Lefebvre 2008):
 // docs/physics.md (5.2), (5.5) and (6.8). gamma <= 0 is minus the impulse that the film has
 // absorbed while it was pressed; the film holds the surfaces together until a pull has given this
 // impulse back. At gamma = gamma_min the solids touch. Lengths, masses and times are in any
 // consistent units. Nothing is checked or thrown. All of particles/ uses the law through
-// contact_laws.hpp. A change must keep that a simulation changes gamma by absorb() alone, unless
-// solids rebound.
+// contact_laws.hpp. Unless solids rebound, a simulation must change gamma by absorb() alone.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Numbers the particles that take part in a step, finds the sets that contacts connect (islands),
-// and calls the solver for the impulses. Symbols and units are those of contact_system.hpp. Nothing
-// is thrown. A change must keep the order of bodies, because rounding errors depend on it.
+// and calls the solver for the impulses. contact_system.hpp has the symbols, the units and who uses
+// it. Nothing is thrown. A change must keep the order of bodies, because rounding errors depend on
+// it.
 #include "viscontact/particles/dual_problem/contact_system.hpp"
 
 #include <algorithm>

@@ -58,8 +58,8 @@ class DualProblem {
   bool is_free(std::size_t c) const { return z[c] > bound[c]; }
 
   /// Residual |min(D + h G v, w (p - gamma^n))| of contact c over the residual that is allowed for
-  /// it [1], for the scaled impulse `z_c` and gradient. The contact has converged if it is at most
-  /// 1.
+  /// it [1], with the scaled impulse `z_c` and gradient. At most 1 means that the contact has
+  /// converged.
   double residual(std::size_t c, double z_c, double gradient) const {
     return per_allowed[c] * contact_residual(gradient, z_c - bound[c]);
   }

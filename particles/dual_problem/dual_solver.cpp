@@ -106,7 +106,7 @@ SolverResult solve_dual_problem(MassDualProblem<D>& problem, int max_iterations,
   // After so many iterations with the same free contacts, a (new) factor is made. If a factor
   // exists but the iterations have not converged, it belongs to other free contacts. A rough
   // solution (MassDualProblem::is_rough) changes the free contacts often, so that a factor would
-  // soon be out of date. For an accurate solution, 10 and not 30 saves 7 % of the time on
+  // soon be too old. For an accurate one, 10 in place of 30 saves 7 % of the time on
   // bench/box2d.cpp.
   constexpr int kPatienceWithFactor = 10;
   const int patience_without = problem.is_rough ? 40 : 10;

@@ -15,7 +15,7 @@ namespace {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// Lower triangle of W + epsilon I. Entries of contacts that are not `free` are stored as 0 beside
-/// the diagonal 1 + epsilon, so that the pattern does not depend on which contacts are free.
+/// the diagonal 1 + epsilon, so that the pattern does not depend on `free`.
 template <int D>
 SparseMatrix lower_triangle(const MassDualProblem<D>& problem, const std::vector<char>& free,
                             double epsilon) {

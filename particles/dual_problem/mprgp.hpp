@@ -27,8 +27,10 @@ namespace viscontact::particles {
 /// - otherwise a preconditioned conjugate gradient step;
 /// - expansion: if that step leaves the bounds, it is projected on them.
 ///
-/// `Preconditioner` has apply(gradient, swept, y). If its kMaySweep is true, it also has sweeps(),
-/// factorise() and both sweep_forward(), as in dual_solver.cpp.
+/// `Preconditioner` has apply(gradient, swept, y), which sets swept to the preconditioned gradient
+/// and y to B swept (dual_problem.hpp) and returns their slope, the inner product of swept and
+/// gradient. If its kMaySweep is true, it also has sweeps(), factorise() and both sweep_forward()
+/// of dual_solver.cpp.
 template <SolvableDualProblem Problem, class Preconditioner>
 class Mprgp {
  public:

@@ -1,8 +1,8 @@
 // Finds the blows of a time step, collisions of solids that rebound, in the order of their times
 // (impacts.hpp, which has the symbols and who uses them). Lengths, masses and times are in any
-// consistent units; a time `t` is counted from the beginning of the step, 0 to its length h.
-// Nothing is thrown. A change must keep that the order of the particles changes results by rounding
-// errors only.
+// consistent units; a time `t` is counted from the beginning of the step, 0 to its length h. The
+// projection is the solution of the step without rebound, which follows. Nothing is thrown. The
+// order of the particles must change results by rounding errors only.
 #include "viscontact/particles/impacts/impacts.hpp"
 
 #include <algorithm>
@@ -229,8 +229,7 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   return t > from && t <= until ? std::optional(t) : std::nullopt;
 }
 
-/// The contact of pair `k` if it is hit at `time`: the gap is closed, and it approaches fast
-/// enough.
+/// The contact of pair `k` if it is hit at `time`: its gap is closed and closes fast enough.
 template <int D>
 std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double time) {
   const auto approach = approach_of(k);

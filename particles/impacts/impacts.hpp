@@ -1,9 +1,10 @@
 // The blows of a time step, that is, the collisions of solids that rebound, at their times within
 // the step: docs/physics.md (5.15) and (5.16). One blow has all contacts of connected particles
-// that are hit at one time. Afterwards the projection of the step (projection/) closes the
-// remaining contacts without rebound. Lengths, masses and times are in any consistent units.
-// Nothing is thrown. simulation.cpp and projection/ use this file. A change must keep that results
-// depend on the order of the particles by rounding errors only.
+// that are hit at one time. Afterwards the projection (projection/), the problem of the step for
+// the impulses of contacts, decides all remaining contacts without rebound. Lengths, masses and
+// times are in any consistent units. Nothing is thrown. simulation.cpp and projection/ use this
+// file. A change must keep that results depend on the order of the particles by rounding errors
+// only.
 #pragma once
 
 #include <array>

@@ -215,7 +215,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     solids_touch = solids_touch || phase.solid > 0;
     phases.push_back(phase);
   }
-  // If films absorb the whole blow, nothing rebounds; the projection of the step then decides.
+  // If films absorb the whole blow, nothing rebounds, and the projection (impacts.hpp) decides.
   if (!solids_touch) return;
   // The problem of the whole blow has the impulses of compression and restitution together.
   const double e = laws.restitution.coefficient;

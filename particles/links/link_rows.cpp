@@ -76,7 +76,7 @@ LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
 }
 
 /// Sets the row of a spring by Newmark's method. With the extension e before the step and its rate,
-/// the impulse is -kick stiffness (e + beta (change of e in this step - h rate)), with the `times`.
+/// the impulse is -kick stiffness (e + beta (change of e in this step - h rate)).
 void make_spring(LinkRow& row, double extension, double rate, double stiffness,
                  const LinkTimes& times) {
   const double beta = times.beta();

@@ -22,7 +22,8 @@ namespace viscontact::particles {
 /// the turn of the unit about z [rad], times the third component of `direction`.
 struct LinkPart {
   std::int32_t particle = 0;  ///< number of the particle, or of a member of the body
-  /// A unit vector; of a membrane any [1], of its turns [1/L]. With `is_turn` (0, 0, 1 or -1).
+  /// A unit vector, or for a membrane any vector [1], in its rows of turns [1/L]. With `is_turn` it
+  /// is (0, 0, 1) or (0, 0, -1).
   Vector direction{};
   Vector arm{};          ///< vector from the centre of the unit to the point [L]
   bool is_turn = false;  ///< true: the turn about z; false: the displacement
@@ -120,7 +121,7 @@ struct UnitMotion {
 /// Value of a part for the motion of its unit, to first order in the turn [L, rad].
 double value_of(const LinkPart& part, const UnitMotion& motion);
 
-/// The same equations with LinkPart::arm, and directions of arms and springs, after these motions.
+/// A copy in which LinkPart::arm, and directions of arms and springs, are those after the motions.
 LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
                                const Particles& particles, std::span<const UnitMotion> motions);
 

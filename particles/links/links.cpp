@@ -23,8 +23,8 @@ struct Piece {
 };
 
 /// The piece that holds at the time `t`, which is moved by periods into the first one. std::nullopt
-/// before the first point and, without a period, after the last one. At a point, the piece begins
-/// there.
+/// before the first point and, without a period, after the last one. At a point it is the next
+/// piece.
 std::optional<Piece> piece_at(const PiecewiseLinearLength& length, double& t) {
   const auto& points = length.points;
   const double first = points.front()[0];

@@ -120,8 +120,7 @@ void shape_polygon(Membrane& membrane, const Particles& particles);
 
 /// Sets perimeter and area of a membrane in a fluid to those of the curve through its particles,
 /// reverses the order of its beads if it is clockwise, and moves them to equal distances along the
-/// curve. Returns the largest component of a displacement [L], or infinity if there are no such
-/// places.
+/// curve. Returns the largest component of a displacement [L]; infinity if no such places exist.
 double shape_curve(Membrane& membrane, Particles& particles);
 
 /// The largest area of a polygon whose sides have these lengths [L^2]: that of the polygon whose

@@ -176,8 +176,7 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
   constexpr int kMostRounds = 50;
   constexpr double kExact = 1e-13;
   for (int round = 0; round < kMostRounds; ++round) {
-    // Residuals and rows are divided by powers of `speed`, so that the entries of all rows are near
-    // 1.
+    // Residuals and rows are divided by powers of `speed`, so that all entries are near 1.
     Eigen::VectorXd missing(n + 1);
     missing.head(n) = Eigen::VectorXd::Constant(n, 1) - curve.speeds(positions) / speed;
     missing(n) = (area - curve.area(positions)) / (speed * speed);

@@ -95,8 +95,7 @@ struct MeasuredLine {
   double perimeter = 0;  ///< length of the line [L]
   /// Returns the moments of the area inside if the beads are at the given positions.
   std::function<AreaMoments(const Eigen::VectorXd&)> moments;
-  /// Returns the line integral of the tangential velocity for given velocities of the beads
-  /// [L^2/T].
+  /// Returns the line integral of the tangential velocity for velocities of the beads [L^2/T].
   std::function<double(const Eigen::VectorXd&)> circulation;
 };
 

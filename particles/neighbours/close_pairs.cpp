@@ -1,8 +1,8 @@
 // Finds pairs of close particles (close_pairs.hpp has the condition, the units and who uses it): in
 // two and three dimensions by grids of cells, one for each factor of 2 in the extents; in one
 // dimension by a sweep along the line; and in a periodic cell with copies of the particles near its
-// sides. Nothing is checked or thrown. A change must keep the order of the pairs, because the bits
-// of a simulation depend on it.
+// sides. Nothing is checked or thrown. A change must keep the order of the pairs, on which bits of
+// results depend.
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
 #include <algorithm>
@@ -259,8 +259,7 @@ std::vector<ClosePair> close_pairs(int dimension, std::span<const double> positi
 
 namespace {
 
-/// Points among which pairs are sought: all particles, moved into the cell, then copies near its
-/// sides.
+/// Points for the search: all particles, moved into the cell, and then copies near its sides.
 struct Copies {
   std::vector<double> positions, extents;  // of the points [L]
   std::vector<std::int32_t> particles;     // of each point: the particle that it is an image of

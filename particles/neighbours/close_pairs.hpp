@@ -1,8 +1,8 @@
 // Finds all pairs of close particles by cell lists, for any ratio of radii. Memory grows with the
 // number of particles and pairs; time also grows with the number of grids, one for each factor of 2
 // in the extents. Lengths are in any unit. Nothing is checked or thrown. neighbour_list.cpp, case/,
-// fluid/ and current_contacts.cpp use it. A change must keep the order of the pairs, because the
-// bits of a simulation depend on it.
+// fluid/ and current_contacts.cpp use it. A change must keep the order of the pairs, on which the
+// bits of results depend.
 #pragma once
 
 #include <cstdint>

@@ -19,8 +19,7 @@ namespace viscontact::particles {
 class PairsOfParticles {
  public:
   /// `state` must outlive the object, and its lists of pairs must not change. Pairs with an
-  /// obstacle (State::walls) are in the graph only `with_walls`; connected() must not be called
-  /// then.
+  /// obstacle (State::walls) are in the graph only `with_walls`, which excludes connected().
   explicit PairsOfParticles(const State& state, bool with_walls = false)
       : state_(&state), pair_count_(state.pairs.size()), offsets_(state.particles.count() + 1, 0) {
     const std::size_t count = pair_count_ + (with_walls ? state.walls.size() : 0);

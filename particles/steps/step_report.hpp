@@ -60,8 +60,7 @@ struct StepReport {
   /// Largest residual |min(d, w (p - gamma))| of a contact, divided by the mean radius [1].
   double residual = 0;
   /// Largest residual divided by w and by the impulses at work on the particles of the contact [1]:
-  /// those of forces, of their momentum's change and of contacts (docs/particles.md, "The
-  /// projection").
+  /// of forces, of contacts, and the change of momentum (docs/particles.md, "The projection").
   double impulse_residual = 0;
   bool converged = true;  ///< true if the residuals of all contacts and links are allowed
   /// Largest residual over what is allowed for its contact or link [1], >= 0; infinite if the step
@@ -104,8 +103,8 @@ struct StepResiduals {
 void report_residuals(const StepResiduals& residuals, double mean_radius, StepReport& report);
 
 /// Throws Error(kNotConverged) if a step that ends at `time` [T] has not converged and leaves an
-/// overlap of more than `mean_radius` [L]. `reason` returns the end of the message, which says what
-/// may be the cause.
+/// overlap of more than `mean_radius` [L]. `reason` returns the end of the message, the possible
+/// cause.
 void refuse_deep_overlap(const StepResiduals& residuals, const Particles& particles,
                          const Setting& setting, double mean_radius, double time,
                          const std::function<std::string()>& reason);

@@ -10,8 +10,8 @@
 namespace viscontact::particles {
 namespace {
 
-// Differences of times below this fraction of a step count as rounding errors. They are far smaller
-// unless a run has 1e9 steps, and no user distinguishes such times.
+// Differences of times below this fraction of a step count as rounding errors, which reach it only
+// in runs of more than 1e9 steps.
 constexpr double kTiny = 1e-6;
 
 }  // namespace
@@ -72,8 +72,7 @@ std::optional<StepInterval> StepGrid::next(const State& state, double end) const
     step.new_grid = (step.end < on_grid - tiny ? on_grid : on_grid + time_step_) - time_step_;
   }
   step.reaches_end = step.end >= end - tiny;
-  // A step from one point of the grid to the next has exactly the length h, without rounding
-  // errors.
+  // A step from one point of the grid to the next has the length h without rounding errors.
   if (is_cut || std::abs(step.end - state.time - time_step_) > tiny) step.h = step.end - state.time;
   return step;
 }
