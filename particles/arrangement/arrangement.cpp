@@ -1,9 +1,9 @@
 // Places discs or spheres at random in a disc or box such that all gaps have at least a given
 // length; arrangement.hpp describes the method. Lengths are in the unit of the case file. Throws
-// Error(kBadInput) if the particles do not fit. particles/case uses it. A change must keep the
-// arrangement of each seed bit for bit on every machine. Therefore only + - * / and sqrt may be
-// used, and the compiler must not fuse a product and a sum into one operation (-ffp-contract=off in
-// CMakeLists.txt).
+// Error(kBadInput) if the particles do not fit. particles/case and particles/sweep use it. A change
+// must keep the arrangement of each seed bit for bit on every machine. Therefore only + - * / and
+// sqrt may be used, and the compiler must not fuse a product and a sum into one operation
+// (-ffp-contract=off in CMakeLists.txt).
 #include "viscontact/particles/arrangement/arrangement.hpp"
 
 #include <fmt/format.h>

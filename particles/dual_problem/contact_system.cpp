@@ -1,7 +1,6 @@
 // Numbers the particles that take part in a step, finds the sets that contacts connect (islands),
 // and calls the solver for the impulses. contact_system.hpp has the symbols, the units and who uses
-// it. Nothing is thrown. A change must keep the order of bodies, because rounding errors depend on
-// it.
+// it. Nothing is thrown. A change must keep the order of bodies, which rounding errors depend on.
 #include "viscontact/particles/dual_problem/contact_system.hpp"
 
 #include <algorithm>

@@ -42,7 +42,7 @@ class Preconditioner {
     return factor_.factorise(problem_, free);
   }
 
-  /// The forward half of the sweep, half_swept_ = (I + L)^-1 gradient, before the first apply().
+  /// The forward half of the sweep, half_swept_ = (I + L)^-1 gradient, which each apply() needs.
   void sweep_forward(std::span<const double> gradient) {
     problem_.pool().for_blocks(problem_.count(), [&](std::size_t begin, std::size_t end) {
       auto y = problem_.block_bodies(begin);

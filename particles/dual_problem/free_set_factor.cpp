@@ -78,10 +78,9 @@ bool FreeSetFactor<D>::factorise(const MassDualProblem<D>& problem, const std::v
   if (factor_ == nullptr || factor_->free.size() != problem.count()) {
     factor_ = std::make_unique<Factor>();
     factor_->cholesky.analyzePattern(w);
-    // The factor has 2 entries per contact in a chain, and about 20 in a packing of discs
-    // (with 20 000 contacts). Packings of spheres have more, and are excluded: for 1000 spheres
-    // that
-    // come to rest, a run with the factor took 1.2 times as long as with Gauss-Seidel sweeps.
+    // The factor has 2 entries per contact in a chain, and about 20 in a packing of discs (with
+    // 20000 contacts). Packings of spheres have more, and are excluded: for 1000 spheres that come
+    // to rest, a run with the factor took 1.2 times as long as with Gauss-Seidel sweeps.
     constexpr Eigen::Index kMostEntries = 40;
     factor_->pays = factor_->cholesky.symbolic_entries() <= kMostEntries * (w.cols() + 1);
   }

@@ -295,9 +295,9 @@ class Mprgp {
   PassStatistics statistics_;
   /// Added to the diagonal of W, which is 1. Redundant contacts make W singular: along some
   /// directions the slope and the curvature are only rounding errors, and impulses would move along
-  /// them without end. 1e-14 is above rounding errors, far below the curvatures of a chain of 10
-  /// 000 contacts (1e-8), and below any tolerance. Where particles are jammed in a wedge, impulses
-  /// may be so large that this term leaves a gap; drop_regularisation() is for them.
+  /// them without end. 1e-14 is above rounding errors, far below the curvatures of a chain of 10000
+  /// contacts (1e-8), and below any tolerance. Where particles are jammed in a wedge, impulses may
+  /// be so large that this term leaves a gap; drop_regularisation() is for them.
   double regularisation_ = 1e-14;
   double slope_ = 0;      // inner product of gradient and direction
   double curvature_ = 0;  // direction^T W direction, with the regularisation

@@ -229,7 +229,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     block.friction = rubs ? laws.friction->coefficient : 0;
     // Friction is bounded by the coefficient of friction times the impulse beyond `capacity`. With
     // this capacity it is (1 + e) times the impulse of the solids in the compression, if the
-    // impulse of the whole blow is the expected one.
+    // restitution adds its lower bound and this is >= 0.
     block.capacity = phase.compressed + std::max(phase.lowest, 0.0) - (1 + e) * phase.solid;
     problem.impulses[block.row] = block.lowest;
   }
