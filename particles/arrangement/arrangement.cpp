@@ -1,7 +1,9 @@
-// Places particles at random (arrangement.hpp). Lengths are in the unit of the case. Particles that
-// do not fit cause Error(kBadInput). Each seed must keep its arrangement. The compiler must not
-// contract products and sums (-ffp-contract=off in CMakeLists.txt), and only + - * / and sqrt may
-// be used, because these give the same bits on every machine.
+// Places discs or spheres at random in a disc or box such that all gaps have at least a given
+// length; arrangement.hpp describes the method. Lengths are in the unit of the case file. Throws
+// Error(kBadInput) if the particles do not fit. particles/case and particles/sweep use it. A change
+// must keep the arrangement of each seed bit for bit on every machine. Therefore only + - * / and
+// sqrt may be used, and the compiler must not fuse a product and a sum into one operation
+// (-ffp-contract=off in CMakeLists.txt).
 #include "viscontact/particles/arrangement/arrangement.hpp"
 
 #include <fmt/format.h>
@@ -22,10 +24,11 @@
 namespace viscontact::particles {
 namespace {
 
-/// The places that the centre of a particle may take: a disc, or a box that may be periodic.
+/// The region for the centre of a particle: a disc, or a box with sides that may be periodic.
 class Places {
  public:
-  /// `from_wall` is the least distance of the centre from a wall [L].
+  /// `from_wall` is the least distance of the centre from a wall [L]. Throws
+  /// std::bad_variant_access if `domain` is neither a disc nor a box.
   Places(const Domain& domain, double from_wall) {
     if (const auto* disc = std::get_if<DiscDomain>(&domain)) {
       radius_ = disc->radius - from_wall;
@@ -46,9 +49,9 @@ class Places {
     }
   }
 
-  /// 2 or 3.
+  /// Number of dimensions, 2 or 3.
   std::size_t dimension() const { return dimension_; }
-  /// True if there is no place for a centre.
+  /// True if the region is empty.
   bool are_empty() const {
     for (std::size_t d = 0; d < dimension_; ++d)
       if (!(from_[d] <= to_[d])) return true;
@@ -56,9 +59,9 @@ class Places {
   }
   /// Period along axis `d` [L]; 0 if the domain is not periodic along it.
   double period(std::size_t d) const { return periods_[d]; }
-  /// Smallest coordinate of a place in direction `d` [L].
+  /// Smallest coordinate of the region along axis `d` [L].
   double from(std::size_t d) const { return from_[d]; }
-  /// Largest less smallest coordinate of a place in direction `d` [L].
+  /// Width of the region along axis `d` [L].
   double length(std::size_t d) const { return to_[d] - from_[d]; }
 
   /// True if a centre may be at `x`.
@@ -72,7 +75,7 @@ class Places {
     return dx * dx + dy * dy <= radius_ * radius_;
   }
 
-  /// The image of `x` that is in the box, for an `x` less than a period outside.
+  /// The periodic image of `x` [L] in the box. `x` may be outside by less than one period.
   Vector wrapped(Vector x) const {
     for (std::size_t d = 0; d < dimension_; ++d) {
       if (periods_[d] == 0) continue;
@@ -84,7 +87,7 @@ class Places {
     return x;
   }
 
-  /// The nearest place to `x` that is allowed, slightly inside.
+  /// The point of the region that is nearest to `x` [L]; in a disc slightly inside its edge.
   Vector nearest(Vector x) const {
     if (!round_) {
       x = wrapped(x);
@@ -94,13 +97,13 @@ class Places {
     }
     if (contain(x)) return x;
     const double dx = x[0] - centre_[0], dy = x[1] - centre_[1];
-    // The centre moves inside by more than the rounding error, so that contain() holds.
+    // 1e-12 of the radius exceeds the rounding errors, so that contain() is true of the result.
     constexpr double kInside = 1 - 1e-12;
     const double factor = radius_ * kInside / std::sqrt(dx * dx + dy * dy);
     return {centre_[0] + factor * dx, centre_[1] + factor * dy};
   }
 
-  /// A random place, uniformly distributed.
+  /// A random point of the region, uniformly distributed.
   Vector random(SplitMix64& random) const {
     for (;;) {
       Vector x{};
@@ -109,7 +112,7 @@ class Places {
     }
   }
 
-  /// The shortest vector from `a` to `b`, across periodic sides too.
+  /// The shortest vector from `a` to an image of `b`, for two points of the region [L].
   Vector difference(const Vector& a, const Vector& b) const {
     Vector apart = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     for (std::size_t d = 0; d < dimension_; ++d) {
@@ -129,30 +132,30 @@ class Places {
 
 double length_of(const Vector& x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
 
-/// The edge of a square or cube of this size [L^2, L^3], x > 0. The cube root is Newton's, because
-/// that of the C library differs between machines.
+/// Square root (dimension 2) or cube root (3) of `size` > 0. The cube root is computed by Newton's
+/// method, because that of the C library differs between machines.
 double edge_of(double size, std::size_t dimension) {
   if (dimension == 2) return std::sqrt(size);
-  double root = size < 1 ? 1 : size;  // above the root; the iterates then fall to it
+  double root = size < 1 ? 1 : size;  // at least the cube root, so that the iterates fall to it
   for (double next = 0;; root = next) {
     next = root - (root - size / (root * root)) / 3;
     if (!(next < root)) return root;
   }
 }
 
-/// A particle that is in the domain before the new ones are placed, and stays where it is.
+/// A particle that is in the domain before the new ones are placed, and stays where it is [L].
 struct FixedParticle {
   Vector centre;
   double radius;
 };
 
-/// The particles that are placed so far, the largest ones first, sorted into cells that are at
-/// least as wide as the least distance of two centres, so that only particles in neighbouring cells
-/// can be too close.
+/// The particles that are placed so far, in the order of falling radii, sorted into a grid of
+/// cells. Each cell is at least as wide as the least distance that the centres of the two largest
+/// particles must have. Only particles in one cell or in neighbouring cells can thus be too close.
 class PlacedParticles {
  public:
-  /// `radii` [L] fall; `places` has the places of each particle, or one entry for all. Two
-  /// particles must be `gap` [L] apart.
+  /// `radii` [L] are sorted from large to small. `places` has their regions, or one if all radii
+  /// are equal, and must outlive the object. `gap` [L] >= 0 is the least gap of two particles.
   PlacedParticles(const std::vector<Places>& places, std::vector<double> radii, double gap,
                   std::vector<FixedParticle> fixed)
       : places_(places), radii_(std::move(radii)), gap_(gap), fixed_(std::move(fixed)) {
@@ -169,11 +172,11 @@ class PlacedParticles {
   std::size_t dimension() const { return widest_places().dimension(); }
   std::size_t count() const { return radii_.size(); }
   const std::vector<Vector>& centres() const { return centres_; }
-  /// The places of particle k.
+  /// The region of the centre of particle k.
   const Places& places(std::size_t k) const { return places_[places_.size() == 1 ? 0 : k]; }
-  /// The places of the smallest particle, which may be where any other may be.
+  /// The region of the smallest particle, which contains the regions of all others.
   const Places& widest_places() const { return places_.back(); }
-  /// Least distance of two particles of mean size [L].
+  /// Least distance of the centres of two particles of the mean radius [L].
   double distance() const {
     double sum = 0;
     for (const double radius : radii_) sum += radius;
@@ -182,7 +185,7 @@ class PlacedParticles {
     return 2 * mean + gap_;
   }
 
-  /// Adds the next particle.
+  /// Adds the next particle, in the order of the radii, with its centre at `x`.
   void add(const Vector& x) {
     numbers_[cell_of(x)].push_back(centres_.size());
     centres_.push_back(x);
@@ -193,15 +196,17 @@ class PlacedParticles {
     centres_[k] = x;
     if (before == now) return;
     auto& left = numbers_[before];
-    // The order in a cell decides the order of pushes, so it must not depend on the library.
+    // The other particles of the cell keep their order, because it decides the order of the sums of
+    // push_apart() and so the bits of the result.
     left.erase(std::find(left.begin(), left.end(), k));
     numbers_[now].push_back(k);
   }
 
-  /// Calls `visit` for each other particle, also for fixed ones, that is closer to particle `self`
-  /// at `x` than `factor` times its least distance: with the vector from `x` to it [L], its least
-  /// distance [L] and its number (fixed ones have none). Ends early and returns true if `visit`
-  /// returns true.
+  /// Calls visit(apart, distance, number) for each particle but `self`, also for each fixed one,
+  /// whose centre is closer to `x` than factor * distance. `distance` [L] is the least distance
+  /// that its centre must have from that of `self`, `apart` [L] the vector from `x` to its centre,
+  /// and `number` its number, which a fixed one does not have. Stops and returns true as soon as
+  /// `visit` returns true; otherwise returns false.
   template <class Visit>
   bool any_close(const Vector& x, std::size_t self, double factor, const Visit& visit) const {
     const double radius = radii_[self];
@@ -226,7 +231,7 @@ class PlacedParticles {
     return false;
   }
 
-  /// True if particle `self` may be at x.
+  /// True if no other particle is too close to particle `self` with its centre at `x`.
   bool is_free(const Vector& x, std::size_t self) const {
     return !any_close(x, self, 1, [](const auto&...) { return true; });
   }
@@ -245,7 +250,8 @@ class PlacedParticles {
     return place;
   }
   std::size_t cell_of(const Vector& x) const { return number_of(place_of(x)); }
-  /// The cells beside cell `at` along axis d, and this cell, each once. Returns their number.
+  /// Sets `near` to cell `at` and the cells beside it along axis d, each once, also across a
+  /// periodic side. Returns how many they are, 1 to 3.
   std::size_t neighbours(std::size_t at, std::size_t d, std::array<std::size_t, 3>& near) const {
     const std::size_t n = cells_[d];
     std::size_t count = 0;
@@ -265,8 +271,8 @@ class PlacedParticles {
   std::vector<Vector> centres_;
 };
 
-/// Pushes particles apart that are too close, in up to `rounds` rounds over all of them. True if
-/// all gaps are large enough then.
+/// Moves particles that are too close apart, in up to `rounds` rounds over all of them. Returns
+/// true after a round in which none was too close when its turn came, otherwise false.
 bool push_apart(PlacedParticles& placed, int rounds) {
   // The aim of a push is 1.001 times the distance that two particles must have, because pushes
   // approach their aim without reaching it.
@@ -275,14 +281,14 @@ bool push_apart(PlacedParticles& placed, int rounds) {
     bool all_free = true;
     for (std::size_t k = 0; k < placed.centres().size(); ++k) {
       all_free = all_free && placed.is_free(placed.centres()[k], k);
-      // Each of two close particles moves by half of the missing distance. Beside a fixed one, a
-      // particle moves by all of it.
+      // Each of two particles that are too close moves by half of the missing distance. A particle
+      // that is too close to a fixed one moves by all of it.
       Vector push{};
       const Vector x = placed.centres()[k];
       placed.any_close(x, k, kFurther, [&](const Vector& apart, double distance, auto number) {
         const double length = length_of(apart);
         const double missing = (number ? 0.5 : 1.0) * (kFurther * distance - length);
-        // Two particles at one place are separated along x.
+        // Two particles with the same centre are separated along the first axis.
         const Vector away = length > 0
                                 ? Vector{apart[0] / length, apart[1] / length, apart[2] / length}
                                 : Vector{1, 0, 0};
@@ -297,13 +303,16 @@ bool push_apart(PlacedParticles& placed, int rounds) {
   return false;
 }
 
-/// Moves particles at random and keeps the moves that leave all gaps large enough.
+/// Moves particles at random and keeps the moves that leave all gaps large enough. `size` is the
+/// area or volume of the domain [L^2, L^3].
 void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
   const auto count = placed.count();
   const auto dimension = placed.dimension();
-  // About half of the moves are kept if they go half as far as the gaps in the densest lattice of
-  // the same density, triangular or face-centred cubic. The bounds keep moves possible near this
-  // lattice and in empty domains.
+  // If the same number of particles formed the densest lattice (triangular or face-centred cubic)
+  // in the domain, the distance of neighbours would be `lattice`. About half of the moves are kept
+  // if the largest move along an axis is half of the gap in this lattice. It is at least 0.01 of
+  // the least distance, so that a dense arrangement can move too, and at most half of the width of
+  // the region.
   const double n = static_cast<double>(count);
   const double lattice = edge_of(
       dimension == 2 ? 2 * size / (std::sqrt(3.0) * n) : std::sqrt(2.0) * size / n, dimension);
@@ -312,8 +321,8 @@ void shuffle(PlacedParticles& placed, double size, SplitMix64& random) {
     span = std::min(span, 0.5 * placed.widest_places().length(d));
   const double step =
       std::min(span, std::max(0.5 * (lattice - placed.distance()), 0.01 * placed.distance()));
-  // After 500 moves of each particle the arrangement no longer depends on the start. At most 20
-  // million moves are made in all, which bounds the time, but at least 20 of each particle.
+  // 500 moves of each particle, on average, are taken as enough to forget the first places. To
+  // bound the time, more than 40 000 particles make 20 million moves in all, but at least 20 each.
   constexpr std::size_t kMoves = 20000000, kMost = 500, kLeast = 20;
   const std::size_t moves = count * std::clamp(kMoves / count, kLeast, kMost);
   for (std::size_t move = 0; move < moves; ++move) {
@@ -353,13 +362,13 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
                     gap, why, size_of(asked, dimension) / size,
                     dimension == 2 ? "area" : "volume"));
   };
-  // The largest are placed first. Equal ones keep their order.
+  // The largest particles are placed first. Particles of equal radius keep their order.
   std::vector<std::size_t> order(radii.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, [&](auto i, auto j) { return radii[i] > radii[j]; });
   std::vector<double> falling;
   for (const auto k : order) falling.push_back(radii[k]);
-  std::vector<Places> places;  // one if all are equal
+  std::vector<Places> places;  // only one entry if all radii are equal
   for (std::size_t k = 0; k < (are_equal ? 1 : radii.size()); ++k)
     places.emplace_back(domain, falling[k] + gap);
   if (places.front().are_empty()) refuse("the domain is narrower than one of them with its gaps");
@@ -379,7 +388,8 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
   for (std::size_t k = 0; k < present.count(); ++k)
     fixed.push_back({present.position(k), present.radii[k]});
   SplitMix64 random(asked.seed);
-  // Pushing can fail although there is an arrangement. It then begins again from other places.
+  // push_apart() can fail although an arrangement exists. All particles then get new random places.
+  // Larger numbers find more of the dense arrangements, but change those that seeds give.
   constexpr int kBeginnings = 10, kTries = 1000, kRounds = 2000;
   for (int beginning = 0; beginning < kBeginnings; ++beginning) {
     PlacedParticles placed(places, falling, gap, fixed);

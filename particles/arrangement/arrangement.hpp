@@ -1,6 +1,7 @@
-// Random arrangements of discs or spheres that do not overlap, in the domain of a case. Lengths are
-// in the unit of the case. Cases and sweeps of particles call it. A change must keep the
-// arrangement of each seed bit for bit, because users repeat runs by their seeds.
+// Random arrangements of discs or spheres that do not overlap, in a disc or a box. Lengths are in
+// the unit of the case file. particles/case places the particles of a case file with it, and
+// particles/sweep reports their area fraction. A change must keep the arrangement of each seed bit
+// for bit, because users repeat runs by their seeds.
 #pragma once
 
 #include <cstddef>
@@ -15,36 +16,37 @@ namespace viscontact::particles {
 /// The particles that are to be placed, and the gaps that they must have.
 struct Arrangement {
   std::vector<double> radii;  ///< of the particles [L], > 0; at least one
-  double smallest_gap = 0;    ///< least gap of two particles, and of one and a wall [L], >= 0
+  double smallest_gap = 0;    ///< between two particles, and between one and a wall [L], >= 0
   /// Seed of the random numbers: the same seed gives the same arrangement, bit for bit.
   std::uint64_t seed = 1;
 };
 
-/// Area or volume of the particles of an arrangement [L^2, L^3].
+/// Sum of the areas (dimension 2) [L^2] or volumes (3) [L^3] of the particles of an arrangement.
 double size_of(const Arrangement& asked, int dimension);
 
-/// Places new particles in the domain, which must be a disc or a box; sides that are periodic are
-/// no walls. They are spheres if the box has three dimensions, otherwise discs. Returns the
-/// coordinates of each, in the order of `asked.radii`.
+/// Places new particles in the domain, which must be a disc or a box; periodic sides are no walls.
+/// They are spheres if the box has three dimensions, otherwise discs. `present` are the particles
+/// that are in the domain already and stay where they are. Returns the coordinates of the new
+/// centres [L], 2 or 3 for each particle, in the order of `asked.radii`.
 ///
-/// The gaps between two particles, also across periodic sides, between one and a particle of
-/// `present`, and between one and a wall are at least `smallest_gap`. The arrangement is a sample
-/// of the equilibrium of hard discs or spheres with this gap (all arrangements are equally likely),
-/// as far as a Monte Carlo simulation of a limited number of moves reaches it:
+/// All gaps of a new particle, to other particles (also across periodic sides) and to walls, are at
+/// least `smallest_gap`. The arrangement is a sample of the equilibrium of hard discs or spheres
+/// with this gap (all arrangements are equally likely), as far as a Monte Carlo simulation of a
+/// limited number of moves reaches it:
 ///
-/// 1. Each particle, the largest first, is put at a random place where it has its gaps (random
-///    sequential addition, Widom 1966), or anywhere if 1000 tries fail.
+/// 1. Each particle, the largest first, is put at a random place where its gaps are large enough
+///    (random sequential addition, Widom 1966), or at any random place if 1000 tries fail.
 /// 2. Particles that are too close are pushed apart until all gaps are large enough.
-/// 3. Each particle is moved at random some hundred times. A move is kept if the gaps stay large
-///    enough (Metropolis et al. 1953).
+/// 3. Each particle is moved at random, on average 500 times, or 20 to 500 times if there are more
+///    than 40 000. A move is kept if the gaps stay large enough (Metropolis et al. 1953).
 ///
 /// 1000 equal discs in a periodic box, with gaps of 0.05 radii and an area fraction of 0.6, take
-/// less than a second. The result depends on the arguments alone, bit for bit, with arithmetic of
-/// IEEE 754.
+/// less than a second. On every machine with IEEE 754 arithmetic the same arguments give the same
+/// bits.
 ///
-/// Throws Error(kBadInput) if the particles do not fit or no arrangement is found. The message
-/// names the number of particles and their area or volume fraction, but no file and line, which the
-/// caller knows.
+/// Throws Error(kBadInput) if the particles do not fit or no arrangement is found. The message has
+/// the number of particles and their area or volume fraction; the caller adds file and line. Throws
+/// std::bad_variant_access if `domain` is neither a disc nor a box.
 std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
                             const Particles& present);
 

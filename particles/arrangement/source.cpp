@@ -1,6 +1,8 @@
-// When particles of a source are due, and where they are poured in (source.hpp). Numbers are in the
-// units of the case; nothing is thrown. A change must keep the times, which decide the steps in
-// which particles come. As in arrangement.cpp, the compiler must not contract products and sums.
+// Decides when the particles that a source adds to a simulation are due, and where they appear
+// (source.hpp). Lengths, masses and times are in the units of the case file; nothing is thrown.
+// simulation.cpp and particles/run use it. A change must keep the due times and places bit for bit,
+// because users repeat runs by their seeds. Therefore the compiler must not fuse a product and a
+// sum into one operation (-ffp-contract=off in CMakeLists.txt).
 #include "viscontact/particles/arrangement/source.hpp"
 
 #include <algorithm>
@@ -14,7 +16,8 @@
 namespace viscontact::particles {
 
 std::size_t Source::due(double time) const {
-  // Rounding errors may make a time slightly too early; a particle counts as due then, too.
+  // A particle counts as due although `time` is too early by a rounding error. A billionth is far
+  // above rounding errors, and far below the time between two particles.
   constexpr double kRounding = 1e-9;
   const double past = std::min(time, end) - begin;
   if (past < -kRounding * begin) return 0;
@@ -25,8 +28,7 @@ std::size_t Source::due(double time) const {
 
 namespace {
 
-/// Numbers of the particles that a new one of this radius [L] in the region of the source may
-/// touch.
+/// Numbers of the particles that a new one of this radius [L] in the box of the source may touch.
 std::vector<std::size_t> near_region(const Source& source, double radius, const Particles& p) {
   const Vector middle = 0.5 * (source.from + source.to), half = source.to - middle;
   std::vector<std::size_t> near;
@@ -34,7 +36,8 @@ std::vector<std::size_t> near_region(const Source& source, double radius, const 
     const Vector apart = nearest_image(p.cell, p.position(k) - middle);
     const double reach = p.radii[k] + radius;
     bool is_near = true;
-    // If the region is wider than half of a period, all particles count as near along this axis.
+    // Beyond half of a period another image may be nearer than the one in `apart`. Then all
+    // particles count as near along this axis.
     for (std::size_t d = 0; d < 3; ++d)
       is_near = is_near && (std::abs(apart[d]) <= half[d] + reach ||
                             (p.cell.lengths[d] > 0 && half[d] + reach > 0.5 * p.cell.lengths[d]));
@@ -43,14 +46,15 @@ std::vector<std::size_t> near_region(const Source& source, double radius, const 
   return near;
 }
 
-/// A free place for the next particle of a source; nothing if there is none in 1000 tries.
+/// A place where particle `number` (from 0) of a source, of this radius [L], touches nothing [L];
+/// std::nullopt if 1000 random places are not free, a number that bounds the time.
 std::optional<Vector> free_place(const Source& source, double radius, std::size_t number,
                                  const State& state, std::span<const PlanePosition> obstacles) {
   constexpr int kTries = 1000;
   const auto& p = state.particles;
   const auto near = near_region(source, radius, p);
-  // The random numbers depend on the state alone, so that a run that is continued draws the same
-  // ones.
+  // The seed is made from the source, the number of the particle and the number of steps done. A
+  // run that continues from a restart file therefore draws the same numbers.
   SplitMix64 random(splitmix_hash(source.seed ^ splitmix_hash(number)) +
                     static_cast<std::uint64_t>(state.steps));
   for (int i = 0; i < kTries; ++i) {
@@ -67,6 +71,7 @@ std::optional<Vector> free_place(const Source& source, double radius, std::size_
   return {};
 }
 
+/// Appends a particle to all arrays; `turns` says whether it needs a rotation.
 void add(const DrawnParticle& particle, const Vector& place, const Vector& velocity, bool turns,
          Particles& p) {
   for (std::size_t d = 0; d < static_cast<std::size_t>(p.dimension); ++d) {
@@ -81,7 +86,7 @@ void add(const DrawnParticle& particle, const Vector& place, const Vector& veloc
   if (!p.neighbours.empty()) p.neighbours.push_back({-1, -1});
 }
 
-/// The particles of a source after the first `poured` ones.
+/// The sequence of the particles of a source, with the first `poured` ones already drawn.
 DrawnSpecies species_after(std::int64_t poured, const Source& source, const State& state) {
   DrawnSpecies species(source.species, state.particles.dimension, source.seed);
   for (std::int64_t k = 0; k < poured; ++k) species.next();
@@ -120,7 +125,8 @@ void Pouring::pour(const Setting& setting, State& state) {
       const auto place =
           free_place(source, next->radius, static_cast<std::size_t>(count), state, obstacles);
       if (!place) break;
-      // With the leapfrog scheme the state has the velocities of an earlier time.
+      // With the leapfrog scheme the velocities of the state belong to an earlier time, before
+      // which gravity has not acted yet. With the other scheme velocity_lag is 0.
       add(*next, *place, source.velocity - state.velocity_lag * setting.gravity, turns, p);
       next.reset();
       ++count;

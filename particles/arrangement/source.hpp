@@ -1,8 +1,9 @@
-// Sources, from which particles are poured in while a simulation runs. Lengths, masses and times
-// are in the units of the case; nothing is thrown. Setting has them, and Simulation pours after
-// each step. A change must keep the times of each source, that the particles of each seed are the
-// same bits, because users repeat runs by their seeds, and that a run that is continued pours the
-// same particles.
+// A source adds ("pours") particles to a simulation while it runs. Lengths, masses and times are in
+// the units of the case file; nothing is checked or thrown here, particles/case checks the values.
+// setting.hpp contains the sources, Simulation pours after each step, and particles/run prints
+// which particles wait. A change must keep the due times and the particles of each seed bit for
+// bit, because users repeat runs by their seeds. A run that is continued from a restart file must
+// pour the same particles as one that is not interrupted.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +16,9 @@
 
 namespace viscontact::particles {
 
-/// A place where particles are poured in.
+/// A box in which particles appear one after the other, at a constant rate.
 struct Source {
-  std::vector<Species> species;   ///< not empty; with masses > 0
+  std::vector<Species> species;   ///< kinds of particles; not empty; with masses > 0
   Vector from{};                  ///< lowest corner of the box in which centres are put [L]
   Vector to{};                    ///< highest corner of that box [L], >= `from` in each component
   Vector velocity{};              ///< of each particle when it comes in [L/T]
@@ -27,43 +28,45 @@ struct Source {
   std::size_t largest_count = 0;  ///< largest number of particles in all, >= 1
   std::uint64_t seed = 1;         ///< seed of radii and places
 
-  /// The number of particles that are due at a time [T].
+  /// The number of particles, 0 to `largest_count`, that are due up to the time `time` [T].
   std::size_t due(double time) const;
 };
 
 struct Setting;
 struct State;
 
-/// The particles that a simulation will pour in next.
+/// The particles that a simulation will pour in next, and how it pours them in.
 class Pouring {
  public:
-  /// `state` says how many particles each source has poured already, and when the source begins
-  /// (State::sources). A source that is new to it is added there. It begins at state.time if
-  /// Source::begin is earlier, so that a run that continues another one does not pour at once what
-  /// would have come before. `sources` get the times at which they begin.
+  /// State::sources says how many particles each source has poured already, and when it began. The
+  /// constructor adds an entry for each source that has none, and sets Source::begin of all
+  /// `sources` to the times in State::sources. A new source with Source::begin before state.time
+  /// begins at state.time. Otherwise a run that continues another one with a new source would pour
+  /// at once all particles that were due before.
   Pouring(std::vector<Source>& sources, State& state);
 
-  /// Adds the particles that are due at state.time. Each is put at a random place in the region of
-  /// its source where it touches no other particle and no obstacle. If 1000 random places are not
-  /// free, the particle waits for the next call, and the later particles of its source wait, too.
-  /// The neighbour list is made again if a particle is added. `setting` has the sources of the
-  /// constructor.
+  /// Adds the particles that are due at state.time. The centre of each is put at a random place in
+  /// the box of its source where it touches no other particle and no obstacle. If 1000 random
+  /// places are not free, the particle waits for the next call, and the later particles of its
+  /// source wait too. If a particle is added, State::positions_at_listing is cleared, so that the
+  /// next step makes a new neighbour list. `setting` contains the sources that the constructor got.
   void pour(const Setting& setting, State& state);
 
  private:
-  std::vector<DrawnSpecies> drawn_;                    // of each source
-  std::vector<std::optional<DrawnParticle>> waiting_;  // the next particle of each source
+  std::vector<DrawnSpecies> drawn_;  // the sequence of the particles of each source
+  // The next particle of each source, if it has been drawn but has found no free place.
+  std::vector<std::optional<DrawnParticle>> waiting_;
 };
 
-/// Particles of a source that are due but have not come, because there is no free place.
+/// The particles of one source that are due but not poured in, because no place is free.
 struct WaitingParticles {
-  std::size_t source;  ///< its number, from 0
-  std::size_t count;   ///< >= 1
-  double radius;       ///< of the first one, for which no place was free [L]
+  std::size_t source;  ///< number of the source, from 0
+  std::size_t count;   ///< number of particles that wait, >= 1
+  double radius;       ///< of the first of them, for which no place was free [L], > 0
 };
 
-/// The waiting particles of each source in this state. `sources` are those of the case of the
-/// state.
+/// The waiting particles in this state, of the sources that have any. `sources` are those of the
+/// case file, in the order of State::sources.
 std::vector<WaitingParticles> waiting_particles(const std::vector<Source>& sources,
                                                 const State& state);
 

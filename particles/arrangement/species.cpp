@@ -1,6 +1,8 @@
-// Draws radii (species.hpp). The compiler must not contract products and sums (-ffp-contract=off in
-// CMakeLists.txt), and only + - * / sqrt, frexp and ldexp may be used, because these give the same
-// bits on every machine; exp and log of the C library differ between versions.
+// Draws the species, radius and mass of one particle after the other (species.hpp). Nothing is
+// checked or thrown. particles/case and source.cpp use it. A change must keep the radii of each
+// seed bit for bit on every machine. Therefore the compiler must not fuse a product and a sum into
+// one operation (-ffp-contract=off in CMakeLists.txt), and only + - * / sqrt, floor, frexp and
+// ldexp may be used; exp and log of the C library differ between versions.
 #include "viscontact/particles/arrangement/species.hpp"
 
 #include <algorithm>
@@ -16,7 +18,7 @@ namespace {
 
 constexpr double kLog2 = 0.6931471805599453;
 
-/// log x for a finite x > 0, to a few units in the last place.
+/// Natural logarithm of a finite x > 0, with an error of a few units in the last place.
 double portable_log(double x) {
   int exponent = 0;
   double mantissa = std::frexp(x, &exponent);  // from 0.5 to 1
@@ -24,7 +26,8 @@ double portable_log(double x) {
     mantissa *= 2;
     --exponent;
   }
-  // log m = 2 artanh s with |s| <= 0.172: the terms after s^23 are less than 1e-19.
+  // log(mantissa) = 2 artanh s = 2 (s + s^3/3 + ...), with |s| <= 0.172. The terms after that of
+  // s^23 are together less than 1e-19.
   const double s = (mantissa - 1) / (mantissa + 1), square = s * s;
   double sum = 0;
   for (int n = 23; n >= 1; n -= 2) sum = sum * square + 1.0 / n;
@@ -32,10 +35,10 @@ double portable_log(double x) {
 }
 
 /// exp x for |x| < 700. The relative error is at most a few 1e-16 plus 1.5e-16 |x|, because log 2
-/// and its product with the number of halvings are rounded. The logarithm of a radius over the
-/// median is at most 12 in magnitude (sigma is at most 1), so that this error is at most 2e-15. Log
-/// 2 in two parts (Cody & Waite 1980) would be more accurate, but would change the radii that
-/// belong to a seed.
+/// and its product with the number `halvings` are rounded. Here x is the logarithm of a radius over
+/// the median, which is at most 12 in magnitude (sigma is at most 1), so that the error is at most
+/// 2e-15. Splitting log 2 in two parts (Cody & Waite 1980) would be more accurate, but would change
+/// the radii of seeds.
 double portable_exp(double x) {
   const double halvings = std::floor(x / kLog2 + 0.5);
   const double rest = x - halvings * kLog2;  // at most 0.347 in magnitude
@@ -52,7 +55,7 @@ double normal(SplitMix64& random) {
   }
 }
 
-/// The radius of particle `number` of its species.
+/// The radius [L] of particle `number` (from 0) of its species.
 double radius_of(const RadiusDistribution& radius, std::size_t number, SplitMix64& random) {
   switch (radius.kind) {
     case RadiusDistribution::Kind::kList:
@@ -68,17 +71,19 @@ double radius_of(const RadiusDistribution& radius, std::size_t number, SplitMix6
 }  // namespace
 
 DrawnSpecies::DrawnSpecies(std::vector<Species> species, int dimension, std::uint64_t seed)
-    // An arrangement takes the random numbers of the seed itself for places; radii need others.
+    // arrangement.cpp draws the places from the sequence of `seed` itself. The radii come from
+    // another sequence, so that they do not depend on the places. Its constant is arbitrary.
     : species_(std::move(species)),
       counts_(species_.size()),
       dimension_(dimension),
       random_(splitmix_hash(seed) ^ 0x7370656369657321ULL) {}
 
 DrawnParticle DrawnSpecies::next() {
-  // Tijdeman's rule ("The chairman assignment problem", Discrete Mathematics 32, 1980) keeps each
-  // count within 1 - 1/(2m - 2) of its share, for m species. A species may come next if its count
-  // does not get ahead of its share by more than this bound. Of these species the one comes next
-  // that would otherwise be the first to fall behind its share by this bound.
+  // For m species, Tijdeman's rule ("The chairman assignment problem", Discrete Mathematics 32,
+  // 1980) keeps the number of particles of each species within 1 - 1/(2m - 2) (`farthest`) of its
+  // share of the total. A species may come next if its number would then exceed its share by at
+  // most this bound. Of these species the one comes next that would otherwise be the first to fall
+  // behind its share by this bound (`deadline`: the total at which it does).
   double shares = 0, total = 1;
   for (std::size_t s = 0; s < species_.size(); ++s) {
     shares += species_[s].share;
@@ -93,7 +98,7 @@ DrawnParticle DrawnSpecies::next() {
     const double share = species_[s].share / shares, count = static_cast<double>(counts_[s]);
     const double lag = share * total - count, deadline = (count + farthest) / share;
     if (lag < 1 - farthest - kRounding) continue;
-    // If two have the same deadline within rounding errors, the larger lag decides.
+    // If two species have the same deadline within rounding errors, the larger lag decides.
     if (deadline < first_deadline * (1 - kRounding) ||
         (deadline <= first_deadline * (1 + kRounding) && lag > largest_lag)) {
       next = s;
@@ -120,7 +125,7 @@ std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, do
   while (particles.size() < largest_count) {
     const auto next = species.next();
     const double more = size_of_particle(dimension, next.radius);
-    // One more particle is taken as long as this brings the sum nearer to the size.
+    // A particle is taken only if it brings the sum nearer to `size`.
     if (!particles.empty() && sum + more / 2 > size) break;
     particles.push_back(next);
     sum += more;

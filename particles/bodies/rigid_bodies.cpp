@@ -1,7 +1,8 @@
-// Mass, inertia, places, and free and constrained motion of rigid bodies (rigid_bodies.hpp).
-// Numbers are in the units of the case. Nothing is checked or thrown: a turn that does not converge
-// is taken as it is. A change must keep members that do not cross a side of the cell where they
-// are, bit for bit, and the angular momentum to rounding errors.
+// Makes rigid bodies of several discs or spheres, and moves them in a time step; rigid_bodies.hpp
+// has the equations, the units and who uses them. Nothing is checked or thrown: if the iteration
+// for the turn of a body does not converge, its last value is taken. A change must keep that a body
+// that crosses no side of a periodic cell has the same bits as without periods, and that the
+// angular momentum stays constant to rounding without a torque.
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ void add_point_mass(Matrix3& inertia, double mass, const Vector& r) {
       inertia[3 * i + j] += mass * ((i == j ? square : 0) - r[i] * r[j]);
 }
 
-/// Components of vector `k` of an array with one number for each disc and three for each sphere.
+/// Vector `k` of an array with one number for each disc (component 2), three for each sphere.
 Vector turn_of(const std::vector<double>& values, std::size_t k, int dimension) {
   if (dimension == 3) return {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
   return {0, 0, values[k]};
@@ -35,21 +36,21 @@ void set_turn(std::vector<double>& values, std::size_t k, int dimension, const V
   for (std::size_t d = 0; d < 3; ++d) values[3 * k + d] = to[d];
 }
 
-/// Where a body begins and ends along one axis of a periodic cell.
+/// Which images of its members make a body, along one axis of a periodic cell.
 struct Cut {
-  std::vector<double> periods;  ///< number of periods from the image in the body to each member
-  double widest = 0;  ///< largest distance between neighbours, which the body does not bridge [L]
-  int count = 0;      ///< number of distances that are as large; 1 if the images are determined
+  std::vector<double> periods;  ///< of each member: periods to it from its image in the body
+  double widest = 0;  ///< largest distance of two neighbours, which is outside the body [L]
+  int count = 0;  ///< number of distances equal to `widest`; if it is 1, the images are determined
 };
 
-/// Along axis `axis`, which has a period, the members and their images lie on a circle. It is cut
-/// at the largest distance between neighbours. This makes the body as short as it can be, and
-/// depends neither on the order of the members nor on where the cell begins.
+/// Along axis `axis` (0 to 2), which has a period, the members and their images lie on a circle.
+/// The circle is cut at the largest distance between neighbours. This makes the body as short as it
+/// can be, and depends neither on the order of the members nor on where the cell begins.
 Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::size_t axis) {
   const double period = p.cell.lengths[axis];
   const auto first = p.position(index_of(members[0]));
   Cut cut;
-  std::vector<double> places;  // relative to the first member, from 0 to the period
+  std::vector<double> places;  // coordinates relative to the first member, in [0, period)
   for (const auto member : members) {
     const double x = before_the_motion(p.cell, p.position(index_of(member)) - first)[axis];
     cut.periods.push_back(std::floor(x / period));
@@ -57,15 +58,15 @@ Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::si
   }
   auto sorted = places;
   std::ranges::sort(sorted);
-  // The distance from each member to the next one, of the last one to the image of the first one.
+  // The distance from each member to the next one, and from the last one to an image of the first.
   std::vector<double> distances;
   for (std::size_t m = 0; m < sorted.size(); ++m)
     distances.push_back(m + 1 < sorted.size() ? sorted[m + 1] - sorted[m]
                                               : sorted[0] + period - sorted[m]);
   const auto widest = std::ranges::max_element(distances);
   cut.widest = *widest;
-  // Distances that differ by less than a billionth of the period count as equal: far more than the
-  // rounding errors of positions, and far less than a user would distinguish.
+  // Distances that differ by less than a billionth of the period count as equal. A billionth is far
+  // more than the rounding errors of positions, and far less than a user would distinguish.
   constexpr double kEqual = 1e-9;
   cut.count = static_cast<int>(std::ranges::count_if(
       distances, [&](double distance) { return distance >= cut.widest - kEqual * period; }));
@@ -73,19 +74,19 @@ Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::si
   const double from = begin < sorted.size() ? sorted[begin] : 0;
   for (std::size_t m = 0; m < places.size(); ++m)
     if (places[m] < from) cut.periods[m] -= 1;
-  // Images are chosen such that the first member is its own image. Members of a body that does not
-  // cross a side of the cell then keep their places bit for bit.
+  // The periods are counted such that the image of the first member is the member itself. If a body
+  // crosses no side of the cell, all are then 0 and its positions keep their bits.
   const double shift = cut.periods[0];
   for (auto& periods : cut.periods) periods -= shift;
   return cut;
 }
 
-/// Place and velocity of the image of a member that belongs to the body.
+/// Position [L] and velocity [L/T] of the image of a member that belongs to the body.
 struct MemberImage {
   Vector position{}, velocity{};
 };
 
-/// The images of the members that make the body.
+/// The image of each member that belongs to the body, in the order of `members`.
 std::vector<MemberImage> images_of(const Particles& p, const std::vector<std::int32_t>& members) {
   std::vector<Periods> periods(members.size());
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -102,7 +103,7 @@ std::vector<MemberImage> images_of(const Particles& p, const std::vector<std::in
   return images;
 }
 
-/// Sets centre, velocity, mass, inertia and angular momentum from the members.
+/// Sets mass, inertia, offsets and motion of `body` from its members and `request`.
 void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody& body) {
   for (const auto member : body.members) body.mass += p.masses[index_of(member)];
   if (request.mass >= 0) body.mass = request.mass;
@@ -114,7 +115,7 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
     body.centre = body.centre + weight * images[m].position;
     body.velocity = body.velocity + weight * images[m].velocity;
   }
-  Vector turning{};  // angular momentum of the members
+  Vector turning{};  // angular momentum of the members about the centre [M L^2/T]
   for (std::size_t m = 0; m < masses.size(); ++m) {
     const auto k = index_of(body.members[m]);
     const auto& image = images[m];
@@ -130,7 +131,7 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
               own * turn_of(p.angular_velocities, k, p.dimension);
   }
   if (request.moment_of_inertia >= 0) {
-    // The angular velocity stays that of the members.
+    // The angular momentum is scaled as the inertia is: the angular velocity stays.
     const double before = body.inertia[8];
     body.inertia[8] = request.moment_of_inertia;
     if (before > 0) turning = (body.inertia[8] / before) * turning;
@@ -139,7 +140,7 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
   update_angular_velocity(body, p.dimension);
 }
 
-/// Moves the centre of a body to its image in the cell.
+/// Replaces centre and velocity of a body by those of its image with the centre in the cell.
 void wrap_centre(RigidBody& body, const PeriodicCell& cell) {
   Periods beyond{};
   for (std::size_t d = 0; d < 3; ++d) beyond[d] = periods_beyond(cell, d, body.centre[d]);
@@ -205,7 +206,7 @@ Vector present_offset(const RigidBody& body, std::size_t m, int dimension) {
 
 Matrix3 present_inertia(const RigidBody& body, int dimension) {
   if (dimension != 3) return body.inertia;
-  // R I R^T, where column j of R is the image of axis j.
+  // R I R^T, where column j of R is the present direction of axis j of the body.
   std::array<Vector, 3> axes;
   for (std::size_t j = 0; j < 3; ++j) {
     Vector axis{};
@@ -251,8 +252,8 @@ void place_members(Particles& p) {
     for (std::size_t m = 0; m < body.members.size(); ++m) {
       const auto k = index_of(body.members[m]);
       const Vector offset = present_offset(body, m, p.dimension);
-      // The member is put at the image of its new place that is nearest to its last position,
-      // because the pairs of the neighbour list have the image of a particle at that position.
+      // Of all images of the new place, the member gets the one nearest to its last position. If it
+      // jumped by a period, the numbers of images in the neighbour list would be wrong.
       const auto periods = periods_of_member(body, m, p);
       const Vector x = body.centre + offset - shift_of(p.cell, periods);
       const Vector v = body.velocity + cross(w, offset) - velocity_of_image(p.cell, periods);
@@ -288,12 +289,13 @@ Matrix3 scaled(double factor, Matrix3 a) {
   return a;
 }
 
-/// Turn [rad] of the implicit midpoint rule in space: the fixed point of turn = h I^-1 L, with the
-/// angular momentum L and the moment of inertia I after half of the turn.
+/// Turn [rad] of a body of spheres in a step of length h by the implicit midpoint rule: the fixed
+/// point of turn = h I^-1 L, with the angular momentum L and the inertia I after half of the turn.
 Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, double h) {
   Vector turn = h * (inverse_of(present_inertia(body, 3)) * angular_momentum);
-  // Each iteration multiplies the error by about the turn in radians. A step in which a body turns
-  // by a radian does not resolve the motion, so that its iteration need not converge.
+  // Each iteration multiplies the error by about the turn in radians, so that 50 iterations are
+  // enough for turns up to 0.5. A step in which a body turns by a radian does not resolve the
+  // motion, so that its iteration need not converge.
   constexpr int kMost = 50;
   constexpr double kExact = 4 * std::numeric_limits<double>::epsilon();
   for (int n = 0; n < kMost; ++n) {
@@ -341,7 +343,7 @@ void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, i
 Vector displacement_at(const Vector& displacement, const Vector& turn, const Vector& arm,
                        int dimension) {
   if (dimension == 3) return displacement + rotated(turned({1, 0, 0, 0}, turn), arm) - arm;
-  // 1 - cos is computed by the sine of half the angle, without cancellation.
+  // c1 = cos(turn) - 1 is computed from the sine of half the angle, which avoids cancellation.
   const double s = std::sin(turn[2]), half = std::sin(turn[2] / 2), c1 = -2 * half * half;
   return {displacement[0] + c1 * arm[0] - s * arm[1], displacement[1] + s * arm[0] + c1 * arm[1],
           0};

@@ -1,9 +1,10 @@
 // Rigid bodies of several discs or spheres, which keep their places in the body, and their motion
 // in a time step, docs/physics.md (5.11). Lengths, masses and times are in any consistent units.
-// `dimension` is 2 or 3; in the plane only the third component of turns, torques and angular
-// momenta is used. The restart file stores the motion of the bodies (io/restart.cpp); the case
-// gives all else. Nothing is checked or thrown here; particles/case checks the bodies. Simulations,
-// constraints, blows, links and particles.hpp use it. Without force, torque and constraints,
+// `dimension` is 2 (discs) or 3 (spheres); for discs only the third component of turns, torques and
+// angular momenta is used. Nothing is checked or thrown here; particles/case checks the bodies.
+// Used in simulation.hpp, particles.hpp, constraints/, dual_problem/, fluid/, impacts/ and links/.
+// io/restart.cpp stores the members of RigidBody after "The motion" in restart files and takes the
+// others from the case file; a change must keep that. Without force, torque and constraints,
 // momentum and angular momentum must stay constant to rounding.
 #pragma once
 
@@ -20,7 +21,7 @@ namespace viscontact::particles {
 
 struct Particles;
 
-/// A matrix of three rows, row by row.
+/// A matrix of three rows and columns, row by row.
 using Matrix3 = std::array<double, 9>;
 
 /// Product of a matrix and a vector.
@@ -29,17 +30,16 @@ inline Vector operator*(const Matrix3& a, const Vector& x) {
           a[6] * x[0] + a[7] * x[1] + a[8] * x[2]};
 }
 
-/// A body whose members are particles. Its mass and inertia include those of the members, and
-/// forces and torques on members act on the body.
+/// A body that consists of particles, its members. Forces and torques on members act on the body.
+/// "At the start" is when add_rigid_body() makes it.
 struct RigidBody {
   std::vector<std::int32_t> members;  ///< numbers of particles, increasing, at least one
-  std::vector<Vector> offsets;        ///< of the members' centres from `centre` at the start [L]
-  /// Orientations of the members relative to the body: for discs their angles at the start [rad].
-  /// Not used for spheres, whose orientation at the start is that of the body.
+  std::vector<Vector> offsets;  ///< vectors from `centre` to the members' centres, at the start [L]
+  /// Angles of discs at the start [rad]. Not used for spheres, which have the body's orientation.
   std::vector<double> member_angles;
   double mass = 0;  ///< [M], > 0; >= 0 in a fluid
-  /// Moment of inertia about the centre, in the axes of the start [M L^2]; discs use only the last
-  /// entry.
+  /// Moment of inertia about the centre, with the orientation at the start [M L^2], positive
+  /// definite; discs use only the last entry.
   Matrix3 inertia{};
   // The motion.
   Vector centre{};    ///< centre of mass [L]
@@ -57,12 +57,12 @@ struct RigidBody {
 /// The rigid bodies of a case, and which particle belongs to which.
 struct RigidBodies {
   std::vector<RigidBody> bodies;  ///< in the order of the case
-  /// Number of the body of each particle, -1: none. Empty if there are no bodies.
+  /// For each particle the number of its body, -1: none. Empty if there are no bodies.
   std::vector<std::int32_t> of_particle;
 
   bool empty() const { return bodies.empty(); }        ///< whether there are no bodies
   std::size_t count() const { return bodies.size(); }  ///< number of bodies
-  /// The body of a particle; -1 if it belongs to none.
+  /// The number of the body of a particle; -1 if it belongs to none.
   std::int32_t body_of(std::int32_t particle) const {
     return of_particle.empty() ? -1 : of_particle[static_cast<std::size_t>(particle)];
   }
@@ -78,37 +78,39 @@ struct RigidBodies {
 struct RigidBodyRequest {
   std::vector<std::int32_t> members;  ///< numbers of particles, at least one, each only once
   double mass = -1;                   ///< [M]; < 0: the sum of the members' masses
-  /// Moment of inertia about the centre of mass [M L^2]; < 0: that of the members at their places,
-  /// whose masses and moments are scaled if `mass` is given. In three dimensions it must be < 0.
+  /// Moment of inertia about the centre of mass [M L^2]; < 0: computed from the members at their
+  /// places, whose masses and moments are scaled if `mass` is given. For spheres it must be < 0.
   double moment_of_inertia = -1;
 };
 
 /// Adds a body with the members at their present places, velocities and angles. Its centre is the
-/// centre of mass of the members (the mean of their centres if none has a mass), its velocity and
-/// angular momentum are those of the members together, and their velocities become those of the
-/// rigid motion. In a periodic cell (Particles::cell) the body consists of those images of the
-/// members with which it is shortest along each axis: of the distances between neighbours along the
-/// axis, from member to member or image, it leaves out the largest one. It must be smaller than the
-/// cell (diameter()). If two distances are the largest (ambiguous_images()), the images depend on
-/// the order of the particles. The velocities are those of the images. The particles must turn
-/// (add_rotation), unless their dimension is 1, and belong to no other body.
+/// centre of mass of the members (the mean of their centres if none has a mass), and its velocity
+/// and angular momentum are those of the members together. The velocities of the members are then
+/// replaced by those of the rigid motion.
+///
+/// In a periodic cell (Particles::cell) the body consists of those images of the members with which
+/// it is shortest along each axis; the velocities are those of these images. Its diameter() must be
+/// less than the periods. If several choices of images are equally short (ambiguous_images()), the
+/// choice depends on the order of the particles.
+///
+/// The particles must turn (add_rotation() in particles.hpp) and belong to no other body.
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request);
 
-/// An axis of a periodic cell along which members do not determine which images make the body.
+/// An axis of a periodic cell along which several choices of images make a body equally short.
 struct AmbiguousImages {
   std::size_t axis = 0;  ///< 0: x, 1: y, 2: z
-  double distance = 0;   ///< largest distance between neighbours, which occurs repeatedly [L]
+  double distance = 0;   ///< the largest distance between neighbours, which occurs repeatedly [L]
 };
 
-/// The first axis along which particles that shall be a body do not determine their images
-/// (add_rigid_body); nothing if they determine them, or if the cell is not periodic.
+/// The first such axis for a body of these members, which need not exist yet; std::nullopt if the
+/// choice is unique along each axis, or if the cell is not periodic.
 std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
                                                 const std::vector<std::int32_t>& members);
 
 /// Diameter of the circle or sphere about the centre of a body that contains its members [L].
 double diameter(const RigidBody& body, const Particles& particles);
 
-/// Numbers of periods from the present place of member number `m` to its image in the body.
+/// Numbers of periods from the position of member number `m` to its image in the body.
 Periods periods_of_member(const RigidBody& body, std::size_t m, const Particles& particles);
 
 /// Vector from the centre of a body to the centre of its member number `m` [L].
@@ -120,15 +122,13 @@ std::size_t member_number(const RigidBody& body, std::int32_t particle);
 /// Vector from the centre of its body to the centre of a particle [L]; 0 without a body.
 Vector offset_in_body(const Particles& particles, std::int32_t particle);
 
-/// The vector `at_start`, which is fixed to the body, in the present orientation of the body.
+/// The present value of a vector that is fixed to the body and was `at_start` at the start.
 Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension);
 
-/// The present moment of inertia about the centre in the axes of space [M L^2]; of discs the last
-/// entry.
+/// The present moment of inertia about the centre [M L^2]; of discs only the last entry counts.
 Matrix3 present_inertia(const RigidBody& body, int dimension);
 
-/// Sets the angular velocity from the angular momentum. A body without inertia keeps its angular
-/// velocity.
+/// Sets the angular velocity from the angular momentum, unless the last entry of inertia is 0.
 void update_angular_velocity(RigidBody& body, int dimension);
 
 /// The masses of the members [M], scaled so that their sum is the mass of the body. If no member
@@ -136,10 +136,10 @@ void update_angular_velocity(RigidBody& body, int dimension);
 std::vector<double> member_masses(const RigidBody& body, const Particles& particles);
 
 /// Sets positions, velocities, orientations and angular velocities of all members to those of their
-/// bodies. In a periodic cell, the centres come to their images in the cell, unless it is sheared.
+/// bodies. In a periodic cell that is not sheared, centres of bodies are first moved into it.
 void place_members(Particles& particles);
 
-/// Inverse of a symmetric positive definite matrix.
+/// Inverse of a symmetric positive definite matrix; of a singular one infinite or NaN.
 Matrix3 inverse_of(const Matrix3& a);
 
 /// Mean force on a body in a step, and mean torque about its centre.
@@ -148,43 +148,41 @@ struct BodyLoad {
   Vector torque{};  ///< [M L^2/T^2]
 };
 
-/// The motion of a body in a step of length h, with its velocity u, angular velocity w, mass m and
-/// moment of inertia I: before the constraints are solved the motion without them, afterwards that
-/// of the solution.
+/// The motion of a body in a step of length h [T], with the velocity u, angular velocity w, mass m
+/// and inertia I: first without contacts and links (free_step()), then with them (constrain()).
 struct BodyStep {
   Vector displacement{};      ///< h u of the centre [L]
   Vector turn{};              ///< h w [rad]; of discs only component 2
   Vector angular_momentum{};  ///< at the end [M L^2/T]
-  /// Velocity of the centre at the end of the step minus displacement/h [L/T]. It is 0 unless blows
-  /// (impacts/) changed the velocity within the step.
+  /// Velocity of the centre at the end of the step minus displacement/h [L/T]. It is 0 unless
+  /// rebounds (impacts/) changed the velocity within the step.
   Vector late_velocity{};
-  /// In the plane: angular momentum at the end minus I turn/h [M L^2/T]; 0 without blows.
+  /// Of discs: angular momentum at the end minus I turn/h [M L^2/T]; 0 without rebounds.
   Vector late_momentum{};
   double mobility = 0;              ///< h/m [T/M]
   Matrix3 turn_mobility{};          ///< h I^-1 [T/(M L^2)]; discs use only the last entry
   Matrix3 inverse_turn_mobility{};  ///< I/h [M L^2/T]
 };
 
-/// The motion without constraints of a body with mass and inertia in a step of length `h`, where
-/// `load` acts on its velocities for the time `kick` [T].
+/// The motion of a body without contacts and links in a step of length `h` > 0 [T]. Its mass and
+/// inertia must be > 0. `load` changes its momentum by the load times `kick` [T], which is h, or
+/// another time with the leapfrog scheme (Simulation::kick_length()).
 ///
-/// In space the turn is that of the implicit midpoint rule: h w = h I^-1 L, with the moment of
-/// inertia I after half of the turn and the angular momentum L, which is constant where no torque
-/// acts.
+/// For spheres the turn is that of the implicit midpoint rule: h w = h I^-1 L, with the angular
+/// momentum L and the moment of inertia I after half of the turn.
 BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double kick,
                    int dimension);
 
-/// Replaces the motion of a step by that of the solution of the constraints. Their impulses change
-/// the angular momentum.
+/// Replaces displacement [L] and turn [rad] of a step by those with contacts and links, and adds
+/// the moments of their impulses to the angular momentum.
 void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, int dimension);
 
-/// Displacement [L] of a point of a body that is at `arm` [L] from its centre: that of the centre
-/// and the change of `arm` when it turns by `turn`.
+/// Displacement [L] of a point of a body: the sum of the displacement of the centre and of the
+/// change of the vector `arm` [L] from centre to point when it turns by `turn` [rad].
 Vector displacement_at(const Vector& displacement, const Vector& turn, const Vector& arm,
                        int dimension);
 
-/// Moves a body by a step of length h > 0 [T]. Its members stay where they are until
-/// place_members() is called.
+/// Moves a body by a step of length h > 0 [T]. place_members() then moves its members.
 void move_body(RigidBody& body, const BodyStep& step, double h, int dimension);
 
 }  // namespace viscontact::particles

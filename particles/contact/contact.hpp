@@ -1,8 +1,9 @@
-// Contact of a pair: its gap and normal, docs/physics.md (5.1), and whether given displacements
-// close the gap. Lengths, masses and times are in any consistent units. The projection, the fluid
-// and the blows share these functions; D is the number of dimensions, 1 (spheres on an axis), 2
-// (discs) or 3 (spheres). Nothing is checked or thrown. A change must keep that a gap of rounding
-// errors counts as 0.
+// Contact of two particles, or of a particle and an obstacle (plane or circle): its gap and normal,
+// docs/physics.md (5.1), and whether given displacements close the gap. Lengths, masses and times
+// are in any consistent units; D is the number of dimensions, 1 (spheres on an axis), 2 (discs) or
+// 3 (spheres). Nothing is checked or thrown. projection/, dual_problem/, constraints/, fluid/,
+// impacts/ and current_contacts.cpp use it. A change must keep that a gap of rounding errors counts
+// as 0.
 #pragma once
 
 #include <algorithm>
@@ -19,15 +20,16 @@
 
 namespace viscontact::particles {
 
-/// A contact in the projection: two particles that may touch in this step, or a particle and a
-/// plane.
+/// A contact in the problem that a time step solves for the impulses: two particles that may touch
+/// in this step, or a particle and an obstacle. A film in the gap keeps the two together while
+/// gamma < 0, where gamma [M L/T] is minus the impulse that the film has absorbed (film_law.hpp).
 template <int D>
 struct Contact {
-  std::int32_t first = -1;       ///< number of a particle; -1 if `second` meets a plane
+  std::int32_t first = -1;       ///< number of a particle; -1 if `second` meets an obstacle
   std::int32_t second = 0;       ///< number of a particle
-  std::array<double, D> normal;  ///< e_ij, unit normal from first (or the plane) to second
-  /// D_ij at the beginning of the step, plus `tolerated` [L]. A plane is taken at its position at
-  /// the end of the step.
+  std::array<double, D> normal;  ///< unit normal from `first` (or the obstacle) to `second`
+  /// Distance of the surfaces at the beginning of the step plus `tolerated` [L]. A plane is taken
+  /// at its position at the end of the step.
   double gap = 0;
   double lowest = 0;  ///< lower bound of the impulse [M L/T], <= 0: gamma before the step
   /// Impulse of the contact in the step [M L/T], >= lowest, > 0 where it pushes: before the
@@ -35,22 +37,23 @@ struct Contact {
   double impulse = 0;
   /// Largest residual with which the contact counts as converged [L], > 0.
   double allowed = 0;
-  double tolerated = 0;       ///< overlap that is left as it is [L], >= 0
-  std::int32_t image = 0;     ///< Pair::image
-  std::int32_t obstacle = 0;  ///< number of the obstacle, if `first` is negative; -1: a stop
+  double tolerated = 0;    ///< overlap that the step does not remove [L], >= 0 (resolved())
+  std::int32_t image = 0;  ///< number of the periodic image of `second` that meets `first`
+  /// If `first` is negative: number of the obstacle, or -1 for a stop, a bound of a hinge's angle.
+  std::int32_t obstacle = 0;
   /// Change of the gap per impulse of this contact [T/M]: without a fluid h (1/m_i + 1/m_j), with
   /// the length h of the step and the masses of both particles.
   double w = 0;
-  /// Change of the gap per turn of the first and of the second particle, counter-clockwise [L]. In
-  /// a fluid only, where outlines are no circles and at the stops of hinges; otherwise 0.
+  /// Change of the gap per counter-clockwise turn of the first and of the second particle [L]. Not
+  /// 0 only in a fluid, for particles that are no discs and at stops of hinges.
   std::array<double, 2> levers{};
 
-  /// True if it is the stop of a hinge, of which only the lever of `second` changes the gap.
+  /// True if it is the stop of a hinge, whose gap changes only by the turn of `second` (`levers`).
   bool is_stop() const { return first < 0 && obstacle < 0; }
 };
 
-/// Residual of the contact conditions gap >= 0, impulse >= lowest, one of them with equality: 0 for
-/// a solution [L]. `slack` is Contact::w times (impulse - lowest) [L].
+/// Residual of the contact conditions: gap >= 0, impulse >= lowest, and one of them with equality
+/// [L]; 0 for a solution. `slack` is Contact::w times (impulse - lowest) [L].
 inline double contact_residual(double gap_after, double slack) {
   return std::abs(std::min(gap_after, slack));
 }
@@ -69,7 +72,7 @@ std::array<double, D> separation(const Particles& p, std::int32_t first, std::in
   return x;
 }
 
-/// Contact of a particle with a plane or circle at `place`, as contact_of() gives it for a pair.
+/// Contact of particle `pair.second` with a plane or circle at `place`.
 template <int D>
 Contact<D> contact_of(const Particles& p, const Pair& pair, const PlanePosition& place) {
   const auto j = index_of(pair.second);
@@ -81,9 +84,8 @@ Contact<D> contact_of(const Particles& p, const Pair& pair, const PlanePosition&
   return contact;
 }
 
-/// Contact of a pair, with gap D_ij and normal e_ij of docs/physics.md (5.1); obstacles are at
-/// `places`. D is 1, 2 or 3. If both centres coincide, the normal is the first axis, because every
-/// direction separates them.
+/// Contact of a pair with its true gap, < 0 if the two overlap; the obstacles are at `places`. If
+/// both centres coincide, the normal is the first axis, because every direction separates them.
 template <int D>
 Contact<D> contact_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
   if (pair.first < 0) return contact_of<D>(p, pair, places[pair.plane()]);
@@ -101,8 +103,8 @@ Contact<D> contact_of(const Particles& p, const Pair& pair, std::span<const Plan
   return contact;
 }
 
-/// Linearised gap [L] after the displacements of all particles in the step, a flat array [L]: the
-/// gap at the beginning and the relative displacement along the normal.
+/// Linearised gap [L] after the step: the gap at its beginning plus the relative displacement along
+/// the normal. `displacements` has D numbers for each particle [L].
 template <int D>
 double gap_after(const Contact<D>& contact, std::span<const double> displacements) {
   const double* wj = &displacements[index_of(contact.second) * D];
@@ -116,14 +118,14 @@ double gap_after(const Contact<D>& contact, std::span<const double> displacement
   return sum;
 }
 
-/// The contact with the gap that the step has to close, which may differ from the gap that
-/// contact_of() gives.
+/// The `contact` that contact_of() gave for `pair`, with the gap that the step has to close in
+/// place of the true gap.
 ///
-/// The gap is set to 0 if it is no larger than the rounding errors of the positions and radii that
-/// it is computed from. Otherwise these errors would cause impulses m D/h, which exceed any load if
-/// the step is short. An overlap of up to `tolerated` [L] counts as gap 0: the projection keeps it
-/// from growing but does not remove it, because a packing may have no space for that, and because
-/// removing it would move particles without a force.
+/// The gap is set to 0 if its magnitude is at most the rounding error of the positions and radii
+/// that it is computed from. In a step of length h a gap D causes an impulse m D/h; if the step is
+/// short, that of a rounding error would exceed any load. An overlap of up to `tolerated` [L]
+/// counts as the gap 0. The step then keeps the overlap from growing but does not remove it,
+/// because a packing may have no space for that, and because particles would move without a force.
 template <int D>
 Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
                     std::span<const PlanePosition> places, double tolerated) {
@@ -148,10 +150,10 @@ Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
 }
 
 /// True if two particles are so far from each other that these displacements cannot make their
-/// linearised gap smaller than `margin` [L], >= 0: |x_j - x_i| > r_i + r_j + |w|_1 + margin, where
-/// w is the relative displacement and |w|_1, the sum of its components' magnitudes, is at least its
-/// length. The test is fast, because it needs no square root and no division, and it decides for
-/// most pairs of a list.
+/// linearised gap smaller than `margin` [L], >= 0. The condition is |x_j - x_i| > r_i + r_j + |w|_1
+/// + margin with centres x and radii r, where w is the relative displacement and |w|_1 the sum of
+/// its components' magnitudes, which is at least its length. The test needs no square root and no
+/// division, and decides for most pairs of a neighbour list.
 template <int D>
 bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> displacements,
                   double margin = 0) {
@@ -162,15 +164,15 @@ bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> 
     square += apart[d] * apart[d];
     moved += std::abs(displacements[j * D + d] - displacements[i * D + d]);
   }
-  // The margin is larger than the rounding errors that resolved() takes for contact.
+  // 1e-9 of the distance is larger than the gaps that resolved() takes for rounding errors.
   constexpr double kAbove = 1 + 1e-9;
   const double farthest = kAbove * (p.radii[i] + p.radii[j] + moved + margin);
   return square > farthest * farthest;
 }
 
 /// Largest tangential displacement of a pair in a step, divided by the sum of its radii, for which
-/// the linearised gap may stand for the gap. Gap and linearised gap differ by half the square of
-/// this ratio, times the sum of the radii: at most by an eighth of this sum.
+/// the linearised gap is used in place of the gap. The two differ by half the square of this ratio
+/// times the sum of the radii, so that 0.5 limits the difference to an eighth of this sum.
 inline constexpr double kLargestTurn = 0.5;
 
 /// Displacement of the second particle relative to the first [L]; the first is not an obstacle.
@@ -184,9 +186,9 @@ std::array<double, D> relative_displacement(const Contact<D>& contact,
   return w;
 }
 
-/// True if particle `contact.second` turns about particle `contact.first` by more than kLargestTurn
-/// in the step. Always false for a plane, whose linearised gap is exact, and for a circle, of which
-/// the projection takes the tangent where the free motion ends.
+/// True if particle `contact.second` moves around particle `contact.first` by more than
+/// kLargestTurn in the step. Always false for a plane, whose linearised gap is exact, and for a
+/// circle, which the step replaces by its tangent (domain.hpp).
 template <int D>
 bool turns_too_far(const Particles& p, const Contact<D>& contact,
                    std::span<const double> displacements) {
@@ -201,8 +203,8 @@ bool turns_too_far(const Particles& p, const Contact<D>& contact,
   return square - normal * normal > kLargestTurn * kLargestTurn * sum * sum;
 }
 
-/// True if two particles touch while they move along straight lines by `displacements`. Also true
-/// for all pairs that do not turn too far: for them the linearised gap decides.
+/// True if the linearised gap of a contact may be used: if turns_too_far() is false, or if the two
+/// particles touch while they move along straight lines by `displacements`.
 template <int D>
 bool paths_meet(const Particles& p, const Contact<D>& contact,
                 std::span<const double> displacements) {

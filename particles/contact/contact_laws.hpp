@@ -1,9 +1,11 @@
-// All laws that the contacts of a case obey. Before a step they bound the impulse of a pair; after
-// it they update gamma and what is remembered of the pair. A new law is a class of its own
-// (film_law.hpp, friction_law.hpp, restitution_law.hpp), a member here, and, if it remembers
-// something, a row in pair_memory.hpp. Lengths, masses and times are in any consistent units; gamma
-// and impulses of discs in a fluid are per length [M/T], all others [M L/T]. The projection, the
-// fluid and the blows ask them; nothing is thrown.
+// All laws of contact: of the film, of friction and of restitution. Before a time step they bound
+// the impulse of a pair; after it they update gamma (minus the impulse that the film has absorbed)
+// and what is remembered of the pair. A new law is a class in a file of its own, a member of
+// ContactLaws, and, if it remembers something, a row in pair_memory.hpp. docs/extending.md shows
+// how; it quotes lines of this file, so that a change of one must be made there too. Lengths,
+// masses and times are in any consistent units; gamma and impulses of discs in a fluid are per
+// length [M/T], all others [M L/T]. Nothing is checked or thrown. Used in setting.hpp,
+// constraints/, fluid/, impacts/.
 #pragma once
 
 #include <limits>
@@ -21,12 +23,12 @@ namespace viscontact::particles {
 
 /// Radii of both surfaces of a pair [L].
 struct PairRadii {
-  /// Radius of the first surface: infinite for a plane, minus the radius for a circle around it.
+  /// Of a particle > 0; infinite for a plane; minus the radius for a circle around the particle.
   double first = std::numeric_limits<double>::infinity();
-  double second = 0;  ///< of a particle, > 0
+  double second = 0;  ///< of the second surface, which is that of a particle, > 0
 };
 
-/// The radii of a pair of particles, or of one at an obstacle.
+/// The radii of two particles, or of an obstacle and a particle.
 inline PairRadii radii_of(const Pair& pair, const Particles& particles,
                           std::span<const Plane> obstacles) {
   PairRadii radii;
@@ -41,18 +43,19 @@ inline PairRadii radii_of(const Pair& pair, const Particles& particles,
 /// The laws of a case.
 struct ContactLaws {
   FilmLaw film;                         ///< how strong the film may pull
-  std::optional<FrictionLaw> friction;  ///< of the solids; needs particles that turn. In a fluid
-                                        ///< kFixedPoint, without restitution and membranes
-  RestitutionLaw restitution;           ///< of the solids; needs a film law with solid contact
+  std::optional<FrictionLaw> friction;  ///< of the solids, only for particles that turn. In a fluid
+                                        ///< kFixedPoint only, without restitution and membranes
+  RestitutionLaw restitution;           ///< of the solids; needs a `film` with solid contact
 
-  /// gamma_min of a pair in the unit of gamma, <= 0; minus infinity if its solids never touch.
+  /// gamma_min of a pair, the value of gamma at which its solids touch, in the unit of gamma, <= 0;
+  /// minus infinity if they never touch.
   double lowest_gamma(const Pair& /*pair*/, const PairMemory& /*memory*/,
                       const PairRadii& radii) const {
     return film.lowest_gamma(radii.second, radii.first);
   }
 
-  /// Updates gamma and the memories of the laws with Pair::impulse after a step of length `h` [T].
-  /// `impulse_error` is that of FilmLaw::absorb().
+  /// Updates gamma and what the laws remember with Pair::impulse after a step of length `h` [T].
+  /// `impulse_error` >= 0 is the residual of this impulse, in the unit of gamma.
   void remember(Pair& pair, PairMemories& memories, const PairRadii& radii, double impulse_error,
                 double /*h*/) const {
     FilmLaw::absorb(pair, impulse_error, lowest_gamma(pair, memories.of(pair.memory), radii));

@@ -1,8 +1,9 @@
-// Restitution of solids that touch through a film, docs/physics.md (5.15) (Poisson's law: the
-// impulse that the solids give back is a share of the impulse that they took). gamma <= 0 is minus
-// the impulse that the film has absorbed; the solids touch when it reaches gamma_min. Impulses and
-// gamma [M L/T] are in the units of the case. contact_laws.hpp has the law, and impacts/ and fluid/
-// apply it to each blow; nothing is checked or thrown. A change must not let a blow create energy.
+// Restitution of solids that hit each other and may have a film between them, docs/physics.md
+// (5.15), by Poisson's law: the impulse that the solids give back is a share of the impulse that
+// they took. gamma <= 0 is minus the impulse that the film has absorbed; the solids touch when it
+// reaches gamma_min. Impulses and gamma are in any consistent unit [M L/T], of discs in a fluid per
+// length [M/T]. Nothing is checked or thrown. contact_laws.hpp has the law of a case; impacts/ and
+// fluid/ apply it to each blow. A change must not let a blow create energy.
 #pragma once
 
 #include <algorithm>
@@ -11,13 +12,14 @@
 
 namespace viscontact::particles {
 
-/// A blow has two phases. In the compression the film takes what it can, from gamma to gamma_min,
-/// and the solids take the rest s of the impulse p:
+/// A blow is the collision of two solids. It has two phases. In the compression, which ends when
+/// the surfaces no longer approach each other, the film takes the first part of the impulse p,
+/// until gamma is gamma_min, and the solids take the rest s:
 ///
 ///     s = max(p - (gamma - gamma_min), 0),   gamma_c = max(gamma - p, gamma_min).
 ///
-/// In the restitution the solids give back e_d s, and the film is pulled open, which takes up to
-/// -gamma_c. The impulse p' of this phase obeys
+/// In the restitution the solids push with the impulse e_d s, and the film pulls with an impulse of
+/// up to -gamma_c, where gamma_c is gamma after the compression. The impulse p' of this phase obeys
 ///
 ///     p' >= gamma_c + e_d s,   opening velocity >= 0,   one of them with equality,
 ///     gamma after the blow = gamma_c + e_d s - p'.
@@ -26,8 +28,8 @@ struct RestitutionLaw {
 
   bool is_on() const { return coefficient > 0; }  ///< whether solids rebound
 
-  /// s >= 0 [M L/T] of the impulse `p` of the compression on a film that can take up `capacity` =
-  /// gamma - gamma_min >= 0 [M L/T].
+  /// s >= 0 [M L/T], for the impulse `p` of the compression and a film that can take up `capacity`
+  /// = gamma - gamma_min >= 0 [M L/T].
   static double solid_impulse(double p, double capacity) { return std::max(p - capacity, 0.0); }
 
   /// gamma_c + e_d s [M L/T], the lower bound of p'.
@@ -35,10 +37,10 @@ struct RestitutionLaw {
     return gamma_c + coefficient * solid_impulse;
   }
 
-  /// gamma after a blow [M L/T], within [`gamma_min`, 0]: `lowest` - `p`, with the impulse `p` = p'
-  /// of the restitution and `lowest` = gamma_c + e_d s. The impulse of the compression may have
-  /// been added to both. If the difference is 0 within its rounding error, the result is exactly 0,
-  /// because the film has then given back all. `gamma` is the value before the blow.
+  /// gamma after a blow [M L/T], within [`gamma_min`, 0]: `lowest` - `p`, where `lowest` = gamma_c
+  /// + e_d s and `p` = p'. The caller may add the impulse of the compression to both. If the
+  /// difference is 0 within its rounding error, taken as 8 units in the last place, the result is
+  /// exactly 0, because the film has then given back all. `gamma` is the value before the blow.
   static double gamma_after(double lowest, double p, double gamma_min, double gamma) {
     const double left = lowest - p;
     const double rounding =

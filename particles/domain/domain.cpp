@@ -1,6 +1,6 @@
-// The position of a plane at a given time, which is a rotation about its pivot, then a translation;
-// measures of domains, and obstacles of their walls (domain.hpp). Numbers are in the units of the
-// case. Nothing is checked or thrown. A change must keep a plane at rest bit for bit, and the order
+// Motion of planes, and areas, volumes and walls of domains; domain.hpp has the units and who uses
+// them. The motion of a plane is a rotation about its pivot and then a translation. Nothing is
+// checked or thrown. A change must keep the position of a plane at rest bit for bit, and the order
 // of the walls, by which files number obstacles.
 #include "viscontact/particles/domain/domain.hpp"
 
@@ -73,7 +73,7 @@ std::vector<Plane> walls(const BoxDomain& box) {
   return planes;
 }
 
-/// Component 0 of a vector is z and component 1 the distance from the axis, 0 for all particles.
+/// Component 0 of a vector is z, component 1 the distance from the axis, 0 for all particles.
 std::vector<Plane> walls(const CylinderDomain& cylinder) {
   return {wall({{0, -cylinder.radius, 0}, {0, 1, 0}}), wall({{0, 0, 0}, {1, 0, 0}}),
           wall({{cylinder.height, 0, 0}, {-1, 0, 0}})};

@@ -1,8 +1,9 @@
 // The domain that holds the particles and, if there is one, the fluid: a disc, a box that may be
 // periodic, or a cylinder with the particles on its axis; and the obstacles that bound the space of
-// the particles: planes (lines, for discs) and circles. A plane is at rest, moves or turns. Lengths
-// and times are in the units of the case. All contacts use them; particles/case checks the values.
-// A change must keep the numbers of obstacles in files, and normals at length 1.
+// the particles: planes (lines, for discs), which may move, and circles. Lengths and times are in
+// any consistent units. Nothing is checked or thrown; particles/case checks the values. All of
+// particles/ and freefem_flow/ use this file. A change must keep the order of obstacles, by which
+// files number them, and normals at length 1.
 #pragma once
 
 #include <array>
@@ -27,29 +28,28 @@ struct PlanePosition {
   bool operator==(const PlanePosition&) const = default;
 };
 
-/// A plane and its motion: it moves with `velocity` and turns about `pivot`, which moves with it.
-/// Without friction only the motion along its normal acts on particles.
+/// A plane and its motion: it moves with `velocity` and turns about a point, its pivot, which moves
+/// with it. Without friction only the motion along its normal acts on particles.
 struct Plane {
   PlanePosition start;         ///< position at time 0
   PiecewiseConstant velocity;  ///< [L/T]
   /// Angular velocity, which is constant [1/T]; for discs (0, 0, omega).
   Vector angular_velocity{};
-  Vector pivot{};  ///< position of the pivot at time 0 [L]
+  Vector pivot{};  ///< position at time 0 of the point about which the plane turns [L]
 
   /// Position at time t >= 0 [T].
   PlanePosition at(double t) const;
-  /// Displacement, between the times `from` and `to` [T], of the material point of the plane that
-  /// is at `point` at time `to` [L].
+  /// Displacement [L], between the times `from` and `to` [T], of the material point of the plane
+  /// that is at `point` [L] at time `to`.
   Vector displacement(const Vector& point, double from, double to) const;
   /// Velocity at time `t` [T] of the material point of the plane that is then at `point` [L/T].
   Vector surface_velocity(const Vector& point, double t) const;
 };
 
-/// Positions of all planes at time t [T], in the order of `planes`.
+/// Positions of all planes at time t >= 0 [T], in the order of `planes`.
 std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t);
 
-/// Gap D between a sphere and a plane, or a circle around it [L], docs/physics.md (5.1); < 0 if
-/// they overlap.
+/// Gap between a disc or sphere and a plane, or a circle around it [L]; < 0 if they overlap.
 inline double gap(const PlanePosition& plane, const Vector& centre, double radius) {
   if (plane.is_curved()) return plane.radius - norm(centre - plane.point) - radius;
   return dot(plane.normal, centre - plane.point) - radius;
@@ -64,42 +64,40 @@ inline Vector normal_at(const PlanePosition& plane, const Vector& centre) {
   return distance > 0 ? (1 / distance) * inward : Vector{1, 0, 0};
 }
 
-/// The plane that touches the circle at its point nearest to `centre`; a plane is returned as it
-/// is. The inside of the circle lies in its free side.
+/// The tangent to the circle at its point nearest to `centre` [L], with the circle in its free
+/// side; a plane is returned as it is.
 inline PlanePosition tangent_at(const PlanePosition& plane, const Vector& centre) {
   if (!plane.is_curved()) return plane;
   const Vector normal = normal_at(plane, centre);
   return {plane.point - plane.radius * normal, normal};
 }
 
-/// The inside of a circle, in two dimensions. Its wall is obstacle -1.
+/// The inside of a circle, in two dimensions. Its wall has the number -1 in files.
 struct DiscDomain {
   Vector centre{};    ///< [L]
   double radius = 0;  ///< [L], > 0
 };
 
-/// A rectangle in two dimensions, a cuboid in three. Its walls are the obstacles -1, -2, ... in the
-/// order left, right (across x), bottom, top (across y), in three dimensions left, right, front,
-/// back (across y), bottom, top (across z); a side that is periodic is no obstacle and has no
-/// number.
+/// A rectangle in two dimensions, a cuboid in three. Its walls have the numbers -1, -2, ... in
+/// files, in the order smallest x, largest x, smallest y, largest y, smallest z, largest z. A
+/// periodic side is no wall and has no number.
 struct BoxDomain {
-  /// Corner with the smallest coordinates [L], < `to` in each component; the third components of
-  /// both are 0 in two dimensions.
+  /// Corner with the smallest coordinates [L]; in two dimensions both third components are 0.
   std::array<double, 3> from{}, to{};  ///< the opposite corner [L]
-  std::array<bool, 3> periodic{};      ///< whether the two sides across x, y and z are one
+  std::array<bool, 3> periodic{};      ///< whether the domain is periodic along x, y and z
 
-  /// 2 or 3.
+  /// Number of dimensions, 2 or 3.
   std::size_t dimension() const { return to[2] > from[2] ? 3 : 2; }
 };
 
 /// A closed cylinder about the axis z, with its floor at z = 0. All particles are spheres on the
-/// axis. Its side is obstacle -1, which no particle reaches; its floor is -2 and its lid is -3.
+/// axis. Its side, which no particle reaches, has the number -1 in files, its floor -2, its lid -3.
 struct CylinderDomain {
   double radius = 0,  ///< [L], > 0
       height = 0;     ///< [L], > 0
 };
 
-/// monostate: no domain, so that only planes bound the particles.
+/// The domain of a case. std::monostate: there is none, so that only planes bound the particles.
 using Domain = std::variant<std::monostate, DiscDomain, BoxDomain, CylinderDomain>;
 
 /// Area of a disc or a rectangle [L^2], volume of a cuboid or a cylinder [L^3]; 0 without a domain.
@@ -114,9 +112,8 @@ inline std::array<double, 3> periods_of(const Domain& domain) {
   return periods;
 }
 
-/// The walls of a domain, at rest, in the order of the obstacles above. The wall of a disc is a
-/// circle that is seen from inside. The side of a cylinder is parallel to the axis of the
-/// particles: its gap is the distance from it, and its normal has no component along the axis.
+/// The walls of a domain, at rest, in the order of their numbers in files. The side of a cylinder
+/// is replaced by a plane parallel to the axis at the distance of its radius.
 std::vector<Plane> obstacles_of(const Domain& domain);
 
 }  // namespace viscontact::particles

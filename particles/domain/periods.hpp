@@ -1,6 +1,8 @@
-// Periods of a domain: the cell that holds the positions, and the images of a particle. Lengths are
-// in the unit of the case. Nothing is checked or thrown. The restart file stores the numbers of
-// images, so that a change must keep their meaning.
+// Periodic domains: the cell, which holds one copy of each particle, and the images of the
+// particles in the neighbouring cells. Lengths and times are in any consistent units. Nothing is
+// checked or thrown. Used in particles.hpp, setting.hpp, bodies/, membranes/, neighbours/, io/,
+// case/ and freefem_flow/membranes/. Restart files store numbers of images (image_number()), so
+// that a change must keep their meaning.
 #pragma once
 
 #include <array>
@@ -20,10 +22,11 @@ using Periods = Vector;
 struct PeriodicCell {
   Vector from{};     ///< lowest coordinates of the cell [L]
   Vector lengths{};  ///< periods along x, y and z [L]; 0 where there is no period
-  /// Mean velocity gradient du/dx, du/dy, dv/dx, dv/dy of a fluid in the cell [1/T], in two
-  /// dimensions only: an image moves relative to its particle by the gradient times its shift.
+  /// Mean gradient du/dx, du/dy, dv/dx, dv/dy of the velocity (u, v) of a fluid in the cell [1/T],
+  /// in two dimensions only. An image moves relative to its particle with the velocity gradient
+  /// times shift, where the shift is the one at the start.
   std::array<double, 4> gradient{};
-  double moved_for = 0;  ///< time since the shifts of the images were `lengths` [T], >= 0
+  double moved_for = 0;  ///< time since the start, when the shifts were along the axes [T], >= 0
 
   /// True if there is a period.
   bool is_periodic() const { return lengths[0] > 0 || lengths[1] > 0 || lengths[2] > 0; }
@@ -43,11 +46,10 @@ inline PeriodicCell cell_of(const Domain& domain) {
 }
 
 /// Number of the image that is shifted by `x`, `y` and `z` periods along the axes, each of them -1,
-/// 0 or 1. It is 0 without a shift; opposite shifts have opposite numbers. In two dimensions it is
-/// at most 4 in magnitude.
+/// 0 or 1. The number is 0 without a shift, and opposite shifts have opposite numbers.
 constexpr std::int32_t image_number(int x, int y, int z = 0) { return x + 3 * y + 9 * z; }
 
-/// Largest number of an image.
+/// Largest number of an image, image_number(1, 1, 1).
 inline constexpr std::int32_t kLargestImage = 13;
 
 /// Periods along x, y and z by which the image with number `image`, -13 to 13, is shifted.
@@ -56,7 +58,7 @@ constexpr std::array<int, 3> periods_of_image(std::int32_t image) {
   return {places % 3 - 1, places / 3 % 3 - 1, places / 9 - 1};
 }
 
-/// True if the cell has the image with this number: each axis of its shift has a period.
+/// True if the cell is periodic along each axis along which the image with this number is shifted.
 inline bool has_image(const PeriodicCell& cell, std::int32_t image) {
   const auto periods = periods_of_image(image);
   for (std::size_t d = 0; d < 3; ++d)
@@ -64,42 +66,41 @@ inline bool has_image(const PeriodicCell& cell, std::int32_t image) {
   return true;
 }
 
-/// Velocity of an image relative to its particle [L/T], if its shift at the start is `shift` [L].
+/// Velocity [L/T], relative to its particle, of an image whose shift at the start was `shift` [L].
 inline Vector velocity_at(const PeriodicCell& cell, const Vector& shift) {
   const auto& g = cell.gradient;
   return {g[0] * shift[0] + g[1] * shift[1], g[2] * shift[0] + g[3] * shift[1], 0};
 }
 
-/// Shift of an image at the start [L].
+/// Shift of an image at the start [L], along the axes.
 inline Vector shift_at_start(const PeriodicCell& cell, const Periods& periods) {
   return {periods[0] * cell.lengths[0], periods[1] * cell.lengths[1], periods[2] * cell.lengths[2]};
 }
 
-/// Velocity of an image relative to its particle [L/T]. It is added wherever velocities of
-/// particles are compared of which one is that of an image: in contacts, rigid bodies and links.
+/// Velocity of an image relative to its particle [L/T]. Contacts, rigid bodies and links add it to
+/// the velocity of a particle whose image takes part.
 inline Vector velocity_of_image(const PeriodicCell& cell, const Periods& periods) {
   return velocity_at(cell, shift_at_start(cell, periods));
 }
 
-/// Shift of an image [L], which is added to the position of the particle.
+/// The present shift of an image [L]: its position minus that of its particle.
 inline Vector shift_of(const PeriodicCell& cell, const Periods& periods) {
   return shift_at_start(cell, periods) + cell.moved_for * velocity_of_image(cell, periods);
 }
 
-/// Velocity of the image with a number (image_number) relative to its particle [L/T].
+/// Velocity, relative to its particle, of the image with number `image` (image_number()) [L/T].
 inline Vector velocity_of_image(const PeriodicCell& cell, std::int32_t image) {
   const auto [x, y, z] = periods_of_image(image);
   return velocity_of_image(cell, Periods{double(x), double(y), double(z)});
 }
-/// Shift of the image with a number [L].
+/// Present shift of the image with number `image` [L].
 inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
   const auto [x, y, z] = periods_of_image(image);
   return shift_of(cell, Periods{double(x), double(y), double(z)});
 }
 
-/// The vector at the start [L] that has become `apart` [L] by the motion of the cell:
-/// (1 + moved_for gradient)^-1 apart. The motion takes each shift of an image to
-/// (1 + moved_for gradient) times its value at the start.
+/// The inverse of the motion of the cell, applied to `apart` [L]: the motion has changed each shift
+/// of an image to (1 + moved_for gradient) times its value at the start.
 inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
   const double t = cell.is_sheared() ? cell.moved_for : 0;
   const auto& g = cell.gradient;
@@ -108,7 +109,8 @@ inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
           ((1 + t * g[0]) * apart[1] - t * g[2] * apart[0]) / determinant, apart[2]};
 }
 
-/// The periods whose shift is nearest to the vector `apart` [L]; 0 along an axis without a period.
+/// The periods by which an image is shifted if its shift is the one nearest to `apart` [L]; 0 along
+/// an axis without a period. In a sheared cell, nearest is meant before the motion of the cell.
 inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
   const auto at_start = before_the_motion(cell, apart);
   Periods periods{};
@@ -117,7 +119,7 @@ inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
   return periods;
 }
 
-/// The shortest of the vectors that differ from `apart` [L] by the shift of an image.
+/// `apart` [L] minus the shift nearest to it (periods_towards()), the shortest vector of images.
 inline Vector nearest_image(const PeriodicCell& cell, const Vector& apart) {
   return apart - shift_of(cell, periods_towards(cell, apart));
 }
@@ -128,7 +130,8 @@ inline double periods_beyond(const PeriodicCell& cell, std::size_t axis, double 
   const double from = cell.from[axis], length = cell.lengths[axis];
   if (!(length > 0)) return 0;
   const double periods = std::floor((x - from) / length);
-  // A coordinate that is below `from` by less than its rounding error counts as inside.
+  // A coordinate below `from` by less than its rounding error counts as inside, because subtracting
+  // -1 period would give from + length.
   return x - periods * length < from + length ? periods : periods + 1;
 }
 

@@ -1,6 +1,8 @@
-// Newton's method on the set of active contacts, for the dual problem (5.4) of docs/physics.md,
-// scaled as in dual_problem.hpp. dual_solver.cpp and fluid/contact_problem.cpp use it; nothing is
-// thrown. A change must keep that a call without a solution leaves z as it was.
+// Newton's method for the dual problem of a time step: find scaled impulses z >= bound of the
+// contacts with a gradient W z + linear_term >= 0, such that one of the two is an equality for each
+// contact. dual_problem.hpp has the problem and its units. dual_solver.cpp and
+// fluid/contact_problem.cpp use the method; nothing is thrown. A change must keep that a call that
+// finds no solution leaves z as it was.
 #pragma once
 
 #include <algorithm>
@@ -13,18 +15,19 @@
 namespace viscontact::particles {
 
 /// The primal-dual active set method (Hintermueller, Ito & Kunisch 2003, "The primal-dual active
-/// set strategy as a semismooth Newton method"). With g the gradient, each iteration takes the
-/// contacts with z - g < bound as active, except those that meet this condition by no more than
-/// their allowed residual. Active contacts are set to their bounds. A factor of W gives the
-/// impulses at which g = 0 at all others, the free contacts. The method ends when all residuals are
-/// allowed. A chain of any length takes a few iterations.
+/// set strategy as a semismooth Newton method"). With g the gradient, each iteration calls the
+/// contacts with z - g < bound active, except those that meet this condition by no more than their
+/// allowed residual. It sets z of the active contacts to their bounds. A factor of W then gives the
+/// z of all others, the free contacts, at which their g is 0. The method ends when no residual is
+/// larger than allowed. A chain of contacts of any length takes a few iterations.
 ///
-/// `factor` is like FreeSetFactor: factorise(problem, free) makes a factor of W between the
-/// contacts with free[c] != 0, and solve() applies it. It belongs to no other solution.
+/// `factor` has the interface of FreeSetFactor (mass_dual_problem.hpp): factorise(problem, free)
+/// makes a factor of W between the contacts with free[c] != 0 or returns false, solve(gradient,
+/// correction) applies it, and exists() says whether there is one. At the call there must be none.
 ///
 /// The method converges fast near the solution and may cycle far from it. It stops after
-/// `max_iterations` factorisations. If it has not converged then, or if W is singular or has no
-/// cheap factor, problem.z is what it was before the call, and the returned residual is infinite.
+/// `max_iterations` solutions with the factor. If it has not converged then, or if factorise()
+/// returns false, problem.z is what it was before the call, and the returned residual is infinite.
 template <SolvableDualProblem Problem, class Factor>
 SolverResult active_set_newton(Problem& problem, Factor& factor, int max_iterations) {
   const auto start = problem.z;
@@ -39,9 +42,9 @@ SolverResult active_set_newton(Problem& problem, Factor& factor, int max_iterati
   compute_gradient();
   SolverResult solved;
   while (solved.iterations < max_iterations) {
-    // Predict the free contacts. An active contact that closes by no more than its allowed residual
-    // may carry load once its neighbours do: in a column at rest, only the lowest contact closes at
-    // first.
+    // Decide which contacts are free. One whose gap closes by no more than its allowed residual
+    // counts as free too, because it may bear load once its neighbours do: in a column at rest
+    // without impulses, at first only the lowest contact closes.
     bool changed = false;
     for (std::size_t c = 0; c < problem.count(); ++c) {
       const double slack = 1 / problem.per_allowed[c];
@@ -51,12 +54,12 @@ SolverResult active_set_newton(Problem& problem, Factor& factor, int max_iterati
       if (is_free == 0) problem.z[c] = problem.bound[c];
     }
     if ((changed || !factor.exists()) && !factor.factorise(problem, free)) break;
-    // Solve for their impulses.
+    // Solve for the impulses of the free contacts.
     compute_gradient();
     factor.solve(gradient, correction);
     for (std::size_t c = 0; c < problem.count(); ++c) {
       problem.z[c] -= correction[c];
-      // A contact that touches without load misses its bound only by rounding errors.
+      // A contact that touches without load is below its bound only by a rounding error.
       const double slack = 1 / problem.per_allowed[c];
       if (problem.z[c] < problem.bound[c] && problem.z[c] > problem.bound[c] - slack)
         problem.z[c] = problem.bound[c];

@@ -1,6 +1,6 @@
-// Numbers the bodies, joins islands, and passes both to the solver. Equations and units are those
-// of contact_system.hpp. Nothing is thrown. A change must keep the order of bodies, on which
-// results depend.
+// Numbers the particles that take part in a step, finds the sets that contacts connect (islands),
+// and calls the solver for the impulses. contact_system.hpp has the symbols, the units and who uses
+// it. Nothing is thrown. A change must keep the order of bodies, which rounding errors depend on.
 #include "viscontact/particles/dual_problem/contact_system.hpp"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ std::int32_t ContactSystem<D>::island(std::int32_t body) {
   for (;;) {
     auto& of = island_of_[index_of(body)];
     if (of == body) return body;
-    of = island_of_[index_of(of)];  // path halving
+    of = island_of_[index_of(of)];  // path halving: the parent becomes the grandparent
     body = of;
   }
 }

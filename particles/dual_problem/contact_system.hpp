@@ -1,6 +1,7 @@
-// The contacts and particles that take part in the projection of a step, as the dual problem (5.4)
-// of docs/physics.md needs them. Lengths, masses and times are in the units of the case.
-// projection/ and constraints/ use it; nothing is thrown. Results depend on the order of contacts.
+// The contacts and particles of the problem that a time step solves, docs/physics.md (5.4), for the
+// impulses of contacts. Lengths, masses and times are in any consistent units. projection/ and
+// constraints/ use it; nothing is checked or thrown. A change must keep the order of contacts and
+// bodies, because rounding errors, and with redundant contacts also the impulses, depend on it.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +16,16 @@
 
 namespace viscontact::particles {
 
-/// Particles that take part are called bodies, also if they belong to a rigid body; they are
-/// numbered in the order in which the contacts name them. Contacts are only added, never removed. h
-/// is the length of the step, u* the velocity without contacts, v that with them, and m the mass.
+/// Each particle that takes part is called a body here, also if it belongs to a rigid body. Bodies
+/// are numbered in the order in which the contacts name them. Bodies that contacts connect,
+/// directly or through other bodies, form an island. Contacts are only added. h is the length of
+/// the step [T], u* the velocity of a body without contacts [L/T], v with them, m its mass [M].
 template <int D>
 class ContactSystem {
  public:
-  /// `displacements`: h u* of all particles, a flat array [L]. `mobilities`: h/m of all particles
-  /// [T/M]. `rigid_bodies`: if one particle of a rigid body takes part, all do. All must outlive
-  /// this object.
+  /// `displacements`: h u* of all particles [L], D numbers for each. `mobilities`: h/m of all
+  /// particles [T/M], > 0. `rigid_bodies`: if one particle of a rigid body takes part, all do. All
+  /// must outlive the object.
   ContactSystem(std::span<double> displacements, std::span<const double> mobilities,
                 const RigidBodies& rigid_bodies)
       : displacements_(displacements),
@@ -31,27 +33,28 @@ class ContactSystem {
         rigid_bodies_(rigid_bodies),
         body_of_(mobilities.size(), -1) {}
 
-  /// Adds a contact and makes its particles take part. Particles of a contact are in one island.
+  /// Adds a contact, makes its particles take part, and joins them to one island.
   void add(const Contact<D>& contact);
 
-  /// Makes two particles take part, in one island. `first` may be -1: only `second`.
+  /// Makes two particles take part, in one island; if `first` is -1, only `second`.
   void connect(std::int32_t first, std::int32_t second);
 
-  /// Solves the dual problem, with the impulses of `contacts` as the guess. Sets these impulses,
-  /// and the displacements h v of the bodies in the array of the constructor. If `is_rough`, the
-  /// solution serves only to find contacts that must be added (MassDualProblem).
+  /// Solves the dual problem, with the impulses of `contacts` as the first guess and at most
+  /// `max_iterations` > 0 iterations. Sets these impulses, and in the array of the constructor the
+  /// displacements h v of the bodies. If `is_rough`, the caller uses the solution only to find
+  /// contacts that it must add. If it is not solved, SolverResult::residual is larger than 1.
   SolverResult solve(bool is_rough, int max_iterations, ThreadPool& pool);
 
-  /// The contacts, with the numbers of particles, not of bodies. `impulse` and `allowed` may be
-  /// changed.
+  /// The contacts, which name particles by their own numbers, not by those of bodies. A caller may
+  /// change `impulse` and `allowed` of a contact, and nothing else.
   std::vector<Contact<D>> contacts;
 
   const std::vector<std::int32_t>& bodies() const { return bodies_; }  ///< particle of each body
-  /// Body of a particle; -1 if the particle does not take part.
+  /// Number of the body that a particle is; -1 if the particle does not take part.
   std::int32_t body_of(std::int32_t particle) const { return body_of_[index_of(particle)]; }
   /// Displacement h u* of a body: D numbers [L].
   const double* free_displacement(std::size_t body) const { return &free_[body * D]; }
-  /// The body that stands for all bodies that contacts connect with `body` (union-find).
+  /// The body that represents the island of `body`; add() and connect() may change it.
   std::int32_t island(std::int32_t body);
 
  private:
@@ -63,12 +66,12 @@ class ContactSystem {
   const RigidBodies& rigid_bodies_;
   std::vector<std::int32_t> bodies_, body_of_;
   std::vector<double> free_, body_mobilities_;
-  // Islands as a forest of union-find: the parent of each body, which is another body of its
-  // island, or the body itself if it is the root.
+  // The islands as trees (union-find): the parent of each body, which is another body of its
+  // island, or the body itself if it is the root, which represents the island.
   std::vector<std::int32_t> island_of_;
   std::vector<std::size_t> island_sizes_;  // number of bodies of each island, at its root
   std::size_t largest_island_ = 1;
-  FreeSetFactor<D> factor_;  // of the last solve that needed it
+  FreeSetFactor<D> factor_;  // of the last solve() that needed a factor, for the next one
 };
 
 }  // namespace viscontact::particles

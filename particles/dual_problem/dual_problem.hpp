@@ -1,8 +1,10 @@
-// The dual problem (5.4) of docs/physics.md of one time step, in scaled unknowns, and what its
-// solvers ask of it. It is the same whatever resists the impulses: masses (MassDualProblem), or a
-// fluid (FluidDualProblem and DenseDualProblem in fluid/contact_problem.cpp). Lengths, masses and
-// times are in the units of the case. Nothing is thrown. A change must keep gamma exact at its
-// bound. Used by active_set_newton.hpp, mass_dual_problem.hpp and mprgp.hpp.
+// The problem for the impulses of the contacts in one time step (the dual problem (5.4) of
+// docs/physics.md) in scaled unknowns, and the functions that its solvers call. The same problem
+// describes particles whose motion their masses resist (MassDualProblem) and particles in a fluid
+// (FluidDualProblem and DenseDualProblem in fluid/contact_problem.cpp). Lengths, masses and times
+// are in any consistent units; in a fluid M stands for M/L. Nothing is checked or thrown. Used by
+// active_set_newton.hpp, mass_dual_problem.hpp and mprgp.hpp. A change must keep that an impulse at
+// its bound has exactly the bits of the bound.
 #pragma once
 
 #include <algorithm>
@@ -20,50 +22,54 @@ namespace viscontact::particles {
 /// How the solution of a dual problem ended.
 struct SolverResult {
   int iterations = 0;  ///< number of iterations done, >= 0
-  /// Largest DualProblem::residual. All contacts have converged if it is at most 1.
+  /// Largest DualProblem::residual() [1]. All contacts have converged if it is at most 1.
   double residual = 0;
 };
 
-/// The dual problem in impulses p = h lambda, where h is the length of the step and lambda are the
-/// forces of the contacts. Without contact, particles move by h u*, and impulses add the mobility S
-/// times G^T p, where G v is the velocity at which gaps open. D are the gaps at the beginning of
-/// the step, and gamma^n the lower bounds of the impulses. The problem is
+/// The unknowns are the impulses p [M L/T] of the contacts. Without them the particles move by h u*
+/// [L] in the step of length h. Impulses change this displacement by S G^T p, where S [T/M] is the
+/// mobility (displacement per impulse), and the matrix G gives the velocities G v at which the gaps
+/// open from the velocities v of the particles. D [L] are the gaps at the beginning of the step,
+/// and gamma^n <= 0 [M L/T] the lower bounds of the impulses: a film between two particles can give
+/// back at most the impulse -gamma^n that it has absorbed. The problem is
 ///
 ///     minimise  1/2 p^T W p + b^T p  over  p_ij >= gamma_ij^n,
 ///     W = G S G^T,   b = D + h G u*;   the gradient W p + b is D + h G v.
 ///
-/// If gamma_ij^n = 0, the solution has p_ij >= 0 and D_ij + h G_ij v >= 0, and one of them is 0. If
-/// gamma_ij^n < 0, a pull of at most -gamma_ij^n keeps D_ij + h G_ij v = 0. If more would be
-/// needed, the pair separates within the step. All contacts are decided together.
+/// with the velocities v of the solution. For each contact ij, the solution has p_ij >= gamma_ij^n
+/// and a gap D_ij + h G_ij v >= 0 at the end of the step, and one of the two is an equality. If
+/// gamma_ij^n < 0, a pull of at most -gamma_ij^n thus keeps the gap at 0; if more would be needed,
+/// the gap opens within the step.
 ///
-/// The problem is scaled so that W has about the diagonal 1. With w = Contact::w, the unknowns are
-/// z = sqrt(w) p, and the gradient of contact c is divided by sqrt(w).
+/// The problem is scaled so that the diagonal of W is about 1. With w = Contact::w, the diagonal of
+/// W or an estimate of it [T/M], the scaled impulses are z = sqrt(w) p, and the gradient of contact
+/// c is divided by sqrt(w). Both have the dimension of sqrt(w) times an impulse.
 class DualProblem {
  public:
   std::vector<double> z;            ///< scaled impulses z = sqrt(w) p
   std::vector<double> bound;        ///< lower bound of z: sqrt(w) gamma^n
   std::vector<double> linear_term;  ///< b/sqrt(w): the gradient at z = 0
   std::vector<double> scale;        ///< sqrt(w)
-  std::vector<double> per_allowed;  ///< `scale` divided by the allowed residual of the contact
+  std::vector<double> per_allowed;  ///< sqrt(w) over the allowed residual of the contact [L]
 
   /// Number of contacts.
   std::size_t count() const { return z.size(); }
-  /// True if z_c is above its bound.
+  /// True if z of contact c is above its bound: the contact is then called free.
   bool is_free(std::size_t c) const { return z[c] > bound[c]; }
 
-  /// Residual |min(D + h G v, w (p - gamma^n))| of contact c, divided by the residual that is
-  /// allowed for it, for impulse z_c and gradient g_c. The contact has converged if this is at most
-  /// 1.
+  /// Residual |min(D + h G v, w (p - gamma^n))| of contact c over the residual that is allowed for
+  /// it [1], with the scaled impulse `z_c` and gradient. At most 1 means that the contact has
+  /// converged.
   double residual(std::size_t c, double z_c, double gradient) const {
     return per_allowed[c] * contact_residual(gradient, z_c - bound[c]);
   }
 
-  /// h lambda of contact c [M L/T]. A contact at its bound returns exactly gamma, so that no
-  /// rounding error of z/scale remains in the new gamma.
+  /// Impulse p of contact c [M L/T]. At the bound it is exactly Contact::lowest, so that the
+  /// rounding error of z/scale does not get into the next gamma.
   double impulse(std::size_t c) const { return z[c] == bound[c] ? lowest_[c] : z[c] / scale[c]; }
 
  protected:
-  /// Makes room for this number of contacts, each of which set() must set.
+  /// Makes room for `contacts` contacts. The caller must call set() for each.
   explicit DualProblem(std::size_t contacts)
       : z(contacts),
         bound(contacts),
@@ -85,16 +91,18 @@ class DualProblem {
   }
 
  private:
-  std::vector<double> lowest_;  // Contact::lowest, as given
+  std::vector<double> lowest_;  // Contact::lowest: gamma^n [M L/T]
 };
 
-/// A dual problem whose products with W are known. A vector y = B z, of displacement_count()
-/// numbers, holds what the scaled impulses z cause, in a form of the problem's own that is linear
+/// A dual problem that can compute products with its scaled matrix W. It does so by a vector y = B
+/// z of displacement_count() numbers. What these numbers are is up to the problem; they are linear
 /// in z:
 ///
-/// - to_bodies(z, y) computes y = B z and returns z^T W z,
-/// - combine(y, factor, into) replaces `into` by y + factor * into and returns z^T W z of the sum,
-/// - to_contact(c, y) is (W z)_c.
+/// - to_bodies(z, y) computes y = B z and returns z^T W z;
+/// - combine(y, factor, into) replaces `into` by y + factor * into, which is B z for some z, and
+///   returns z^T W z for this z;
+/// - to_contact(c, y) returns entry c of W z;
+/// - pool() returns the threads for loops over contacts.
 template <class Problem>
 concept SolvableDualProblem = std::derived_from<Problem, DualProblem> &&
     requires(Problem& problem, std::span<const double> z, std::span<double> y, std::size_t c) {

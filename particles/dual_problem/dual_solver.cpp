@@ -1,6 +1,8 @@
-// Chooses between conjugate gradients, a sparse factor and Newton's method for the dual problem. A
-// problem that is not solved is reported by its residual, not thrown. The constants change how long
-// a solution takes, and the results within the tolerances.
+// Solves the dual problem of a time step (mass_dual_problem.hpp): chooses between conjugate
+// gradients, a sparse factor of the matrix W and Newton's method. A problem that is not solved is
+// reported by its residual, not thrown. contact_system.cpp uses it. The constants change how long a
+// solution takes, and results within the tolerances. A change must keep results independent of the
+// number of threads.
 #include <algorithm>
 #include <cstddef>
 #include <span>
@@ -14,32 +16,33 @@
 namespace viscontact::particles {
 namespace {
 
-/// A factor of W between the free contacts, if there is one, and otherwise a sweep of symmetric
-/// Gauss-Seidel over them: (I + L^T)^-1 (I + L)^-1, L the strictly lower triangle of W between the
-/// free contacts of a block. Each block of the thread pool is swept by itself, so that the blocks
-/// can be swept at once. The number of blocks does not depend on the number of threads.
+/// Approximates the inverse of W between the free contacts (z above its bound): by a sparse factor
+/// if there is one, and otherwise by a sweep of symmetric Gauss-Seidel, (I + L^T)^-1 (I + L)^-1,
+/// where L is the strictly lower triangle of W between the free contacts of a block. Each block of
+/// the thread pool is swept by itself, so that threads can sweep several blocks at a time. The
+/// number of blocks does not depend on the number of threads.
 template <int D>
 class Preconditioner {
  public:
-  /// Tells Mprgp that sweeps() may be true.
+  /// Tells Mprgp (mprgp.hpp) that sweeps() may be true.
   static constexpr bool kMaySweep = true;
 
-  /// Both arguments must outlive the object.
+  /// `problem` and `factor` must outlive the object.
   Preconditioner(const MassDualProblem<D>& problem, FreeSetFactor<D>& factor)
       : problem_(problem), factor_(factor), half_swept_(problem.count()) {}
 
-  /// True if there is no factor.
+  /// True if there is no factor, so that the preconditioner is the sweep.
   bool sweeps() const { return !factor_.exists(); }
 
-  /// Makes a factor of W between the contacts that are free now. Returns false if the factor would
-  /// have too many entries or cannot be computed.
+  /// Makes a factor of W between the contacts that are free now. Returns false, without a factor,
+  /// if it would have too many entries or cannot be computed.
   bool factorise() {
     std::vector<char> free(problem_.count());
     for (std::size_t c = 0; c < problem_.count(); ++c) free[c] = problem_.is_free(c) ? 1 : 0;
     return factor_.factorise(problem_, free);
   }
 
-  /// The forward half of the sweep, half_swept = (I + L)^-1 gradient, which must precede apply().
+  /// The forward half of the sweep, half_swept_ = (I + L)^-1 gradient, which each apply() needs.
   void sweep_forward(std::span<const double> gradient) {
     problem_.pool().for_blocks(problem_.count(), [&](std::size_t begin, std::size_t end) {
       auto y = problem_.block_bodies(begin);
@@ -48,14 +51,16 @@ class Preconditioner {
     });
   }
 
-  /// The same for one contact; `y` are the displacements of the block's bodies up to this contact.
+  /// The same for contact `c`. `y` are the displacements of the bodies of its block that the
+  /// contacts before it have caused; its own are added.
   void sweep_forward(std::size_t c, double gradient, bool is_free, double* y) {
     const double t = is_free ? gradient - problem_.to_contact_in_block(c, y) : 0.0;
     half_swept_[c] = t;
     problem_.add_in_block(c, t, y);
   }
 
-  /// Sets swept to the preconditioner times the gradient, and y = B swept. Returns swept.gradient.
+  /// Sets `swept` to the preconditioner times the gradient, and `y` to B swept (dual_problem.hpp).
+  /// Returns the inner product of `swept` and the gradient.
   double apply(std::span<const double> gradient, std::vector<double>& swept,
                std::vector<double>& y) const {
     const double product =
@@ -65,7 +70,7 @@ class Preconditioner {
   }
 
  private:
-  /// The backward half of the sweep: swept = (I + L^T)^-1 half_swept. Returns swept.gradient.
+  /// The backward half of the sweep: swept = (I + L^T)^-1 half_swept_. Returns as apply().
   double sweep_back(std::span<const double> gradient, std::vector<double>& swept,
                     std::vector<double>& y) const {
     return problem_.pool().template sum_of_blocks<double>(
@@ -80,7 +85,7 @@ class Preconditioner {
             product += s * gradient[c];
             problem_.add_in_block(c, s, sums.data());
           }
-          // With a single block, B swept is known already.
+          // With a single block, `sums` is B swept.
           if (problem_.count() <= ThreadPool::kBlock) std::swap(y, sums);
           return product;
         });
@@ -98,20 +103,23 @@ SolverResult solve_dual_problem(MassDualProblem<D>& problem, int max_iterations,
                                 FreeSetFactor<D>& factor) {
   Mprgp mprgp(problem, Preconditioner<D>(problem, factor));
   SolverResult solved;
-  // Numbers of iterations with the same free contacts after which a (new) factor is worth its cost.
-  // If a factor exists, a few iterations without convergence show that the free contacts have
-  // changed. The rough solution of a step changes them often and seldom needs a factor. For the
-  // accurate solution, 10 instead of 30 saves 7 % of the time on bench/box2d.cpp.
+  // After so many iterations with the same free contacts, a (new) factor is made. If a factor
+  // exists but the iterations have not converged, it belongs to other free contacts. A rough
+  // solution (MassDualProblem::is_rough) changes the free contacts often, so that a factor would
+  // soon be too old. For an accurate one, 10 in place of 30 saves 7 % of the time on
+  // bench/box2d.cpp.
   constexpr int kPatienceWithFactor = 10;
   const int patience_without = problem.is_rough ? 40 : 10;
-  // Newton's method comes first where contacts form almost no cycles (chains, columns), unless the
-  // guess is already exact, because in a long chain even small residuals mean large errors of the
-  // impulses. In packings it may cycle, so that it is tried only after many iterations.
+  // Where contacts form chains or columns, with almost no cycles, Newton's method comes first,
+  // because conjugate gradients take about as many iterations as a chain has contacts. In packings
+  // it may fail, so that it is tried only after many iterations.
   constexpr int kLongPatience = 300, kNewtonIterations = 10;
   constexpr std::size_t kLongChain = 6;  // shorter chains take fewer sweeps than a factor costs
   const bool has_chains = problem.largest_island > kLongChain &&
                           problem.count() < problem.bodies() + problem.bodies() / 8;
-  // A guess with a residual of at most this fraction of the allowed residual counts as exact.
+  // If the residual of the guess is at most this fraction of the allowed one, the guess counts as
+  // exact and Newton's method is not needed. The fraction is small, because in a long chain even
+  // small residuals mean large errors of the impulses.
   constexpr double kNearlySolved = 1e-4;
   const auto newton = [&] {
     FreeSetFactor<D> of_newton(0);

@@ -1,6 +1,7 @@
-// Builds and applies the sparse Cholesky factor of W with Eigen. The scaling is that of
-// mass_dual_problem.hpp, without dimension. If the factor cannot be computed, this is no error:
-// exists() is then false. A change must keep one order of elimination, for equal results.
+// FreeSetFactor (mass_dual_problem.hpp): computes and applies a sparse Cholesky factor of the
+// matrix W of the dual problem with Eigen. W is scaled and has no dimension. If the factor cannot
+// be computed, nothing is thrown: exists() is then false. dual_solver.cpp uses it. A change must
+// keep that the order of elimination depends on the pattern of W alone.
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <utility>
@@ -13,8 +14,8 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Lower triangle of W + epsilon between the `free` contacts. The rows of all other contacts are
-/// those of the identity, so that the pattern does not depend on which contacts are free.
+/// Lower triangle of W + epsilon I. Entries of contacts that are not `free` are stored as 0 beside
+/// the diagonal 1 + epsilon, so that the pattern does not depend on `free`.
 template <int D>
 SparseMatrix lower_triangle(const MassDualProblem<D>& problem, const std::vector<char>& free,
                             double epsilon) {
@@ -33,7 +34,7 @@ SparseMatrix lower_triangle(const MassDualProblem<D>& problem, const std::vector
     w.insertBack(j, j) = 1 + epsilon;
     for (std::size_t k = 0; k < column.size(); ++k) {
       const auto [i, entry] = column[k];
-      // Two contacts that share both of their particles give two entries for one place.
+      // If two contacts share both of their particles, their entry comes in two parts.
       if (k > 0 && column[k - 1].first == i)
         w.coeffRef(i, j) += entry;
       else
@@ -48,8 +49,8 @@ SparseMatrix lower_triangle(const MassDualProblem<D>& problem, const std::vector
 
 template <int D>
 struct FreeSetFactor<D>::Factor {
-  /// Eigen's factorisation, extended by the number of entries of the factor, which is known after
-  /// the analysis of the pattern and before the computation.
+  /// Eigen's factorisation with access to the number of entries of the factor, which is known from
+  /// the pattern before the factor is computed.
   class Cholesky : public Eigen::SimplicialLLT<SparseMatrix> {
    public:
     Eigen::Index symbolic_entries() const { return m_nonZerosPerCol.sum(); }
@@ -57,8 +58,8 @@ struct FreeSetFactor<D>::Factor {
 
   std::vector<char> free;  // 1 for the contacts that were factorised
   Cholesky cholesky;
-  bool pays = false;
-  bool complete = false;  // the factor has been computed, not only its pattern
+  bool pays = false;      // the factor has few enough entries
+  bool complete = false;  // the factor itself has been computed, not only its pattern
 };
 
 template <int D>
@@ -77,9 +78,9 @@ bool FreeSetFactor<D>::factorise(const MassDualProblem<D>& problem, const std::v
   if (factor_ == nullptr || factor_->free.size() != problem.count()) {
     factor_ = std::make_unique<Factor>();
     factor_->cholesky.analyzePattern(w);
-    // Chains have 2 entries a contact, packings of discs about 20 (at 20 000 contacts). Packings of
-    // spheres have more: for 1000 spheres that come to rest, a run with the factor took 1.2 times
-    // as long as with sweeps.
+    // The factor has 2 entries per contact in a chain, and about 20 in a packing of discs (with
+    // 20000 contacts). Packings of spheres have more, and are excluded: for 1000 spheres that come
+    // to rest, a run with the factor took 1.2 times as long as with Gauss-Seidel sweeps.
     constexpr Eigen::Index kMostEntries = 40;
     factor_->pays = factor_->cholesky.symbolic_entries() <= kMostEntries * (w.cols() + 1);
   }

@@ -1,5 +1,6 @@
-// Builds the arrays of a MassDualProblem and combines displacements. Equations and units are those
-// of mass_dual_problem.hpp. Nothing is thrown. A change must keep the order of all sums.
+// Fills the arrays of a MassDualProblem, the problem for the impulses of contacts in a time step;
+// mass_dual_problem.hpp has the equations, the units and who uses it. Nothing is checked or thrown.
+// A change must keep the order of all sums, because bits of results depend on it.
 #include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 #include <Eigen/Core>
@@ -44,8 +45,8 @@ MassDualProblem<D>::MassDualProblem(std::span<const Contact<D>> contacts,
   number_bodies_of_blocks();
 }
 
-/// Lists the shares of each body. Before the call, offsets_[b + 1] is the number of contacts of
-/// body b; after it, offsets_[b] is where the shares of body b begin.
+/// Fills shares_: what contacts add to the motion of each body. Before the call, offsets_[b + 1] is
+/// the number of contacts of body b; after it, offsets_[b] is where its shares begin.
 template <int D>
 void MassDualProblem<D>::list_shares() {
   const auto wall = static_cast<std::int32_t>(bodies() - 1);
@@ -63,10 +64,10 @@ void MassDualProblem<D>::list_shares() {
   }
 }
 
-/// Numbers the bodies of each block in the order in which its contacts name them.
+/// Numbers the bodies of each block of contacts in the order in which its contacts name them.
 template <int D>
 void MassDualProblem<D>::number_bodies_of_blocks() {
-  const bool is_single = rows_.size() <= ThreadPool::kBlock;  // the only block has all bodies
+  const bool is_single = rows_.size() <= ThreadPool::kBlock;  // bodies then keep their numbers
   std::vector<std::int32_t> number(bodies());
   std::vector<std::size_t> numbered_in(bodies(), 0);
   for (std::size_t begin = 0, block = 1; begin < rows_.size();
@@ -93,8 +94,7 @@ double MassDualProblem<D>::combine(std::span<const double> y, double factor,
   return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
     const auto first = static_cast<Eigen::Index>(begin * D);
     const auto size = static_cast<Eigen::Index>((end - begin) * D);
-    // Eigen adds to several partial sums at once. In a single sum each addition would wait for the
-    // one before it.
+    // Eigen's several partial sums are faster than one, where each addition waits for the last.
     const auto from = Eigen::Map<const Eigen::ArrayXd>(y.data() + first, size);
     const auto per_mobility =
         Eigen::Map<const Eigen::ArrayXd>(inverse_mobilities_.data() + first, size);

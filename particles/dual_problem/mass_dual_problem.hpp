@@ -1,10 +1,10 @@
-// The dual problem (dual_problem.hpp), (5.4) of docs/physics.md, of particles whose motion only
-// their masses resist, because there is no fluid: the contacts and bodies in flat arrays, the
-// products with the matrix W that all methods need, a sparse factor of W, and the solver. Lengths,
-// masses and times are in the units of the case; impulses and residuals are scaled as
-// dual_problem.hpp says. projection/, constraints/ and impacts/ use it. Nothing is checked or
-// thrown: the result has the residual. A change must keep the order of all sums, because the
-// results must not depend on the number of threads.
+// The problem for the impulses of contacts in a time step (dual_problem.hpp; docs/physics.md (5.4))
+// without a fluid, where only the masses of particles resist impulses: the contacts and bodies in
+// flat arrays, products with the matrix W, a sparse factor of W, and the solver. Lengths, masses
+// and times are in any consistent units; z, W and gradients are scaled as dual_problem.hpp says.
+// Nothing is checked or thrown; a result has its residual. The sources of this folder use it for
+// contact_system.hpp, which is the interface for other folders. A change must keep the order of all
+// sums, because the results must have the same bits for any number of threads.
 #pragma once
 
 #include <array>
@@ -19,37 +19,39 @@
 
 namespace viscontact::particles {
 
-/// The dual problem with the mobility S = h M^-1, where h is the length of the step and M has the
-/// masses. A contact c of the bodies i and j with the unit normal e, from i to j, has Contact::w =
-/// h/m_i + h/m_j, and the scaled W has the diagonal 1. The scaled impulses z displace the bodies by
-/// y = B z = h M^-1 G^T p [L] (b, p and G: dual_problem.hpp). The gradient of contact c and the
-/// quadratic form are then
+/// The dual problem with the mobility S = h M^-1, where h is the length of the step [T] and M the
+/// diagonal matrix of the masses m of the bodies [M]. A body here is one particle. A contact c of
+/// the bodies i and j with the unit normal e, from i to j, has Contact::w = h/m_i + h/m_j, and the
+/// scaled W has the diagonal 1. The impulses p of the contacts displace the bodies by y = h M^-1
+/// G^T p [L], where G^T p is the sum of e p at each body; y = B z is linear in the scaled impulses
+/// z = sqrt(w) p. With the gaps b_c [L] that the displacements without contacts lead to, the scaled
+/// gradient of contact c and the quadratic form are
 ///
 ///     b_c/sqrt(w) + (e.(y_j - y_i))/sqrt(w),   z^T W z = sum over the bodies b of |y_b|^2 m_b/h.
 template <int D>
 class MassDualProblem : public DualProblem {
  public:
-  /// D components of a vector in space.
+  /// A vector of the plane or of space.
   using Vec = std::array<double, D>;
 
-  /// `displacements`: h u* of each body, D numbers [L]: how far it moves in the step without
-  /// contacts. `mobilities`: h/m of each body [T/M]. All planes together are one additional body,
-  /// which does not move. `body_of` has the body of each particle; if it is empty, `first` and
-  /// `second` of a contact are numbers of bodies.
+  /// `displacements`: how far each body moves in the step without contacts, D numbers for each [L].
+  /// `mobilities`: h/m of each body [T/M], > 0. All obstacles together are one additional body,
+  /// which does not move. `body_of` has the number of the body of each particle; if it is empty,
+  /// particles and bodies have the same numbers. `pool` must outlive the object.
   MassDualProblem(std::span<const Contact<D>> contacts, std::span<const double> displacements,
                   std::span<const double> mobilities, ThreadPool& pool,
                   std::span<const std::int32_t> body_of = {});
 
-  /// Number of bodies, of which the last one stands for all planes.
+  /// Number of bodies, of which the last one represents all obstacles.
   std::size_t bodies() const { return offsets_.size() - 1; }
   std::size_t displacement_count() const { return bodies() * D; }  ///< numbers in a vector y = B z
   /// The threads. Each takes blocks of ThreadPool::kBlock contacts or bodies.
   ThreadPool& pool() const { return *pool_; }
 
-  std::size_t largest_island = 0;  ///< bodies in the largest set that contacts join
-  bool is_rough = false;           ///< true: solved only to find contacts to add
+  std::size_t largest_island = 0;  ///< bodies in the largest set that contacts connect; 0: unknown
+  bool is_rough = false;  ///< true: the caller needs the solution only to find further contacts
 
-  /// Computes y = B z, D numbers for each body [L]. Returns z^T W z.
+  /// Computes y = B z for z = `values`, D numbers for each body [L]. Returns z^T W z.
   double to_bodies(std::span<const double> values, std::span<double> y) const {
     return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
       double form = 0;
@@ -71,20 +73,17 @@ class MassDualProblem : public DualProblem {
     });
   }
 
-  /// Replaces `into` by y + factor * into, both displacements of the form B z. Returns z^T W z of
-  /// the sum.
+  /// Replaces `into` by y + factor * into, which is B z for some z. Returns z^T W z for this z.
   double combine(std::span<const double> y, double factor, std::span<double> into) const;
 
-  /// Returns (W z)_c for y = B z: the part of the gradient of contact c that the displacements
-  /// cause.
+  /// Returns entry c of W z for y = B z: what `y` adds to the gradient of contact c.
   double to_contact(std::size_t c, const double* y) const {
     const auto& row = rows_[c];
     return product(row, y + index_of(row.first) * D, y + index_of(row.second) * D);
   }
 
   // The next three functions are for sweeps through the contacts of one block of the thread pool.
-  // They know the displacements that these contacts cause, and not those of the contacts of other
-  // blocks.
+  // Their displacements are those that the contacts of this block cause, without other blocks.
 
   /// Returns zeros, D numbers for each body of the block that begins at contact `begin`.
   std::vector<double> block_bodies(std::size_t begin) const {
@@ -99,8 +98,8 @@ class MassDualProblem : public DualProblem {
     add(rows_[c], change, y + index_of(in_block_[c][0]) * D, y + index_of(in_block_[c][1]) * D);
   }
 
-  /// Calls visit(c', W_cc') for each contact c' != c that shares a particle with contact c. W_cc is
-  /// 1. If two contacts share both particles, `visit` is called twice.
+  /// Calls visit(c', W_cc') for each contact c' != c that shares a particle with contact c. If two
+  /// contacts share both particles, `visit` is called twice, with two parts of the entry.
   template <class Visit>
   void visit_neighbours(std::size_t c, const Visit& visit) const {
     const auto& row = rows_[c];
@@ -121,7 +120,7 @@ class MassDualProblem : public DualProblem {
 
  private:
   struct Row {
-    // The number of a plane is that of the last body, which does not move.
+    // Numbers of bodies; an obstacle has that of the last body, which does not move.
     std::int32_t first, second;
     Vec normal;
     double per_root;             // 1/sqrt(w)
@@ -129,9 +128,9 @@ class MassDualProblem : public DualProblem {
   };
   struct Share {
     std::int32_t contact;
-    Vec push;  // displacement of the body for z = 1
+    Vec push;  // displacement of the body if z of this contact is 1
   };
-  // The vectors of discs fit into one register, but GCC 12 does not use it without this type.
+  // A vector of the plane fits into one register, but GCC 12 does not use it without this type.
   using Double2 [[gnu::vector_size(16)]] = double;
   static Double2 load(const double* from) { return Double2{from[0], from[1]}; }
 
@@ -166,36 +165,37 @@ class MassDualProblem : public DualProblem {
   ThreadPool* pool_;
 };
 
-/// A sparse Cholesky factor of the matrix W between chosen contacts, with diagonal 1. It serves
-/// dual_solver.cpp as a solver and as a preconditioner. The chosen contacts are those that are
-/// free: their z is above the bound, and their linearised gap is 0.
+/// A sparse Cholesky factor of the scaled matrix W between chosen contacts. dual_solver.cpp uses it
+/// as a solver and as a preconditioner. The chosen contacts are the free ones, whose z is above the
+/// bound.
 ///
-/// Chains, and packings at rest, have as many contacts with impulses as degrees of freedom. W is
-/// then so ill-conditioned that iterative methods take as many iterations as a chain has contacts.
-/// The factor solves for all impulses between the chosen contacts at once.
+/// Chains, and packings at rest, have about as many contacts with impulses as degrees of freedom. W
+/// is then so ill-conditioned that iterative methods take about as many iterations as a chain has
+/// contacts. The factor solves for all impulses between the chosen contacts in one step.
 template <int D>
 class FreeSetFactor {
  public:
   /// `epsilon` >= 0 is added to the diagonal of W, which is 1. W is singular if contacts are
-  /// redundant; epsilon then bounds the impulses that these contacts exert on each other.
+  /// redundant. 1e-10 is far above rounding errors, and far below 1.
   explicit FreeSetFactor(double epsilon = 1e-10);
   ~FreeSetFactor();
 
-  /// Factorises W between the contacts c with `free[c]`. Returns false, and leaves no factor, if
-  /// the factor would have so many entries that iterations are cheaper (as in packings of spheres)
-  /// or if W cannot be factorised. Calls with the same number of contacts share one order of
-  /// elimination.
+  /// Factorises W between the contacts c with free[c] != 0. Returns false, and leaves no factor, if
+  /// the factor would have so many entries that iterations without it are cheaper (as in packings
+  /// of spheres), or if W cannot be factorised. Calls with the same number of contacts must be for
+  /// the same contacts, because they share one order of elimination.
   bool factorise(const MassDualProblem<D>& problem, const std::vector<char>& free);
   /// True if the last factorise() succeeded.
   bool exists() const;
 
-  /// Sets solved = (W + epsilon)^-1 gradient between the contacts of the factor, 0 for all others.
+  /// Sets solved = (W + epsilon I)^-1 gradient for the contacts of the factor, 0 for all others.
   void solve(std::span<const double> gradient, std::span<double> solved) const;
 
   /// Applies the factor as a preconditioner, which is symmetric and positive definite on the
-  /// contacts that are free now. Free contacts without a row in the factor keep their gradient;
+  /// contacts that are free now. Free contacts that the factor does not have keep their gradient;
   /// contacts that are not free get 0. `problem` is that of factorise(), or this problem with
-  /// further contacts at its end. Returns solved.gradient.
+  /// further contacts at its end. Returns the inner product of `solved` and `gradient`. As for
+  /// solve(), exists() must be true.
   double precondition(const MassDualProblem<D>& problem, std::span<const double> gradient,
                       std::span<double> solved) const;
 
@@ -205,16 +205,15 @@ class FreeSetFactor {
   std::unique_ptr<Factor> factor_;
 };
 
-/// Solves the dual problem by projected conjugate gradients (mprgp.hpp), preconditioned by sweeps
-/// of symmetric Gauss-Seidel or, if these take long and it is cheap, by a FreeSetFactor. Newton's
-/// method (active_set_newton.hpp) solves chains of contacts, and is tried if the other methods take
-/// many iterations.
+/// Solves the dual problem by projected conjugate gradients (mprgp.hpp). Their preconditioner is a
+/// sweep of symmetric Gauss-Seidel or, if many iterations are needed and the factor is cheap, a
+/// FreeSetFactor. Newton's method (active_set_newton.hpp) is tried first on chains of contacts, and
+/// otherwise after many iterations.
 ///
-/// Improves problem.z, which begins as a guess, until all residuals are at most 1 or
-/// `max_iterations` are done. Redundant contacts have impulses of which the velocities determine
-/// only sums; their values depend on the guess. `factor` belongs to earlier solves of the same
-/// step, whose problem may have had fewer contacts. This function uses the factor and may replace
-/// it.
+/// Improves the guess problem.z until all residuals are at most 1 or `max_iterations` are done. If
+/// contacts are redundant, the velocities determine only sums of their impulses; the single
+/// impulses then depend on the guess. `factor` may come from an earlier call for the same step,
+/// whose problem may have had fewer contacts. This function uses it and may replace it.
 template <int D>
 SolverResult solve_dual_problem(MassDualProblem<D>& problem, int max_iterations,
                                 FreeSetFactor<D>& factor);

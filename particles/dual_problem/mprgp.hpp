@@ -1,9 +1,9 @@
 // Modified proportioning with reduced gradient projections, MPRGP (Dostal & Schoeberl 2005,
 // "Minimizing quadratic functions subject to bound constraints with the rate of convergence and
-// finite termination"), for the dual problem (5.4) of docs/physics.md, scaled as in
-// dual_problem.hpp. dual_solver.cpp and fluid/contact_problem.cpp use it; nothing is thrown. Sums
-// must be taken in blocks of the thread pool, so that the results do not depend on the number of
-// threads.
+// finite termination"): minimises z^T W z/2 + b^T z over z >= bound, the scaled problem for the
+// impulses of contacts in a time step, whose quantities dual_problem.hpp explains. dual_solver.cpp
+// and fluid/contact_problem.cpp use it; nothing is thrown. A change must keep that sums are taken
+// in blocks of the thread pool, so that the results do not depend on the number of threads.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,16 +18,19 @@
 
 namespace viscontact::particles {
 
-/// The state of the iteration: z, its gradient g and the direction in which z moves. Free contacts
-/// have z above the bound. PassStatistics below defines the free and the chopped gradient. A step
-/// is one of three:
+/// The state of the iteration: z, the gradient g = W z + b, and the direction in which z moves.
+/// Contacts with z above the bound are called free. The free gradient is g on the free contacts;
+/// the chopped gradient is the negative part of g on the other ones, which would move them off the
+/// bound. A step is one of three:
 ///
 /// - proportioning: along the chopped gradient, if it is larger than the free gradient;
 /// - otherwise a preconditioned conjugate gradient step;
-/// - expansion: if that step would leave the bounds, a projected step instead.
+/// - expansion: if that step leaves the bounds, it is projected on them.
 ///
-/// `Preconditioner` has apply(gradient, swept, y). With kMaySweep it also has sweeps(), factorise()
-/// and both sweep_forward(), as in dual_solver.cpp.
+/// `Preconditioner` has apply(gradient, swept, y), which sets swept to the preconditioned gradient
+/// and y to B swept (dual_problem.hpp) and returns their slope, the inner product of swept and
+/// gradient. If its kMaySweep is true, it also has sweeps(), factorise() and both sweep_forward()
+/// of dual_solver.cpp.
 template <SolvableDualProblem Problem, class Preconditioner>
 class Mprgp {
  public:
@@ -43,8 +46,7 @@ class Mprgp {
     refresh();
   }
 
-  /// Projects z on its bounds and computes the gradient from z itself, which removes the rounding
-  /// errors of many updates.
+  /// Projects z on its bounds and computes the gradient without the rounding errors of updates.
   void refresh() {
     problem_.pool().for_blocks(problem_.count(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t c = begin; c < end; ++c)
@@ -65,22 +67,23 @@ class Mprgp {
     restart_ = true;
   }
 
-  /// Largest residual, divided by what is allowed: at most 1 if all contacts have converged.
+  /// Largest residual of a contact over its allowed residual [1]: at most 1 if all contacts have
+  /// converged. After some steps it is that of up to three steps before.
   double residual() const { return statistics_.residual; }
 
-  /// Solves the problem without the regularisation from now on.
+  /// Omits the regularisation (regularisation_) from now on.
   void drop_regularisation() {
     regularisation_ = 0;
     refresh();
   }
 
-  /// Makes a new factor for the preconditioner. Returns false if there is none.
+  /// Makes a new factor for the preconditioner. Returns false if it cannot be made.
   bool factorise() {
     restart_ = true;
     return preconditioner_.factorise();
   }
 
-  /// Number of steps since the set of free contacts last changed.
+  /// Number of conjugate gradient steps since contacts last became free or got to their bounds.
   int steps_between_same() const { return steps_between_same_; }
 
   /// Makes one step. Returns the number of products with W that it took.
@@ -89,8 +92,8 @@ class Mprgp {
     if (restart_) start_directions();
     before_ = problem_.z;
     ++steps_between_same_;
-    // If contacts contradict each other, the objective falls almost without end. The bound is a
-    // free choice.
+    // If contacts contradict each other, the objective has no minimum, and the length of the step
+    // is almost infinite. 1e12 is a free choice; other lengths are about 1.
     constexpr double kEndless = 1e12;
     const double length = slope_ / curvature_;
     if (!(length < kEndless)) return go_to_bound();
@@ -105,20 +108,18 @@ class Mprgp {
   }
 
  private:
-  /// Statistics of one pass over the contacts at z with gradient g.
+  /// Sums and extremes over all contacts, at z with gradient g.
   struct PassStatistics {
-    double residual = 0;  ///< largest DualProblem::residual
-    /// phi.g of the free gradient phi (g on the free contacts), in which phi is reduced so that a
-    /// projected gradient step along it stays within the bounds.
+    double residual = 0;  ///< largest DualProblem::residual()
+    /// Inner product of the free gradient and the reduced free gradient. The reduced one is at most
+    /// (z - bound)/(step length), so that a gradient step along it stays within the bounds.
     double free_slope = 0;
-    /// |beta|^2 of the chopped gradient beta: the negative part of g on the contacts at their
-    /// bound, which would leave the bound.
-    double chopped_square = 0;
+    double chopped_square = 0;  ///< sum of the squares of the chopped gradient
     double distance_to_bound = std::numeric_limits<double>::infinity();  ///< smallest z - bound
 
-    /// Adds a contact. `per_step` is 1 over the length of a projected gradient step. This function
-    /// has no branches, because which contacts are free is irregular in a packing and a processor
-    /// could not predict them.
+    /// Adds a contact with the gradient `g` and z - bound = `distance`. `per_step` is 1 over the
+    /// length of a projected gradient step. The function has no branches, because a processor could
+    /// not predict which contacts of a packing are free.
     void add(double g, double distance, double per_allowed, double per_step) {
       const bool is_free = distance > 0;
       const double phi = is_free ? g : 0.0, beta = is_free ? 0.0 : std::min(g, 0.0);
@@ -134,14 +135,13 @@ class Mprgp {
     }
   };
 
-  /// Entries `begin` to `end` as an array of Eigen, which sums faster because it uses several
-  /// partial sums.
+  /// Entries `begin` to `end` - 1 as an array of Eigen, which sums faster than a simple loop.
   static Eigen::Map<Eigen::ArrayXd> part(std::vector<double>& numbers, std::size_t begin,
                                          std::size_t end) {
     return {numbers.data() + begin, static_cast<Eigen::Index>(end - begin)};
   }
 
-  /// Returns the objective z^T W z/2 + b^T z, W with the regularisation.
+  /// Returns the objective z^T W z/2 + b^T z, where W contains the regularisation.
   double objective() {
     return problem_.pool().template sum_of_blocks<double>(
         problem_.count(), [&](std::size_t begin, std::size_t end) {
@@ -152,6 +152,7 @@ class Mprgp {
         });
   }
 
+  /// Begins conjugate gradients anew: the direction is the preconditioned gradient.
   void start_directions() {
     std::fill(direction_.begin(), direction_.end(), 0.0);
     std::fill(y_direction_.begin(), y_direction_.end(), 0.0);
@@ -163,7 +164,7 @@ class Mprgp {
     combine_directions(0);
   }
 
-  /// Sets direction = swept + beta * direction, and computes its displacements and its curvature.
+  /// Sets direction = swept + beta * direction, and computes B direction and curvature_.
   void combine_directions(double beta) {
     const auto square = problem_.pool().template sum_of_blocks<double>(
         problem_.count(), [&](std::size_t begin, std::size_t end) {
@@ -174,10 +175,10 @@ class Mprgp {
     curvature_ = problem_.combine(y_, beta, y_direction_) + regularisation_ * square;
   }
 
-  /// Subtracts length * direction from z and updates the gradient and the statistics. The forward
-  /// half of the sweep is done in the same pass, because it reads the same rows. In three of four
-  /// passes only the smallest distance to a bound is measured, because the other statistics can
-  /// wait for a few steps.
+  /// Subtracts length * direction from z and updates the gradient and the statistics. If the
+  /// preconditioner sweeps, the forward half of its sweep is part of the same loop, because it
+  /// reads the same rows. Then only every fourth call computes all statistics, to save time; the
+  /// others compute the smallest distance to a bound.
   void move(double length) {
     constexpr int kPassesBetweenMeasurements = 4;
     [[maybe_unused]] const bool measure =
@@ -194,12 +195,13 @@ class Mprgp {
     statistics_ = pass<true, false>(length);
   }
 
+  /// The loop of move(): with all statistics if kMeasure, with the forward sweep if kSweep.
   template <bool kMeasure, bool kSweep>
   PassStatistics pass(double length) {
     return problem_.pool().template sum_of_blocks<PassStatistics>(
         problem_.count(), [&](std::size_t begin, std::size_t end) {
-          // Local copies make the loop faster, because a compiler cannot know that the loop leaves
-          // the pointers of the members unchanged.
+          // Local copies make the loop faster: a compiler cannot know that the loop does not change
+          // the pointers inside the members, and would read them again for each contact.
           const double* direction = direction_.data();
           const double* y_direction = y_direction_.data();
           const double* bound = problem_.bound.data();
@@ -226,18 +228,17 @@ class Mprgp {
         });
   }
 
-  /// Expansion, after a step of this length that left the bounds. If the objective falls, keeps the
-  /// whole step, projected on the bounds. Otherwise goes to the first bound.
+  /// Expansion, after a step of this length that left the bounds: projects the new z on the bounds.
+  /// If the objective has not fallen, goes to the first bound instead. Returns the products with W.
   int expand(double length) {
-    // The objective before the step follows from its present value, because it is quadratic along
-    // the direction.
+    // The objective is a quadratic function of the length, which gives its value before the step.
     const double before = objective() + length * (slope_ - length * curvature_ / 2);
     refresh();
     return objective() < before ? 1 : 2 + go_to_bound();
   }
 
-  /// Goes from the point before the step to the first bound along the direction, if there is a
-  /// bound, and makes a projected gradient step from there. The objective falls in both.
+  /// Goes from the point before the step along the direction to the first bound, if there is one,
+  /// and makes a projected gradient step from there. Returns the products with W.
   int go_to_bound() {
     double feasible = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < problem_.count(); ++c)
@@ -249,7 +250,8 @@ class Mprgp {
     return 1 + project_gradient();
   }
 
-  /// Makes a projected gradient step, so short that the objective does not rise.
+  /// Makes a projected gradient step, after halving its length step_ until the objective does not
+  /// rise. Returns the number of products with W.
   int project_gradient() {
     const auto here = problem_.z;
     const double before = objective();
@@ -258,24 +260,24 @@ class Mprgp {
         if (problem_.is_free(c))
           problem_.z[c] = std::max(problem_.bound[c], problem_.z[c] - step_ * gradient_[c]);
       refresh();
-      // Below this step length the change of the objective is a rounding error.
+      // At this step length a rise of the objective is a rounding error, and the step is accepted.
       constexpr double kShortest = 1e-6;
       if (objective() <= before || step_ < kShortest) return products;
-      // The largest eigenvalue of W belongs to a particle with many contacts and may exceed 4.
+      // An eigenvalue of W exceeds 4, as a particle with many contacts can cause.
       step_ /= 2;
       problem_.z = here;
       refresh();
     }
   }
 
-  /// Proportioning: makes the best step along the chopped gradient, which moves contacts away from
-  /// their bounds.
+  /// Proportioning: makes the step along the chopped gradient that minimises the objective, which
+  /// moves contacts off their bounds. Returns the number of products with W.
   int leave_bounds() {
     for (std::size_t c = 0; c < problem_.count(); ++c)
       direction_[c] = !problem_.is_free(c) && gradient_[c] < 0 ? gradient_[c] : 0.0;
     const double curvature = problem_.to_bodies(direction_, y_direction_);
-    // Largest step length, where the length 1 is right for a single contact (W = 1). Contacts that
-    // contradict each other would make the length infinite.
+    // Largest step length; a single contact (W = 1) takes the length 1. Contacts that contradict
+    // each other would make the length infinite.
     constexpr double kLongest = 1e6;
     restart_ = true;
     move(std::min(statistics_.chopped_square / curvature, kLongest));
@@ -284,21 +286,21 @@ class Mprgp {
 
   Problem& problem_;
   Preconditioner preconditioner_;
-  /// Length of a projected gradient step. W has the diagonal 1, and in packings of similar
-  /// particles all its eigenvalues are at most 4.
+  /// Length of a projected gradient step: 2 over the largest eigenvalue of W, which is at most 4 in
+  /// packings of similar particles, because W has the diagonal 1.
   double step_ = 0.5;
   std::vector<double> before_;           // z before the step
-  std::vector<double> y_, y_direction_;  // displacements B z of bodies [L]
+  std::vector<double> y_, y_direction_;  // B z and B direction (dual_problem.hpp)
   std::vector<double> gradient_, direction_, swept_;
   PassStatistics statistics_;
   /// Added to the diagonal of W, which is 1. Redundant contacts make W singular: along some
   /// directions the slope and the curvature are only rounding errors, and impulses would move along
-  /// them without end. 1e-14 is far above rounding errors, and far below the curvatures of a chain
-  /// of 10 000 contacts (1e-8) and below any tolerance. Where particles are jammed in a wedge,
-  /// impulses may be so large that this term leaves a gap. It is then dropped.
+  /// them without end. 1e-14 is above rounding errors, far below the curvatures of a chain of 10000
+  /// contacts (1e-8), and below any tolerance. Where particles are jammed in a wedge, impulses may
+  /// be so large that this term leaves a gap; drop_regularisation() is for them.
   double regularisation_ = 1e-14;
-  double slope_ = 0;      // gradient.direction
-  double curvature_ = 0;  // direction^T W direction
+  double slope_ = 0;      // inner product of gradient and direction
+  double curvature_ = 0;  // direction^T W direction, with the regularisation
   bool restart_ = true;
   int steps_between_same_ = 0;
   unsigned passes_since_measurement_ = 0;

@@ -1,7 +1,8 @@
-// Finds the blows of a step in the order of their times (impacts.hpp). Numbers are in the units of
-// the case; times within the step are counted from its beginning. What is not solved is reported,
-// not thrown. A change must keep the result independent of the order of the particles, to rounding
-// errors.
+// Finds the blows of a time step, collisions of solids that rebound, in the order of their times
+// (impacts.hpp, which has the symbols and who uses them). Lengths, masses and times are in any
+// consistent units; a time `t` is counted from the beginning of the step, 0 to its length h. The
+// projection is the solution of the step without rebound, which follows. Nothing is thrown. The
+// order of the particles must change results by rounding errors only.
 #include "viscontact/particles/impacts/impacts.hpp"
 
 #include <algorithm>
@@ -17,12 +18,14 @@
 namespace viscontact::particles {
 namespace {
 
-// Times of a step that differ by less than this share of it are one. Symmetric blows are then
-// decided together although their times differ by rounding errors.
+// Times of hits that differ by less than this share of the step count as equal, so that the hits of
+// a symmetric blow are decided together although their times differ by rounding errors. The share
+// is far above these errors and far below 1.
 constexpr double kSameTime = 1e-9;
 
 /// A root of a continuous function that is > 0 at `from` and <= 0 at `until`, by the Illinois
-/// method (a bracketing secant method).
+/// method (a bracketing secant method). Returns the upper end of the last bracket, after 200 steps
+/// at most, a number that only guards against an endless loop.
 template <class Function>
 double root_of_falling(const Function& f, double from, double until) {
   double low = from, high = until, at_low = f(low), at_high = f(high);
@@ -72,7 +75,7 @@ const typename Impacts<D>::Flight& Impacts<D>::flight_or_none(std::int32_t k) co
   return is_touched(k) ? flights_[index_of(flight_of_[index_of(k)])] : kNone;
 }
 
-/// Velocity u* of a particle without contacts [L/T]; 0 for an obstacle.
+/// Velocity of a particle at the end of the step without contacts [L/T]; 0 for an obstacle.
 template <int D>
 Vector Impacts<D>::free_velocity(std::int32_t k) const {
   if (k < 0) return {};
@@ -87,7 +90,7 @@ Vector Impacts<D>::acceleration(std::int32_t k) const {
 }
 
 /// Angular velocity of a particle with its blows so far [1/T]; of discs only the third component.
-/// It contains the torques of the whole step, at whatever time of the step.
+/// At every time of the step it contains what the torques change in the whole step.
 template <int D>
 Vector Impacts<D>::spin(std::int32_t k) const {
   if (k < 0 || step_.turns.empty()) return {};
@@ -129,7 +132,7 @@ typename Impacts<D>::Approach Impacts<D>::approach_of(std::size_t k) {
   return approach;
 }
 
-/// The normal of a pair at the time `t` of the step, from the first to the second.
+/// The unit normal of a pair at the time `t`, from its first to its second member.
 template <int D>
 Vector Impacts<D>::normal_of(const Approach& approach, double t) const {
   const Vector x = approach.place(t);
@@ -146,7 +149,7 @@ double Impacts<D>::gap_of(const Approach& approach, double t) const {
              : norm(x) - approach.sum;
 }
 
-/// Velocity of an obstacle's surface at the point next to the second particle; 0 if there is none.
+/// Velocity of the obstacle at its point nearest to the second particle [L/T]; 0 without obstacle.
 template <int D>
 Vector Impacts<D>::surface_of(const Approach& approach, double t) const {
   if (approach.obstacle == nullptr) return {};
@@ -155,15 +158,15 @@ Vector Impacts<D>::surface_of(const Approach& approach, double t) const {
   return approach.obstacle->surface_velocity(foot, step_.begin + t);
 }
 
-/// Velocity of the second centre relative to the first, or to the surface of the obstacle.
+/// Velocity of the second centre relative to the first, or to the surface of the obstacle [L/T].
 template <int D>
 Vector Impacts<D>::velocity_of(const Approach& approach, double t) const {
   return approach.a + (2 * t) * approach.b - surface_of(approach, t);
 }
 
-/// Second derivative of the gap at an obstacle, or of the distance of two particles that do not
-/// move around each other [L/T^2]. In a circle, or at a plane that turns, a part of it needs no
-/// force.
+/// Second derivative of the gap in time [L/T^2]. Of two particles it has only the part of the
+/// forces. At an obstacle it also has the part of the motion along a circle or at a plane that
+/// turns, which exists without a force.
 template <int D>
 double Impacts<D>::acceleration_of_gap(const Approach& approach, double t) const {
   const Vector n = normal_of(approach, t);
@@ -183,8 +186,8 @@ double Impacts<D>::acceleration_of_gap(const Approach& approach, double t) const
   return acceleration + dot(turns, 2.0 * u + cross(obstacle.angular_velocity, arm));
 }
 
-/// The first time in (`from`, `until`] at which the gap of an approach closes, which is open at
-/// `from`. The velocity of an obstacle does not jump in between.
+/// The first time in (`from`, `until`] at which the gap, which is > 0 at `from`, closes;
+/// std::nullopt if it stays open. The velocity of an obstacle must not jump between the two times.
 template <int D>
 std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, double from,
                                                   double until) const {
@@ -193,7 +196,7 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   const Vector n = normal_of(approach, from), v = velocity_of(approach, from);
   if (obstacle != nullptr &&
       (obstacle->start.is_curved() || norm(obstacle->angular_velocity) > 0)) {
-    // A particle that leaves the free side and comes back in the same step is not found.
+    // The search misses a particle that crosses the obstacle and comes back before `until`.
     if (gap_of(approach, until) > 0) return std::nullopt;
     return root_of_falling([&](double t) { return gap_of(approach, t); }, from, until);
   }
@@ -205,7 +208,7 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
     const double t = from + gap * (norm(c) + approach.sum) / (-along + std::sqrt(root));
     return t <= until ? std::optional(t) : std::nullopt;
   }
-  // With the normal at `from`, the gap after the time t is gap + rate t + curvature t^2.
+  // With the normal n at `from`, the gap at the time from + s is gap + rate s + curvature s^2.
   const double rate = dot(n, v), curvature = dot(n, approach.b);
   const double root = rate * rate - 4 * curvature * gap;
   if (root < 0) return std::nullopt;
@@ -213,8 +216,8 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   if (!(denominator > 0)) return std::nullopt;
   double t = from + 2 * gap / denominator;
   if (obstacle != nullptr) return t <= until ? std::optional(t) : std::nullopt;
-  // The normal of two particles changes on the way, so that Newton's method improves the time. It
-  // converges quadratically from the guess, and 20 steps are far more than it needs.
+  // The normal of two particles changes between the two times, so that Newton's method improves the
+  // guess t. It converges quadratically, and 20 steps are far more than it needs.
   constexpr int kMostSteps = 20;
   for (int i = 0; i < kMostSteps; ++i) {
     const double falls = dot(normal_of(approach, t), velocity_of(approach, t));
@@ -226,7 +229,7 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   return t > from && t <= until ? std::optional(t) : std::nullopt;
 }
 
-/// The contact of pair `k` at `time`, if it is hit there: its gap is closed, and it approaches.
+/// The contact of pair `k` if it is hit at `time`: its gap is closed and closes fast enough.
 template <int D>
 std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double time) {
   const auto approach = approach_of(k);
@@ -236,23 +239,24 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   auto at_start = approach;
   at_start.c = at_start.c + flight_or_none(of.second).late;
   if (of.first >= 0) at_start.c = at_start.c - flight_or_none(of.first).late;
-  // A bounce that would last less than this part of the step has ended; what remains is a load for
-  // the projection.
-  constexpr double kShortestFlight = 0.05;  // of the step
+  // An approach slower than `ended` would cause a bounce that lasts less than this fraction of the
+  // step. The contact then counts as at rest, and the projection decides it. Both limits of rest,
+  // this one and `pulled`, tend to 0 with h (docs/physics.md (5.16)).
+  constexpr double kShortestFlight = 0.05;
   const double pull = acceleration_of_gap(approach, time);
   const double ended =
       std::max(kShortestFlight * -step_.h * pull / (2 * step_.laws.restitution.coefficient), 0.0);
-  // `unseen` is the speed of an approach that moves the particles by less than a thousandth of
-  // `touching` in the step, or is within rounding errors.
+  // An approach slower than `unseen` moves the particles by less than a thousandth of `touching` in
+  // the step, or is a rounding error.
   constexpr double kUnseen = 1e-3, kRounding = 1e-12;
   const double speeds = norm(free_velocity(of.first)) + norm(free_velocity(of.second)) +
                         norm(flight_or_none(of.first).change) +
                         norm(flight_or_none(of.second).change);
   const double unseen = std::max(kUnseen * step_.touching / step_.h, kRounding * speeds);
-  // `rests` is true if the pair touched at the beginning of the step and hardly approached; if it
-  // bore a load, it may have approached by `pulled`. Only a blow that is faster than `pulled`, five
-  // times the velocity that its load gives it in a step, hits such a pair, because slower ones
-  // would keep a packing shaking.
+  // `pulled` is five times the velocity that its load gives the pair in a step. `rests` is true if
+  // the pair touched at the beginning of the step and approached no faster than `unseen`, or, if it
+  // bore a load, no faster than `pulled`. Such a pair is hit only if it approaches faster than
+  // `pulled`, because slower hits would keep a packing shaking.
   const double pulled = 5 * step_.h *
                         std::max({std::abs(dot(normal, acceleration(of.second))),
                                   std::abs(dot(normal, acceleration(of.first))), std::abs(pull)});
@@ -266,22 +270,22 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   return Hit{k, normal, rate, flies};
 }
 
-/// Expects the next blow of pair `k` after the time `from`, if there is one in the step.
+/// Adds the next hit of pair `k` from the time `from` on to expected_, if it is within the step.
 template <int D>
 void Impacts<D>::expect(std::size_t k, double from) {
   const auto& of = pair(k);
   const std::array versions = {version(of.first), version(of.second)};
   if (!hits_of_.empty()) {
-    // A pair that is hit more often in a step is left to the projection, because blows under load
-    // can go to and fro without end. Both numbers bound the computing time of a step.
+    // A pair that has been hit so often in a step is not hit again; the projection decides it. Both
+    // numbers bound the computing time, because blows under load can follow each other without end.
     constexpr int kMostHits = 1000, kMostUnderLoad = 30;
     if (hits_of_[k] >= (of.impulse == 0 ? kMostHits : kMostUnderLoad)) return;
   }
   const auto approach = approach_of(k);
-  // Each pass looks from `begin` to the next jump of the obstacle's velocity, or to the step's end.
+  // Each pass searches from `begin` to the next jump of the obstacle's velocity or the step's end.
   for (double begin = from, end = 0; begin < step_.h; begin = end) {
     constexpr double kBeyondRounding = 1e-12;
-    // Blows at the end of the step that differ by rounding errors are one.
+    // Hits that rounding errors move beyond the end of the step count as hits at its end.
     end = (1 + kSameTime) * step_.h;
     if (approach.obstacle != nullptr)
       end = std::min(end, approach.obstacle->velocity.next_end(step_.begin + begin) - step_.begin);
@@ -318,8 +322,9 @@ void Impacts<D>::run() {
       pairs_of_.emplace(state_, true);
       hits_of_.resize(pair_count());
     }
-    // Hits that share a particle or body are one blow.
-    std::map<std::int32_t, std::size_t> group_of;  // by unit: body -1 - b, or a particle
+    // Hits that share a particle or a rigid body are one blow. group_of has the number of its group
+    // for each unit: particle k by the key k, rigid body b by the key -1 - b.
+    std::map<std::int32_t, std::size_t> group_of;
     std::vector<std::vector<Hit>> groups;
     const auto unit = [&](std::int32_t k) {
       const auto body = p.bodies.body_of(k);
@@ -345,7 +350,7 @@ void Impacts<D>::run() {
   finish();
 }
 
-/// Moves the particles by what all blows changed.
+/// Adds what all blows changed to the displacements and turns of the particles.
 template <int D>
 void Impacts<D>::finish() {
   const auto& p = state_.particles;

@@ -1,8 +1,10 @@
-// The blows of a step between solids that rebound, at their times within the step: docs/physics.md
-// (5.15) and (5.16). The projection of the step (projection/) follows with the motions that the
-// blows leave. A blow is an impact with all its contacts. simulation.cpp and projection/ use it.
-// Lengths, masses and times are in any consistent units. Results must depend on the order of the
-// particles by rounding errors only.
+// The blows of a time step, that is, the collisions of solids that rebound, at their times within
+// the step: docs/physics.md (5.15) and (5.16). One blow has all contacts of connected particles
+// that are hit at one time. Afterwards the projection (projection/), the problem of the step for
+// the impulses of contacts, decides all remaining contacts without rebound. Lengths, masses and
+// times are in any consistent units. Nothing is thrown. simulation.cpp and projection/ use this
+// file. A change must keep that results depend on the order of the particles by rounding errors
+// only.
 #pragma once
 
 #include <array>
@@ -26,54 +28,54 @@
 namespace viscontact::particles {
 
 /// The step that the blows belong to. u* and w* are the velocities and angular velocities at its
-/// end without contacts. Arrays are those of the simulation and hold the motion without contacts;
-/// run() adds what the blows change.
+/// end without contacts. The arrays belong to the simulation; run() adds what the blows change.
 struct ImpactStep {
   const ContactLaws& laws;           ///< of all contacts
-  std::span<const Plane> obstacles;  ///< they may move
+  std::span<const Plane> obstacles;  ///< planes, which may move, and circles
   double begin = 0,                  ///< time at which the step begins [T]
       end = 0;                       ///< time at which the step ends [T], > begin
   double h = 0;                      ///< length of the step [T], > 0
   double kick = 0;                   ///< time for which forces act on the velocities in it [T], > 0
   double touching = 0;               ///< gaps up to this one count as closed [L], > 0
   std::span<double> displacements;   ///< h u* of all particles [L]
-  std::span<const double> mobilities;       ///< h/m [T/M]
+  std::span<const double> mobilities;       ///< h/m of all particles of the mass m [T/M]
   std::span<double> turns;                  ///< h w* [rad]; empty if no particle turns
-  std::span<const double> turn_mobilities;  ///< h/I [T/(M L^2)], as `turns`
-  std::span<BodyStep> bodies;               ///< of all rigid bodies
+  std::span<const double> turn_mobilities;  ///< h/I of all particles of the inertia I [T/(M L^2)]
+  std::span<BodyStep> bodies;               ///< motions of all rigid bodies
 };
 
-/// Finds the blows of a step in the order of their times. Between blows each particle flies on the
-/// parabola of the scheme: with the acceleration a of its forces, its velocity at the time t of the
-/// step is u* + a (t - h/2), plus the changes by its blows so far. A blow at the time t_c that
-/// changes the velocity by d moves the particle by (h - t_c) d in the rest of the step.
+/// Finds the blows of a step in the order of their times. Between blows each particle flies on a
+/// parabola: with the acceleration a of its forces, its velocity at the time t of the step is u* +
+/// a (t - h/2), plus the changes by its blows so far. A blow at the time t_c that changes the
+/// velocity by d therefore moves the particle by (h - t_c) d until the end of the step.
 ///
-/// A pair is hit when its gap closes. A pair that touches and bore no load is hit if it approached
-/// before the step. A pair that bore a load is hit only if it approaches faster than five times the
-/// velocity that forces give its particles in the step. Blows of one time with a common body are
-/// decided together, others one after the other. A particle that leaves a blow towards a neighbour
-/// that it touches hits this neighbour next, so that a row of equal spheres passes a blow on
-/// (Newton's cradle).
+/// A pair is hit when its gap closes. A pair that touches and bore no load in the step before is
+/// hit if it approached before the step. A pair that bore a load is hit only if it approaches
+/// faster than five times the velocity that forces give its particles in the step. Hits of one time
+/// with a common particle or rigid body are one blow, others are decided one after the other. A
+/// particle that leaves a blow towards a neighbour that it touches hits this neighbour next, so
+/// that a row of equal spheres passes a blow on (Newton's cradle).
 ///
-/// The projection takes over when a bounce would last less than a twentieth of the step, and after
-/// 1000 hits of a pair in a step (30 if it bore a load). Nothing is thrown: what is not solved is
-/// reported by converged().
+/// The projection decides without rebound when a bounce would last less than a twentieth of the
+/// step, and after 1000 hits of a pair in a step (30 if it bore a load). A blow that could not be
+/// solved is reported by converged().
 template <int D>
 class Impacts {
  public:
-  /// `state` must outlive this object. Its lists hold all pairs that may meet in the step.
+  /// `state` must outlive this object. Its lists must contain all pairs that may meet in the step.
   Impacts(State& state, const ImpactStep& step);
 
-  /// Finds all blows, adds them to the motions of `step` and changes gamma of the pairs.
+  /// Finds and solves all blows, adds what they change to the motions of the ImpactStep, and
+  /// changes gamma of the pairs (minus the impulse that the film of a pair has absorbed).
   void run();
-  /// Gives all pairs gamma and the memory that they had before run(). The motions stay as they are.
+  /// Gives all pairs gamma and the memory that they had before run(). The motions are not restored.
   void undo();
 
-  /// The blows in which solids touched, in order of time.
+  /// The contacts of all blows in which solids touched, in order of time.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
-  /// Number of iterations that the blows took.
+  /// Number of iterations of the solver in all blows.
   int iterations() const { return iterations_; }
-  /// Whether all blows were solved up to rounding errors.
+  /// Whether all blows were solved, to 1e-8 of the velocity of approach (strike.cpp).
   bool converged() const { return converged_; }
   /// The particles that blows changed.
   const std::vector<std::int32_t>& touched() const { return touched_; }
@@ -81,21 +83,24 @@ class Impacts {
   bool is_touched(std::int32_t k) const {
     return !flight_of_.empty() && k >= 0 && flight_of_[index_of(k)] >= 0;
   }
-  /// Displacement of a particle with the blows alone [L], also after a projection changed it.
+  /// Displacement of a particle in the step with its blows but without the projection [L].
   Vector displacement(std::int32_t k) const;
-  /// Adds to velocities and angular velocities what they have beyond displacements over h, because
-  /// the blows came late in the step.
+  /// Adds to velocities and angular velocities, which are displacements and turns over h, what they
+  /// lack: a blow at the time t_c that changes the velocity by d adds only (h - t_c) d to the
+  /// displacement, so that t_c d/h is missing.
   void add_late_changes(Particles& particles) const;
 
  private:
-  // What blows change in the motion of a particle: the sum of the changes of its velocity [L/T],
-  // and in `late` the sum of the changes times the times of the blows [L]; turns: [1/T], [rad].
+  // What blows change in the motion of a particle: in `change` the sum of the changes of its
+  // velocity [L/T], in `late` the sum of the changes times the times of the blows [L], and the same
+  // for its angular velocity in `turn_change` [1/T] and `late_turn` [rad].
   struct Flight {
     Vector change{}, late{}, turn_change{}, late_turn{};
     Vector displacement{};  // in the step, with all blows [L]
     int version = 0;        // number of blows
   };
-  // A blow that is expected at `time`, unless one of the particles is changed before.
+  // A hit of a pair that is expected at `time` [T], unless another blow changes one of the
+  // particles first: their Flight::version are then no longer `versions`.
   struct Expected {
     double time;
     std::size_t pair;
@@ -104,14 +109,14 @@ class Impacts {
       return time != other.time ? time > other.time : pair > other.pair;
     }
   };
-  // The flight of the second particle of a pair: c + a t + b t^2 at the time t of the step is the
-  // vector from the centre of the first particle, or, at an obstacle, the centre itself.
+  // The motion of the second particle of a pair: at the time t of the step, c + a t + b t^2 is the
+  // vector to its centre from that of the first particle, or, at an obstacle, from the origin.
   struct Approach {
     Vector c{}, a{}, b{};
-    double sum = 0;  // of the radii; of the second particle alone at an obstacle [L]
-    const Plane* obstacle = nullptr;  // the first body, if it is an obstacle
+    double sum = 0;  // sum of both radii; at an obstacle the radius of the second particle [L]
+    const Plane* obstacle = nullptr;  // the partner, if it is an obstacle
     Vector before{};                  // relative velocity before the step [L/T]
-    Vector at_rest{};  // `before` and the changes by the blows so far, without the load of the step
+    Vector at_rest{};  // `before` plus the changes by the blows so far, without forces [L/T]
     Vector place(double t) const { return c + t * a + (t * t) * b; }
   };
   // A contact of a blow.
@@ -151,9 +156,9 @@ class Impacts {
 
   State& state_;
   ImpactStep step_;
-  std::vector<BodyStep> free_bodies_;  // step_.bodies without blows
+  std::vector<BodyStep> free_bodies_;  // motions of the rigid bodies without blows
   std::priority_queue<Expected, std::vector<Expected>, std::greater<>> expected_;
-  std::vector<std::int32_t> flight_of_;  // of each particle, -1: none; empty without a blow
+  std::vector<std::int32_t> flight_of_;  // place in flights_, -1: none; empty without a blow
   std::vector<Flight> flights_;
   std::vector<std::int32_t> touched_;
   std::optional<PairsOfParticles> pairs_of_;

@@ -1,8 +1,9 @@
-// Solves a blow between solids, all contacts of touching particles that are hit at one time, in two
-// phases: compression and restitution (impacts.hpp, docs/physics.md (5.15)). The film of a contact
-// has absorbed the impulse -gamma >= 0. Lengths, masses and times are in the units of the case:
-// impulses and gamma in [M L/T]. A blow that is not solved is reported, not thrown. impacts.cpp
-// uses it. A change must keep the momentum to rounding errors, and must not let the energy grow.
+// Solves a blow: the collision of solids with all contacts of connected particles that are hit at
+// one time, in the phases compression and restitution (impacts.hpp, docs/physics.md (5.15)). The
+// film of a contact has absorbed the impulse -gamma >= 0. Lengths, masses and times are in any
+// consistent units, impulses and gamma in [M L/T]; times within the step are counted from its
+// beginning, 0 to its length h. A blow that is not solved is reported, not thrown. impacts.cpp uses
+// it. A change must keep the momentum to rounding errors, and must not let the energy grow.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,8 +19,7 @@
 
 namespace viscontact::particles {
 
-/// Vector from the centre of its rigid body to particle k at the time `t` after the beginning of
-/// the step [T], 0 to h; 0 if it has no body [L].
+/// Vector from the centre of its rigid body to particle k at the time `t` [L]; 0 without a body.
 template <int D>
 Vector Impacts<D>::offset_at(std::int32_t k, double t) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
@@ -28,10 +28,10 @@ Vector Impacts<D>::offset_at(std::int32_t k, double t) const {
   return offset + displacement_at({}, (t / step_.h) * free_bodies_[index_of(body)].turn, offset, D);
 }
 
-/// What turning adds to the velocity of particle k of a rigid body at the time `t` of the step
-/// [L/T]: its velocity in the body minus that of the parabola by which flights are computed. Blows
-/// need the true velocity of the point at which they act, because otherwise a blow with e_d = 1
-/// would not keep the energy.
+/// The true velocity of particle k of a rigid body at the time `t` of the step minus that of the
+/// parabola on which impacts.cpp lets it fly [L/T]; 0 for a particle without a body. A blow needs
+/// the true velocity of the point at which it acts, because otherwise a blow with the coefficient
+/// of restitution 1 would not keep the energy.
 template <int D>
 Vector Impacts<D>::turning_velocity(std::int32_t k, double t) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
@@ -44,9 +44,9 @@ Vector Impacts<D>::turning_velocity(std::int32_t k, double t) const {
   return mean + turns - free_velocity(k) + (t - step_.h / 2) * (pull - acceleration(k));
 }
 
-/// The contacts of a blow at `time` as a problem of constraints whose unknowns are the changes of
-/// the velocities times the length h of the step [L]. A unit is a rigid body, or a particle without
-/// a body; one particle of each unit is appended to `unit_of`.
+/// The contacts of a blow at `time` as a ConstraintProblem, whose unknowns are the changes of the
+/// velocities times the length h of the step [L]. A unit is a rigid body, or a particle without a
+/// body; one particle of each unit is appended to `unit_of`.
 template <int D>
 ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double time,
                                             std::vector<std::int32_t>& unit_of) {
@@ -62,9 +62,9 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       unit_of.push_back(k);
       if (body < 0) {
         const std::array<double, 3> still{};
-        // If particles do not turn, the moments on them are 0 but for rounding errors. The problem
-        // needs a mobility for turning nevertheless; with one of the right dimension the turns that
-        // follow are small in every system of units.
+        // If particles do not turn, the moments on them are 0 but for rounding errors, and yet the
+        // problem needs a mobility for turning. With moves/r^2, which has the right dimension, the
+        // turns that follow are small in every system of units.
         const double r = p.radii[index_of(k)], moves = step_.mobilities[index_of(k)];
         const double turns =
             step_.turns.empty() ? moves / (r * r) : step_.turn_mobilities[index_of(k)];
@@ -95,7 +95,7 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       auto& row = problem.rows.back();
       row.offset = step_.h * (hit.approach + dot(hit.normal, turning));
       if (k > 0) {
-        // The slip of the surfaces before the blow.
+        // Velocity at which the surfaces slip before the blow.
         const Vector slip = hit.relative +
                             cross(spin(of.second), -tangents.second_arm * hit.normal) -
                             cross(spin(contact.first), tangents.first_arm * hit.normal);
@@ -107,8 +107,8 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
   return problem;
 }
 
-/// Changes the motion of the unit of `particle` from `time` on. `change` is the change of its
-/// velocity and angular velocity times h.
+/// Changes the motion of the unit of `particle` (its rigid body or itself) from `time` on. `change`
+/// is the change of its velocity and angular velocity times h [L, rad].
 template <int D>
 void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, double time) {
   const auto& p = state_.particles;
@@ -138,20 +138,19 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
   step.displacement = step.displacement + rest * velocity;
   step.late_velocity = step.late_velocity + (time / step_.h) * velocity;
   step.turn = step.turn + rest * turn;
-  // In space `angular_momentum` takes the whole change. In the plane constrain() computes it anew
-  // as I turn/h + late_momentum, so that late_momentum takes the part that turn/h does not have.
+  // In space, constrain() adds to this angular momentum. In the plane it computes the angular
+  // momentum as I turn/h + late_momentum, and turn/h lacks the part time/h of the change.
   const Vector momentum = step_.h * (step.inverse_turn_mobility * turn);
   step.angular_momentum = step.angular_momentum + momentum;
   step.late_momentum = step.late_momentum + (time / step_.h) * momentum;
 }
 
-/// Solves a blow in its two phases, (5.15), changes the motions of its particles, and finds their
-/// next blows.
+/// Solves the blow with the contacts `hits` at `time`, changes the motions of its particles and
+/// gamma of its pairs, and finds their next hits.
 template <int D>
 void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
-  // Bounds of residuals over the speed of the approach. The solver tries to reach the first one,
-  // which is near the rounding errors of a double; a blow counts as solved up to the second one,
-  // a free choice.
+  // Bounds of residuals over the speed of the approach. The solver tries to reach kExact, which is
+  // near the rounding errors of a double. A blow counts as solved up to kSolved, a free choice.
   constexpr double kExact = 1e-13, kSolved = 1e-8;
   const auto& laws = step_.laws;
   std::vector<std::int32_t> unit_of;
@@ -161,7 +160,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     fastest = std::max(fastest, -hit.approach);
     fastest_slip = std::max({fastest_slip, -hit.approach, norm(hit.relative)});
   }
-  // Compression, without friction: the problem of the whole blow below has the friction.
+  // The problem of the compression has no friction; that of the whole blow below has it.
   auto compression = problem;
   for (auto& block : compression.blocks) {
     block.rows = 1;
@@ -179,11 +178,11 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
   keep_normal_rows(compression);
   // If several contacts share a body, only sums of their impulses are determined. The impulse of
   // each contact, and with it what its solids give back, must not depend on the order of the
-  // contacts; with kLeastImpulses it does not. If spheres have friction, Newton's method in this
-  // start may cycle. The blow is then solved again with kSweeps, whose impulses may depend on the
-  // order. The limits are free choices: 200 iterations are as many as one proximal step may take,
-  // so that a cycle costs little; 10000 is far above the 3000 iterations without progress after
-  // which solve_constraints() gives up by itself (both in constraint_solver.cpp).
+  // contacts; with kLeastImpulses it does not. With friction between spheres, the method of
+  // kLeastImpulses may not converge. The blow is then solved again with kSweeps, whose impulses may
+  // depend on the order. The limits are free choices: 200 iterations are as many as one of its
+  // proximal steps may take, so that a failure costs little; 10000 is far above the 3000 iterations
+  // without progress after which solve_constraints() gives up (both in constraint_solver.cpp).
   const auto solve = [&](ConstraintProblem<D>& of) {
     const auto guess = of.impulses;
     const auto is_solved = [&](ConstraintStart start, int most_iterations) {
@@ -196,9 +195,10 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     converged_ = is_solved(ConstraintStart::kSweeps, 10000) && converged_;
   };
   solve(compression);
-  // The film absorbs what it can, and the solids take the rest. In the order of the members, in
-  // [M L/T]: what the film can absorb, gamma - gamma_min; and p, s, gamma_c and gamma_c + e_d s of
-  // restitution_law.hpp.
+  // The film absorbs what it can of the compression, and the solids take the rest. The members are,
+  // in [M L/T]: what the film can absorb, gamma - gamma_min; the impulse of the compression; the
+  // part of it that the solids take; gamma after the compression; and the lower bound of the
+  // impulse in the restitution (restitution_law.hpp).
   struct Phases {
     double capacity, compressed, solid, gamma, lowest;
   };
@@ -215,10 +215,9 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     solids_touch = solids_touch || phase.solid > 0;
     phases.push_back(phase);
   }
-  // If films absorb the whole blow, nothing rebounds, and the projection of the step treats the
-  // contacts.
+  // If films absorb the whole blow, nothing rebounds, and the projection (impacts.hpp) decides.
   if (!solids_touch) return;
-  // The whole blow: compression and restitution together.
+  // The problem of the whole blow has the impulses of compression and restitution together.
   const double e = laws.restitution.coefficient;
   for (std::size_t c = 0; c < hits.size(); ++c) {
     auto& block = problem.blocks[c];
@@ -228,9 +227,9 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     block.allowed_slip = kExact * step_.h * fastest_slip;
     const bool rubs = laws.friction && phase.solid > 0;
     block.friction = rubs ? laws.friction->coefficient : 0;
-    // Friction is bounded by the coefficient times the impulse beyond `capacity`. With this
-    // capacity that is (1 + e_d) s, the impulse of the solids, at the expected impulse of the whole
-    // blow.
+    // Friction is bounded by the coefficient of friction times the impulse beyond `capacity`. With
+    // this capacity it is (1 + e) times the impulse of the solids in the compression, if the
+    // restitution adds its lower bound and this is >= 0.
     block.capacity = phase.compressed + std::max(phase.lowest, 0.0) - (1 + e) * phase.solid;
     problem.impulses[block.row] = block.lowest;
   }
@@ -241,9 +240,10 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
   }
   solve(problem);
   auto changes = motions<D>(problem, problem.impulses);
-  // The work of the impulses is that at the mean of the velocities before and after the blow.
-  // Friction and films in a blow of several contacts could make it positive. All impulses are then
-  // moved towards those of the compression, whose work is negative, until it is not positive.
+  // The work of the impulses is their product with the mean of the velocities before and after the
+  // blow. In a blow of several contacts, friction and films could make it positive, so that energy
+  // would be created. All impulses are then moved towards those of the compression, whose work is
+  // negative, until the work is 0. 50 halvings find this point to rounding errors.
   const auto work = [&](const std::vector<double>& impulses) {
     const auto y = motions<D>(problem, impulses);
     double sum = 0;
@@ -277,7 +277,8 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     const auto& phase = phases[c];
     const auto& block = problem.blocks[c];
     before_.push_back({hits[c].pair, of, state_.memories.of(of.memory)});
-    // gamma after the blow. The film has absorbed the difference of gamma before and after it.
+    // remember() subtracts of.impulse from gamma. For this call it is the change of gamma; then the
+    // impulse of the last step is restored, by which hit_at() knows whether the pair bore a load.
     const double gamma = laws.restitution.gamma_after(block.lowest, problem.impulses[block.row],
                                                       of.gamma - phase.capacity, of.gamma);
     const double impulse = std::exchange(of.impulse, of.gamma - gamma);
@@ -290,7 +291,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
                            std::abs(after) <= kExact * fastest ? 0 : after});
     ++hits_of_[hits[c].pair];
   }
-  // Finds the next blows of all pairs with a particle whose motion has changed.
+  // Find the next hits of all pairs with a particle whose motion has changed.
   std::vector<std::int32_t> changed;
   for (const auto k : unit_of) {
     const auto body = state_.particles.bodies.body_of(k);

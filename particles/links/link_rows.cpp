@@ -1,6 +1,6 @@
-// Makes the equations of links (link_rows.hpp). Numbers are in the units of the case. Nothing is
-// checked or thrown. A change must keep that rows and values_after() agree to first order in the
-// motion.
+// Makes the equations of hinges, springs, arms and stops for one time step (link_rows.hpp, which
+// has the units and who uses them). Nothing is checked or thrown. A change must keep that the parts
+// of a row are the derivatives of values_after() with respect to the motion.
 #include "viscontact/particles/links/link_rows.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// Centre of the unit of a particle [L].
+/// Centre of the unit of a particle, its rigid body or itself [L].
 Vector unit_centre(const Particles& p, std::int32_t particle) {
   const auto body = p.bodies.body_of(particle);
   return body < 0 ? p.position(index_of(particle)) : p.bodies.bodies[index_of(body)].centre;
@@ -34,6 +34,7 @@ Vector arm_of_point(const Particles& p, const LinkedPoint& point) {
   return displacement_at({}, {0, 0, p.angles[k]}, point.offset, 2) + point.offset;
 }
 
+/// Angle of the unit of a disc [rad].
 double unit_angle(const Particles& p, std::int32_t particle) {
   const auto body = p.bodies.body_of(particle);
   return body < 0 ? p.angles[index_of(particle)] : p.bodies.bodies[index_of(body)].angle[2];
@@ -44,24 +45,27 @@ double unit_spin(const Particles& p, std::int32_t particle) {
   return p.angular_velocities[index_of(particle)];
 }
 
-/// The image of `second` that is nearest to `first`: the vector from the centre of `first` [L], and
-/// the numbers of periods by which `second` is shifted.
+/// The periodic image of a particle that is nearest to another one: the vector to it from the
+/// centre of the other [L], and the numbers of periods by which it is shifted.
 struct NearestImage {
   Vector apart{};
   Periods periods{};
 };
 
+/// The image of `second` that is nearest to `first`.
 NearestImage between(const Particles& p, std::int32_t first, std::int32_t second) {
   const Vector apart = p.position(index_of(second)) - p.position(index_of(first));
   const auto beyond = periods_towards(p.cell, apart);
   return {apart - shift_of(p.cell, beyond), -1.0 * beyond};
 }
 
+/// Unit vector along `apart`; the first axis if `apart` is 0.
 Vector direction_of(const Vector& apart) {
   const double length = norm(apart);
   return length > 0 ? (1 / length) * apart : Vector{1, 0, 0};
 }
 
+/// The row of the distance of two centres, with the value 0.
 LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
                     const NearestImage& nearest) {
   const Vector direction = direction_of(nearest.apart);
@@ -72,8 +76,7 @@ LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
 }
 
 /// Sets the row of a spring by Newmark's method. With the extension e before the step and its rate,
-/// the impulse is -kick stiffness (e + beta (change of e in this step - change in the step
-/// before)). In the first step, the change before is taken as 2 h rate - change in this step.
+/// the impulse is -kick stiffness (e + beta (change of e in this step - h rate)).
 void make_spring(LinkRow& row, double extension, double rate, double stiffness,
                  const LinkTimes& times) {
   const double beta = times.beta();
@@ -130,12 +133,12 @@ LinkEquations arm_equations(const Arm& arm, const Particles& p, const LinkTimes&
   return equations;
 }
 
-/// Displacement of the point of a part [L].
+/// Displacement of the point of a part for the motion of its unit [L].
 Vector moved(const LinkPart& part, const UnitMotion& motion, int dimension) {
   return displacement_at(motion.displacement, motion.turn, part.arm, dimension);
 }
 
-/// Vector between the ends of an arm or spring after the motions of their units [L].
+/// Vector from the first to the second end of an arm or spring after these motions [L].
 Vector apart_after(const LinkEquations& equations, const Links& links, const Particles& p,
                    std::span<const UnitMotion> motions) {
   const auto k = equations.number;
@@ -229,7 +232,7 @@ LinkEquations turned_equations(const LinkEquations& equations, const Links& link
     for (std::size_t i = 0; i < row.parts.size(); ++i) {
       auto& part = row.parts[i];
       if (has_ends) part.direction = i == 0 ? -1 * direction : direction;
-      // LinkPart::arm turns with the unit.
+      // The vector from the centre of the unit to the point of the part turns with the unit.
       if (!part.is_turn)
         part.arm = part.arm + displacement_at({}, motions[i].turn, part.arm, particles.dimension);
     }
@@ -251,7 +254,7 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
       values.push_back(equations.rows[d].value + by[d]);
     return values;
   }
-  // Springs are linear in the motion of the step.
+  // The row of a spring has its value for the motions to first order.
   for (const auto& row : equations.rows) {
     values.push_back(row.value);
     for (std::size_t i = 0; i < row.parts.size(); ++i)

@@ -1,6 +1,6 @@
-// Piecewise linear and sinusoidal lengths of arms (links.hpp). Lengths [L] and times [T] are
-// in the units of the case. Nothing is checked or thrown. A change must keep rate_at() the
-// derivative of length_at().
+// Piecewise linear and sinusoidal lengths of arms, links that keep the distance of two particles at
+// a given function of time (links.hpp). Lengths [L] and times [T] are in any consistent units.
+// Nothing is checked or thrown. A change must keep that rate_at() is the derivative of length_at().
 #include "viscontact/particles/links/links.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace viscontact::particles {
 namespace {
 
-// Bounds the time of the checks of a case. A periodic length is checked at 10000 times.
+// Largest number of times at which the checks of a case look at a length; bounds their duration.
 constexpr std::size_t kMostTimes = 10000;
 
 /// The linear piece that holds at a time, between two points (time, length).
@@ -22,8 +22,9 @@ struct Piece {
   double rate() const { return (to[1] - from[1]) / (to[0] - from[0]); }
 };
 
-/// The piece at the time t, which is moved into the first period; none before the first point and
-/// after the last one of a length without period. At a point it is the piece that begins there.
+/// The piece that holds at the time `t`, which is moved by periods into the first one. std::nullopt
+/// before the first point and, without a period, after the last one. At a point it is the next
+/// piece.
 std::optional<Piece> piece_at(const PiecewiseLinearLength& length, double& t) {
   const auto& points = length.points;
   const double first = points.front()[0];
@@ -67,8 +68,8 @@ void add_times(const PiecewiseLinearLength& length, double end, std::vector<doub
 }
 
 void add_times(const SinusoidalLength& length, double end, std::vector<double>& times) {
-  // Times an eighth of a period apart include all extrema if one of them is an extremum. Between
-  // two of them the length differs from its chord by at most 8 percent of the amplitude.
+  // The times are an eighth of a period apart and include all extrema. Between two of them the
+  // length differs from its chord by at most 8 percent of the amplitude.
   const double frequency = std::abs(length.angular_frequency);
   if (!(frequency > 0)) return;
   const double step = std::numbers::pi / 4 / frequency;

@@ -1,8 +1,8 @@
-// Hinges, springs, arms and membranes that hold particles and rigid bodies. Lengths, masses and
-// times are in the units of the case. particles/case checks the values, also that the length of an
-// arm is > 0 at all times; link_rows.hpp makes the equations. A change must keep the order of the
-// forces in State::link_forces, which restart files contain, and rate_at() the derivative of
-// length_at().
+// The links of a case: hinges, springs, arms and membranes that hold particles and rigid bodies.
+// Lengths, masses and times are in any consistent units. Nothing is checked or thrown here;
+// particles/case checks the values. setting.hpp, case/, constraints/, fluid/, io/ and run/ use
+// them. A change must keep the order of the forces in State::link_forces, which restart files
+// contain, and that rate_at() is the derivative of length_at().
 #pragma once
 
 #include <array>
@@ -17,19 +17,19 @@
 
 namespace viscontact::particles {
 
-/// Linear between points. Before the first point and after the last one the length is that of the
-/// point, unless there is a period.
+/// A length that is a linear function of time between points. Without a period it is constant
+/// before the first point and after the last one.
 struct PiecewiseLinearLength {
   std::vector<std::array<double, 2>>
-      points;  ///< (time [T], length [L]), one at least; times increase
-  /// Period [T], > the last time - the first time; between the last point and the first point of
-  /// the next period the length is linear, too. 0: not periodic.
+      points;  ///< (time [T], length [L]), at least one; times increase
+  /// Period [T], larger than the last time minus the first time; between the last point and the
+  /// first point of the next period the length is linear. 0: not periodic.
   double period = 0;
 };
 
-/// The length mean + amplitude sin(angular_frequency t + phase) at the time t.
+/// The length mean + amplitude sin(angular_frequency t + phase) at the time t [T].
 struct SinusoidalLength {
-  double mean = 0,               ///< [L]
+  double mean = 0,               ///< [L], > |amplitude|
       amplitude = 0;             ///< [L]
   double angular_frequency = 0,  ///< [1/T]
       phase = 0;                 ///< [rad]
@@ -44,36 +44,37 @@ double length_at(const ArmLength& length, double t);
 /// Rate at which the length grows at time `t` >= 0 [L/T]; at a point that of the next piece.
 double rate_at(const ArmLength& length, double t);
 
-/// Least length at times from 0 to `end` >= 0 [T].
+/// Least length [L] at the decisive_times() from 0 to `end` >= 0 [T].
 double least_length(const ArmLength& length, double end);
 
-/// Times from 0 to `end` [T] between which the length is linear, or which sample it finely enough
-/// to see where it is shortest and longest: 0, points, extrema and `end`; at most about 1e4 of
-/// them. The checks of a case use them.
+/// Times from 0 to `end` [T] for the checks of a case: 0, `end`, and in between all points of a
+/// piecewise linear length, or times an eighth of a period apart, with all extrema, of a sinusoidal
+/// one. There are at most about 10 000; later periods are then omitted. Between two of them, the
+/// length is linear, or differs from a linear one by at most 8 percent of the amplitude.
 std::vector<double> decisive_times(const ArmLength& length, double end);
 
 /// A point that moves with a particle or with its rigid body.
 struct LinkedPoint {
-  /// Number of a particle. If it belongs to a body, the point moves with the body.
+  /// Number of a particle. If it belongs to a rigid body, the point moves with the body.
   std::int32_t particle = 0;
-  /// Vector to the point [L]: from the centre of the body, in the orientation of the start, or from
+  /// Vector to the point [L]: from the centre of the body, in its orientation at the start; or from
   /// the centre of a particle without a body, in the orientation in which its angle is 0.
   Vector offset{};
 };
 
-/// Holds a point of a particle or body at a place, about which it turns freely, or against a
-/// torsion spring and between stops (discs only).
+/// Holds a point of a particle or body at a fixed place, about which the particle or body can turn.
+/// Discs may have a torsion spring and stops.
 struct Hinge {
   LinkedPoint point;     ///< the point that is held
   Vector at{};           ///< the place where it is held [L]
-  double stiffness = 0;  ///< of the torsion spring [M L^2/T^2], >= 0
-  /// Angle at which the spring is relaxed [rad]. The angle of a body is 0 at the start; that of a
-  /// particle without a body is Particles::angles.
+  double stiffness = 0;  ///< of the torsion spring [M L^2/T^2], >= 0; 0: no spring
+  /// Angle at which the spring exerts no torque [rad]. The angle of a body is 0 at the start; that
+  /// of a particle without a body is Particles::angles.
   double rest_angle = 0;
   std::int32_t body = -1;  ///< number of the body for messages; -1: the hinge holds a particle
-  // The stops between which the angle stays [rad].
-  double lowest_angle = -std::numeric_limits<double>::infinity(),  ///< without a stop -infinity
-      highest_angle = std::numeric_limits<double>::infinity();     ///< without a stop infinity
+  // The angle stays between these two [rad].
+  double lowest_angle = -std::numeric_limits<double>::infinity(),  ///< -infinity without a stop
+      highest_angle = std::numeric_limits<double>::infinity();     ///< infinity without a stop
 };
 
 /// Pulls or pushes the centres of two particles with the force stiffness * (distance - length).
@@ -81,14 +82,14 @@ struct Spring {
   std::int32_t first = 0,  ///< number of a particle
       second = 0;          ///< number of another particle, not of the same body
   double stiffness = 0;    ///< [M/T^2], > 0
-  double length = 0;       ///< at which it is relaxed [L], >= 0
+  double length = 0;       ///< distance at which it exerts no force [L], >= 0
 };
 
 /// Keeps the distance of the centres of two particles at a length prescribed in time.
 struct Arm {
   std::int32_t first = 0,  ///< number of a particle
       second = 0;          ///< number of another particle, not of the same body
-  ArmLength length;        ///< > 0 at all times
+  ArmLength length;        ///< the length as a function of time, > 0 at all times
 };
 
 /// The links of a case.
@@ -96,7 +97,7 @@ struct Links {
   std::vector<Hinge> hinges;    ///< in the order of the case
   std::vector<Spring> springs;  ///< in the order of the case
   std::vector<Arm> arms;        ///< in the order of the case
-  /// Membranes without a fluid (those in a fluid are in Fluid), in the order of the case.
+  /// Membranes without a fluid, in the order of the case. Those in a fluid are in the struct Fluid.
   std::vector<Membrane> membranes{};
 
   /// True if there are no links.

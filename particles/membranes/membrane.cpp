@@ -1,6 +1,7 @@
-// Functions for membranes in a fluid and without one, ellipses of a given perimeter and area, and
-// geometry of polygons (membrane.hpp). Lengths are in the unit of the case. Membranes that do not
-// fit the case cause Error(kBadInput); shapes and polygons throw nothing.
+// The functions of membrane.hpp, which has the units and who uses them: measures and output of
+// membranes (closed lines through particles, the beads), ellipses of a given perimeter and area,
+// and geometry of polygons. check_shapes() throws Error(kBadInput); nothing else is checked or
+// thrown. A change must keep the places of the beads of ellipse_of() bit for bit.
 #include "viscontact/particles/membranes/membrane.hpp"
 
 #include <fmt/format.h>
@@ -36,8 +37,8 @@ MembraneMeasures measure(const Membrane& membrane, const Particles& particles) {
 
 namespace {
 
-/// True if the distances of neighbours differ from those of the membrane by at most `kept` times
-/// the mean distance. Always true in a fluid, where distances are equal parts of the perimeter.
+/// True if the distances of neighbouring beads differ from Membrane::lengths by at most `kept`
+/// times the mean distance. Always true in a fluid, where there are no such lengths.
 bool keeps_distances(const Membrane& membrane, const Particles& particles, double kept) {
   if (membrane.lengths.empty()) return true;
   const Eigen::VectorXd distances = distances_of(necklace_of(membrane, particles));
@@ -51,6 +52,7 @@ bool keeps_distances(const Membrane& membrane, const Particles& particles, doubl
 }  // namespace
 
 void check_shapes(std::span<const Membrane> membranes, const Particles& particles) {
+  // Far above the errors with which a run keeps these numbers, and far below a change of the case.
   constexpr double kKept = 1e-6;
   for (std::size_t m = 0; m < membranes.size(); ++m) {
     const auto& asked = membranes[m];
@@ -98,12 +100,11 @@ std::string membrane_rows(const Setting& setting, const State& state,
 
 namespace {
 
-/// Points of an ellipse for integrals along it. The trapezoidal rule converges exponentially; for
-/// an ellipse of axes 1:20 this number leaves errors near rounding.
+/// Number of points of an ellipse for integrals along it. The midpoint rule converges
+/// exponentially; for an ellipse of axes 1:20 this number leaves errors near rounding errors.
 constexpr int kPoints = 4096;
 
-/// Entry i is the length of an ellipse of semi-axes a and b from the parameter 0 to 2 pi i/kPoints
-/// [L].
+/// Entry i: length of an ellipse of semi-axes a and b from the angle 0 to 2 pi i/kPoints [L].
 std::vector<double> lengths_along(double a, double b) {
   std::vector<double> lengths = {0};
   for (int i = 0; i < kPoints; ++i) {
@@ -122,7 +123,7 @@ Corner corner(std::span<const double> polygon, std::size_t i) {
   return {polygon[k], polygon[k + 1]};
 }
 
-/// > 0 if c is on the left of the way from a to b.
+/// > 0 if c is on the left of the line from a to b.
 double side(const Corner& a, const Corner& b, const Corner& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
@@ -139,9 +140,10 @@ bool sides_cross(std::span<const double> first, std::size_t i, std::span<const d
 
 std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Vector& centre,
                                               double angle) {
-  // The semi-axes a, b have a b = area/pi. Bisects a/`mean`, with which the perimeter grows.
+  // The semi-axes a and b have a b = area/pi = mean^2, and the perimeter grows with a/mean, which
+  // is found by bisection.
   const double mean = std::sqrt(membrane.area / std::numbers::pi);
-  double low = 1, high = 1e3;  // bounds of a/`mean`
+  double low = 1, high = 1e3;  // bounds of a/mean
   for (int i = 0; i < 100; ++i) {
     const double middle = std::sqrt(low * high);
     (lengths_along(mean * middle, mean / middle).back() < membrane.perimeter ? low : high) = middle;
@@ -177,7 +179,7 @@ std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Ve
 
 namespace {
 
-/// Positions of the beads of a membrane, whose order is made counter-clockwise.
+/// Positions of the beads of a membrane (necklace.hpp), whose order is reversed if it is clockwise.
 Eigen::VectorXd ordered_necklace(Membrane& membrane, const Particles& particles) {
   const auto necklace = necklace_of(membrane, particles);
   if (area_of(necklace) >= 0) return necklace;
@@ -213,9 +215,9 @@ double shape_curve(Membrane& membrane, Particles& particles) {
 }
 
 double largest_area(std::span<const double> lengths) {
-  // Seen from the centre of the circle through the corners, the angles of the sides add up to a
-  // full turn, where that of the longest side is negative if the centre lies beyond this side. The
-  // curvature 1/radius is found by bisection.
+  // The sides are chords of the circle through the corners. Seen from its centre, their angles add
+  // up to a full turn if the centre is inside the polygon; otherwise it lies beyond the longest
+  // side, whose angle is then the sum of the others. The curvature 1/radius is found by bisection.
   const auto longest = std::ranges::max_element(lengths);
   double others = 0;
   for (auto side = lengths.begin(); side != lengths.end(); ++side)
@@ -229,8 +231,8 @@ double largest_area(std::span<const double> lengths) {
     for (auto side = lengths.begin(); side != lengths.end(); ++side)
       sum += (side == longest && !is_inside ? -1 : 1) *
              std::asin(std::min(1.0, *side * curvature / 2));
-    // If the centre lies beyond the longest side, the sum is 0 at the solution and at the curvature
-    // 0, and > 0 between them.
+    // If the centre lies beyond the longest side, whose angle is subtracted, the sum is 0 at the
+    // solution and at the curvature 0, and > 0 between them.
     const bool is_below = is_inside ? sum < std::numbers::pi : sum > 0;
     (is_below ? low : high) = curvature;
   }

@@ -1,11 +1,11 @@
-// Membranes, as a case describes them, the shapes in which they begin, and geometry of polygons for
-// checks. A membrane is a closed necklace of particles, its beads, that bends and does not change
-// its length, nor that of any of its parts, nor the area inside. In a fluid it is the curve through
-// the centres of the beads, without a fluid the polygon (docs/physics.md, section 8). Lengths,
-// masses and times are in the units of the case; in a fluid masses and forces are per unit length
-// of the third dimension. Cases, links/, fluid.hpp and the files of a run use it. A change must
-// keep the columns of membranes.csv, and the places of the beads, on which the results of a case
-// depend.
+// Membranes, as a case describes them, the shapes in which they begin, their measures for output,
+// and geometry of polygons for checks. A membrane is a closed line through particles, its beads. It
+// can bend, but the length of each of its parts and (by default) the area inside are kept. In a
+// fluid the line is a smooth curve through the centres of the beads, without a fluid a polygon
+// (docs/physics.md, section 8). Lengths, masses and times are in the units of the case file; in a
+// fluid masses and forces are per length of the third dimension. Only check_shapes() throws. case/,
+// io/, links/, run/, fluid.hpp and freefem_flow/ use this file. A change must keep the columns of
+// membranes.csv, and the places where beads begin, because the results of cases depend on them.
 #pragma once
 
 #include <algorithm>
@@ -25,37 +25,37 @@ struct Particles;
 struct Setting;
 struct State;
 
-/// A membrane of a case. In a fluid its curve goes through the centres of the beads by
-/// trigonometric interpolation over the place in `beads`.
+/// A membrane of a case. In a fluid its curve is the trigonometric interpolation of the centres of
+/// the beads over their place in `beads`.
 struct Membrane {
   /// Numbers of the particles that are its beads, counter-clockwise around the area inside.
   std::vector<std::int32_t> beads;
-  /// kappa of (kappa/2) integral of curvature^2 ds [M L^3/T^2], where M is a mass per unit length
-  /// in a fluid; > 0 in a fluid, >= 0 without one.
+  /// kappa of the bending energy (kappa/2) integral of curvature^2 ds [M L^3/T^2], in a fluid per
+  /// length [M L^2/T^2]; > 0 in a fluid, >= 0 without one.
   double bending_rigidity = 1;
-  double perimeter = 0;  ///< is kept; in a fluid beads are equally spaced on it [L], > 0
+  double perimeter = 0;  ///< length of the closed line, which is kept [L], > 0
   double area = 0;       ///< area inside at the start, kept if `keeps_area` [L^2], > 0
   // In a fluid:
   /// Viscosity of the fluid inside over that of the fluid outside [1], > 0.
   double viscosity_ratio = 1;
   // Without a fluid:
-  /// Moment per rate of change of the curvature, which opposes the change [M L^3/T], >= 0.
+  /// Moment that opposes a change of the curvature, over the rate of this change [M L^3/T], >= 0.
   double bending_viscosity = 0;
-  bool keeps_area = true;  ///< false: only the lengths are kept; always true in a fluid
+  bool keeps_area = true;  ///< false: the area may change; always true in a fluid
   /// The distances that neighbours keep [L], > 0: entry k is that of beads k and k + 1. Empty in a
-  /// fluid.
+  /// fluid, where beads keep equal distances along the curve.
   std::vector<double> lengths;
 
-  /// True if bending takes a force.
+  /// True if the membrane resists bending.
   bool resists_bending() const { return bending_rigidity > 0 || bending_viscosity > 0; }
-  /// Sets its beads: the `count` particles from number `first` on.
+  /// Takes the particles `first` to `first` + `count` - 1 as its beads.
   void set_beads(std::int32_t first, std::int32_t count) {
     beads.resize(static_cast<std::size_t>(count));
     std::iota(beads.begin(), beads.end(), first);
   }
   /// Number of its beads.
   std::int32_t count() const { return static_cast<std::int32_t>(beads.size()); }
-  /// The particle that is bead k, where k counts around the membrane from 0 in both directions.
+  /// Number of the particle that is bead k, where k is any whole number, taken modulo count().
   std::int32_t bead(std::int32_t k) const {
     return beads[static_cast<std::size_t>(((k % count()) + count()) % count())];
   }
@@ -72,53 +72,55 @@ inline constexpr std::int32_t kLeastBeads = 12;
 /// The membranes of a case, in a fluid or without one.
 const std::vector<Membrane>& membranes_of(const Setting& setting);
 
-/// What a table says of a membrane at one time.
+/// What membranes.csv says of a membrane at one time.
 struct MembraneMeasures {
   double x = 0,               ///< x of the centre of the area inside [L]
       y = 0;                  ///< y of this centre [L]
-  double inclination = 0;     ///< of the long axis of that area, in (-pi/2, pi/2] [rad]
-  double area = 0;            ///< [L^2]
-  double perimeter = 0;       ///< [L]
+  double inclination = 0;     ///< angle of the long axis of the area to x, in (-pi/2, pi/2] [rad]
+  double area = 0;            ///< area inside [L^2]
+  double perimeter = 0;       ///< length of the closed line [L]
   double membrane_speed = 0;  ///< mean speed of the beads relative to their mean velocity [L/T]
-  /// Turns of the membrane around the area inside relative to its long axis, counter-clockwise if
-  /// > 0 [1/T].
+  /// How often per time the membrane runs around the area inside, relative to the long axis of this
+  /// area [1/T]; > 0 if counter-clockwise.
   double tank_treading_frequency = 0;
 };
 
-/// Measures a membrane in the state of these particles. In a periodic domain the centre is that of
-/// the image in which its first bead is.
+/// Measures a membrane with the positions and velocities of these particles. In a periodic domain
+/// the centre is that of the image to which the position of the first bead belongs.
 MembraneMeasures measure(const Membrane& membrane, const Particles& particles);
 
-/// Throws Error(kBadInput) if membranes of a state from a file have other perimeters or areas than
-/// those of the case. In a run both are kept.
+/// Throws Error(kBadInput) if membranes of a state from a restart file have other perimeters, kept
+/// areas or distances than those of the case, by more than 1e-6 of them.
 void check_shapes(std::span<const Membrane> membranes, const Particles& particles);
 
-/// Sets Particles::neighbours for membranes without a fluid.
+/// Sets Particles::neighbours, the two beads next to each bead, for membranes without a fluid.
 void join_neighbours(std::span<const Membrane> membranes, Particles& particles);
 
-/// The rows of membranes.csv of all membranes of a state:
-/// time,id,x,y,inclination,area,perimeter,membrane_speed,tank_treading_frequency.
+/// The rows of membranes.csv of all membranes of a state, one line each: time, number of the
+/// membrane from 0, and the MembraneMeasures. `force_errors` is not used; other tables of links,
+/// which are written by functions of the same type, need it.
 std::string membrane_rows(const Setting& setting, const State& state,
                           std::span<const double> force_errors);
-/// The names of these columns after time and id.
+/// The names of the columns of membranes.csv after time and id.
 inline constexpr const char* kMembraneColumns =
     "x,y,inclination,area,perimeter,membrane_speed,tank_treading_frequency";
 
-/// Centres of the beads of an ellipse about `centre` [L] with the beads, perimeter and area of the
-/// membrane, two numbers for each; its long axis has the direction `angle` [rad]. The beads are at
-/// equal distances along the ellipse, and are then moved slightly so that lengths and area are
-/// exact: those of the curve, or those of the polygon if the membrane has `lengths`. Returns
-/// nothing if so few beads cannot have this shape. Needs area <= perimeter^2/(4 pi).
+/// Centres of the beads of a membrane that begins as an ellipse about `centre` [L] whose long axis
+/// has the direction `angle` [rad], two numbers for each bead [L]. Number of beads, perimeter and
+/// area are those of `membrane`; area must be at most perimeter^2/(4 pi). The beads are put at
+/// equal distances along the ellipse, and then moved slightly so that lengths and area are exact:
+/// those of the polygon if the membrane has `lengths`, otherwise those of the curve. Returns
+/// std::nullopt if so few beads cannot have this shape.
 std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Vector& centre,
                                               double angle);
 
-/// Gives a membrane without a fluid the distances and the area that its particles have, and brings
-/// its beads in the order counter-clockwise.
+/// Sets lengths, perimeter and area of a membrane without a fluid to those of the polygon through
+/// its particles, and reverses the order of its beads if it is clockwise.
 void shape_polygon(Membrane& membrane, const Particles& particles);
 
-/// Gives a membrane in a fluid the perimeter and the area of the curve through its particles,
-/// brings its beads in the order counter-clockwise, and moves them to equal distances. Returns the
-/// largest component of a displacement [L], or infinity if there are no such places.
+/// Sets perimeter and area of a membrane in a fluid to those of the curve through its particles,
+/// reverses the order of its beads if it is clockwise, and moves them to equal distances along the
+/// curve. Returns the largest component of a displacement [L]; infinity if no such places exist.
 double shape_curve(Membrane& membrane, Particles& particles);
 
 /// The largest area of a polygon whose sides have these lengths [L^2]: that of the polygon whose
@@ -126,18 +128,18 @@ double shape_curve(Membrane& membrane, Particles& particles);
 double largest_area(std::span<const double> lengths);
 
 /// The corners of the polygon through the beads, two numbers for each [L]. In a periodic domain
-/// each corner is the image of its bead that is nearest to the corner before it.
+/// each bead is taken at its image that is nearest to the corner before it.
 std::vector<double> corners_of(const Membrane& membrane, const Particles& particles);
 
 // In the following, a closed polygon is given by two numbers for each corner [L].
 
 /// True if a point is inside a polygon.
 bool is_inside(const std::array<double, 2>& x, std::span<const double> polygon);
-/// True if sides of two polygons cross.
+/// True if a side of one polygon crosses a side of the other.
 bool do_cross(std::span<const double> first, std::span<const double> second);
 /// True if one of two polygons that do not cross is inside the other.
 bool do_contain(std::span<const double> first, std::span<const double> second);
-/// True if two sides of a polygon that are no neighbours cross.
+/// True if two sides of a polygon that have no common corner cross.
 bool crosses_itself(std::span<const double> polygon);
 
 }  // namespace viscontact::particles

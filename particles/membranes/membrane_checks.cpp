@@ -1,5 +1,7 @@
-// Checks of membranes when a case is read (particles_sections.hpp). Lengths are in the unit of the
-// case. Every fault is an Error(kBadInput) with the line of the case.
+// Checks of membranes (closed lines through particles, the beads) when a case file is read;
+// case/particles_sections.hpp declares and explains the functions, and membrane_keys.cpp calls
+// them. Lengths are in the unit of the case file. Every fault throws Error(kBadInput) with its
+// line. A change must not refuse what users' cases may contain now.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,14 +17,14 @@
 namespace viscontact::particles {
 namespace {
 
-/// Throws if a case without a fluid has something that cannot be combined with a membrane.
+/// Throws if a case without a fluid has restitution, which cannot be combined with membranes.
 void check_case_without_fluid(const case_file::TomlSection& root, const ParticlesCase& c) {
   root.section("viscous_contact")
       .require(!c.setting.laws.restitution.is_on(), "restitution",
                "must be left out, because the case has membranes, through which a blow would pass");
 }
 
-/// Throws if a fluid cannot have membranes.
+/// Throws if a case with a fluid has what membranes exclude. `first` is the first [[membrane]].
 void check_case_in_fluid(const case_file::TomlSection& root, const case_file::TomlSection& first,
                          const ParticlesCase& c) {
   const FilePosition at{c.path.string(), first.line()};
@@ -61,8 +63,8 @@ void check_case_in_fluid(const case_file::TomlSection& root, const case_file::To
                     "have walls below and above");
 }
 
-/// A rate at which the boundary deforms the fluid [1/T]: the largest entry of its velocity
-/// gradient, or the largest speed of a side over the smallest extent of the box.
+/// An estimate of the rate at which the boundary deforms the fluid [1/T]: the largest entry of the
+/// velocity gradient, or the largest speed of a side over the smallest extent of the box.
 double rate_of_deformation(const ParticlesCase& c) {
   const auto& boundary = c.setting.fluid->boundary;
   double largest = 0;
@@ -80,19 +82,19 @@ double rate_of_deformation(const ParticlesCase& c) {
 
 void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& c) {
   const auto& membrane = c.setting.fluid->membranes.back();
-  // At smaller ratios the solution is lost in rounding errors (1e-6 ends in errors of FreeFEM). At
-  // larger ratios the elements resist the slow tank-treading that remains: the inclination of a
-  // vesicle of reduced area 0.9 that turns for half a time unit should hardly depend on the ratio,
-  // but differs by 0.002 between 1e2 and 1e3, and by 0.015 between 1e3 and 1e4.
+  // At smaller viscosity ratios the solution is lost in rounding errors (1e-6 ends in errors of
+  // FreeFEM). At larger ones the error of the elements grows: the inclination of a membrane of
+  // reduced area 0.9 after half a time unit should hardly depend on such large ratios, but it
+  // differs by 0.002 rad between 1e2 and 1e3, and by 0.015 rad between 1e3 and 1e4.
   constexpr double kLeast = 1e-4, kMost = 1e3;
   section.require(membrane.viscosity_ratio >= kLeast && membrane.viscosity_ratio <= kMost,
                   "inner_viscosity",
                   "is {:.6g} times the viscosity of the fluid outside; it must be from 1e-4 to 1e3 "
                   "times as large",
                   membrane.viscosity_ratio);
-  // Tensions keep the lengths, and stiff bending keeps the curve smooth; a curve of few beads can
-  // then hardly tank-tread. With 12 beads and a rigidity of 1000 the inclination is 0.43 rad, where
-  // 0.58 is right.
+  // The lengths are kept, and stiff bending keeps the curve smooth; a curve of few beads can then
+  // hardly run around the area inside, as it should in a shear flow. With 12 beads and 1000 times
+  // `scale` as the rigidity, the inclination is 0.43 rad, where 0.58 rad is right.
   constexpr double kStiff = 100;
   constexpr std::int32_t kBeadsOfStiff = 32;
   const double scale = c.setting.fluid->viscosity * rate_of_deformation(c) *
@@ -123,7 +125,7 @@ void check_given_beads(const case_file::TomlSection& section, const ParticlesCas
                        const Membrane& membrane) {
   const bool in_fluid = c.setting.fluid.has_value();
   const auto& p = c.particles;
-  // With three beads the distances determine the area, and nothing could move.
+  // With three beads the kept distances would determine the shape.
   constexpr std::int32_t kLeastWithoutFluid = 4;
   const auto least = in_fluid ? kLeastBeads : kLeastWithoutFluid;
   section.require(membrane.count() >= least, "particles",
@@ -156,7 +158,8 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
   const auto own = corners_of(membrane, p);
   const auto count = membrane.beads.size();
   section.require(!crosses_itself(own), shape, "makes a membrane that crosses itself");
-  // The sides of a flat membrane lie on each other, and no motion changes its area.
+  // If the membrane is flat, its sides lie on each other, and no motion changes its area, so that
+  // the equation of the area is singular. 1e-3 is a free choice near 0.
   constexpr double kLeastReducedArea = 1e-3;
   const double reduced_area =
       4 * std::numbers::pi * membrane.area / (membrane.perimeter * membrane.perimeter);
@@ -167,7 +170,7 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
     for (std::size_t j = i + 2; j < count; ++j) {
       const auto a = index_of(membrane.beads[i]), b = index_of(membrane.beads[j]);
       const double distance = std::hypot(own[2 * i] - own[2 * j], own[2 * i + 1] - own[2 * j + 1]);
-      // Allows for the rounding errors of distances that are computed from rounded places.
+      // The distances of given particles have the rounding errors of their positions.
       constexpr double kRounding = 1 + 1e-9;
       section.require((i == 0 && j + 1 == count) || distance * kRounding >= p.radii[a] + p.radii[b],
                       shape,
@@ -175,15 +178,15 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
                       "larger, or its beads smaller",
                       p.id(a), p.id(b));
     }
-  // The range of `reduced_area` of a membrane that is made (membrane_keys.cpp), with room for
-  // rounding.
+  // The bounds are those of the key reduced_area (membrane_keys.cpp) with room for rounding errors.
   section.require(!c.setting.fluid || (reduced_area > 0.2999 && reduced_area < 0.99901), shape,
                   "makes a membrane of the reduced area {:.6g}; in a fluid it must be from 0.3 to "
                   "0.999",
                   reduced_area);
-  // A membrane with the largest area that its distances allow can only move rigidly, because the
-  // gradient of the area is then a sum of the gradients of the distances. A membrane with 0.993 of
-  // the largest area kept area and distances when a disc hit it.
+  // A membrane with the largest area that its distances allow can only move rigidly: the gradient
+  // of the area is then a linear combination of those of the distances, and the equations are
+  // singular. In a test, a membrane with 0.993 of the largest area still kept area and distances
+  // when a disc hit it.
   constexpr double kOfLargestArea = 0.993;
   if (!c.setting.fluid && membrane.keeps_area) {
     const double largest = largest_area(membrane.lengths);

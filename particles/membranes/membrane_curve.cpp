@@ -1,5 +1,7 @@
-// Trigonometric interpolation, and the discrete energy of a membrane (membrane_curve.hpp), in the
-// units of that header. Nothing is checked or thrown.
+// The closed curve through the particles (beads) of a membrane by trigonometric interpolation, its
+// lengths, area, moments and bending energy; membrane_curve.hpp has the shapes and units of all
+// arrays. Nothing is checked or thrown. The sources of this folder and freefem_flow/membranes/ use
+// it. A change must keep that all derivatives are exact.
 #include "viscontact/particles/membranes/membrane_curve.hpp"
 
 #include <Eigen/Cholesky>
@@ -10,9 +12,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// Derivatives of the energy density e = c^2 q^(-5/2) at one bead, where c = x' y'' - y' x'' and
-/// q = x'^2 + y'^2, with respect to z = (x', y', x'', y''). Primes are derivatives by the parameter
-/// of the curve.
+/// The energy density e = c^2 q^(-5/2) (squared curvature times |dx/ds|) at one bead, where c = x'
+/// y'' - y' x'' and q = x'^2 + y'^2, and its derivatives with respect to (x', y', x'', y''). Primes
+/// are derivatives with respect to the parameter s of the curve.
 struct Density {
   double value = 0;
   Eigen::Vector4d gradient;
@@ -82,7 +84,7 @@ Eigen::MatrixXd MembraneCurve::speeds_hessian(const Eigen::VectorXd& positions,
                                               const Eigen::VectorXd& factors) const {
   const Eigen::ArrayXd dx = first_halfway_ * positions.head(n_),
                        dy = first_halfway_ * positions.tail(n_);
-  // The second derivatives of |d|, d = (dx, dy), are (1 - d d^T/|d|^2)/|d|.
+  // The second derivatives of |d| with respect to d = (dx, dy) are (I - d d^T/|d|^2)/|d|.
   const Eigen::ArrayXd scaled = factors.array() * (dx.square() + dy.square()).pow(-1.5);
   const auto block = [&](const Eigen::ArrayXd& values) -> Eigen::MatrixXd {
     return first_halfway_.transpose() * ((scaled * values).matrix().asDiagonal() * first_halfway_);
@@ -147,7 +149,7 @@ Eigen::VectorXd MembraneCurve::bending_gradient(const Eigen::VectorXd& positions
 Eigen::MatrixXd MembraneCurve::bending_hessian(const Eigen::VectorXd& positions) const {
   const Eigen::MatrixXd a = tangents(positions);
   const Eigen::VectorXd bx = second_ * positions.head(n_), by = second_ * positions.tail(n_);
-  // Entry (z, w) of the Hessian of the density at all beads.
+  // Entry (z, w) of the Hessian of the energy density, at all beads.
   std::array<std::array<Eigen::VectorXd, 4>, 4> of_zw;
   for (auto& row : of_zw) row.fill(Eigen::VectorXd(n_));
   for (int i = 0; i < n_; ++i) {
@@ -174,7 +176,7 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
   constexpr int kMostRounds = 50;
   constexpr double kExact = 1e-13;
   for (int round = 0; round < kMostRounds; ++round) {
-    // Residuals and rows are divided by the size of the membrane, so that all rows are near 1.
+    // Residuals and rows are divided by powers of `speed`, so that all entries are near 1.
     Eigen::VectorXd missing(n + 1);
     missing.head(n) = Eigen::VectorXd::Constant(n, 1) - curve.speeds(positions) / speed;
     missing(n) = (area - curve.area(positions)) / (speed * speed);
@@ -187,7 +189,7 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
         rows.transpose() * (rows * rows.transpose()).ldlt().solve(missing);
     if (!change.allFinite()) return false;
     positions += speed * change;
-    // The next residual of Newton's method would be rounding errors.
+    // Newton's method is quadratic, so that its next residual would be a rounding error.
     if (missing.lpNorm<Eigen::Infinity>() < 1e3 * kExact) return true;
   }
   return false;
@@ -198,8 +200,7 @@ namespace {
 AreaMoments moments_of(const MembraneCurve& curve, const Eigen::VectorXd& positions) {
   const int n = curve.beads();
   const Eigen::MatrixXd tangents = curve.tangents(positions);
-  // Integrals over the area as integrals along the curve (Green's theorem), about the mean of the
-  // beads.
+  // By Green's theorem, integrals over the area (about the mean of the beads) are line integrals.
   const double mean_x = positions.head(n).mean(), mean_y = positions.tail(n).mean();
   double mx = 0, my = 0;
   AreaMoments moments{mean_x, mean_y};
@@ -262,14 +263,14 @@ MembraneMeasures measure(const MeasuredLine& line, const Eigen::VectorXd& positi
   for (Eigen::Index i = 0; i < n; ++i)
     measures.membrane_speed += std::hypot(relative(i), relative(n + i)) / static_cast<double>(n);
   if (measures.membrane_speed == 0) return measures;
-  // The rate of the inclination, by a central difference over a time in which the beads move by
-  // this fraction of the perimeter: truncation and rounding are then below 1e-9 of the rate.
+  // The rate of the inclination is a central difference over a time in which the beads move by this
+  // fraction of the perimeter. Its truncation and rounding errors are then below 1e-9 of the rate.
   constexpr double kOfPerimeter = 1e-6;
   const double time = kOfPerimeter * measures.perimeter / measures.membrane_speed;
   const double turn = line.moments(positions + time * velocities).inclination() -
                       line.moments(positions - time * velocities).inclination();
   const double rate = std::remainder(turn, std::numbers::pi) / (2 * time);
-  // A rigid rotation of this rate has the circulation 2 rate area.
+  // The circulation of a rigid rotation with this rate, 2 rate area, is subtracted.
   measures.tank_treading_frequency = (line.circulation(relative) - 2 * rate * measures.area) /
                                      (measures.perimeter * measures.perimeter);
   return measures;

@@ -1,8 +1,9 @@
-// The closed curve through the beads of a membrane, docs/physics.md (8.2) and (8.3): its lengths,
-// its area, and its bending energy with the first and second derivatives. Lengths are in the unit
-// of the case. Nothing is checked or thrown. Only sources include this header, because users of the
-// library need no Eigen. A change must keep that derivatives are exact: Newton's method in this
-// folder uses them.
+// The closed curve through the particles (beads) of a membrane in a fluid, docs/physics.md (8.2)
+// and (8.3): its lengths, its area, and its bending energy with the first and second derivatives;
+// and the measures of a closed line. Lengths are in any unit. Nothing is checked or thrown. The
+// sources of this folder and freefem_flow/membranes/ use it. No header that users of the library
+// include may include it, because they need no Eigen. A change must keep that derivatives are
+// exact, because Newton's method in membrane_motion.cpp uses them.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,13 +16,14 @@ namespace viscontact::particles {
 
 inline constexpr double kTwoPi = 2 * std::numbers::pi;  ///< range of the parameter of a curve
 
-/// The value at `theta` of the trigonometric polynomial of least degree that is 1 at 0 and 0 at the
-/// other `beads` - 1 points 2 pi k/beads (derivative 0), or its first or second derivative. The
-/// interpolation of f_k at 2 pi k/beads is sum_k f_k cardinal(beads, theta - 2 pi k/beads).
+/// The trigonometric polynomial of least degree that is 1 at the angle 0 and 0 at the other angles
+/// 2 pi k/beads, or its derivative of order `derivative` (0 to 2), at the angle `theta` [rad]. The
+/// interpolation of the values f_k at the angles 2 pi k/beads is the sum of f_k cardinal(beads,
+/// theta - 2 pi k/beads, 0).
 double cardinal(int beads, double theta, int derivative);
 
-/// Curves through N beads. The parameter of a curve is s in [0, 2 pi), and bead k is at 2 pi k/N.
-/// An array of positions has x of all beads and then y of all, so that its size is 2 N.
+/// Curves through N beads. The parameter of a curve is s in [0, 2 pi), and bead k is at s = 2 pi
+/// k/N. An array of positions has x of all beads and then y of all: 2 N numbers [L].
 class MembraneCurve {
  public:
   /// `beads` >= 3 is N.
@@ -29,10 +31,9 @@ class MembraneCurve {
 
   int beads() const { return n_; }  ///< N
 
-  /// The speeds |dx/ds| at the parameters halfway between beads, N numbers [L]. A curve of
+  /// The speeds |dx/ds| at the parameters halfway between beads, N numbers [L]. A curve of the
   /// perimeter P that keeps them at P/(2 pi) does not stretch. They are not taken at the beads,
-  /// because the wave that changes its sign from bead to bead has the derivative 0 there and would
-  /// not be seen.
+  /// because a displacement that changes its sign from bead to bead has the derivative 0 there.
   Eigen::VectorXd speeds(const Eigen::VectorXd& positions) const;
   /// Derivatives of the speeds with respect to the positions [1]: N rows, 2 N columns.
   Eigen::MatrixXd speed_rows(const Eigen::VectorXd& positions) const;
@@ -40,18 +41,18 @@ class MembraneCurve {
   /// with 2 N rows [1/L, times the unit of `factors`].
   Eigen::MatrixXd speeds_hessian(const Eigen::VectorXd& positions,
                                  const Eigen::VectorXd& factors) const;
-  /// Perimeter [L].
+  /// Perimeter [L], the mean of the speeds times 2 pi.
   double perimeter(const Eigen::VectorXd& positions) const;
 
   /// Area inside [L^2], > 0 if the beads go around counter-clockwise.
   double area(const Eigen::VectorXd& positions) const;
-  /// Derivatives of the area, 2 N numbers [L].
+  /// Derivatives of the area with respect to the positions, 2 N numbers [L].
   Eigen::VectorXd area_row(const Eigen::VectorXd& positions) const;
 
   /// Second derivatives of the area [1], a symmetric matrix that does not depend on the positions.
   Eigen::MatrixXd area_hessian() const;
 
-  /// Integral of (curvature^2)/2 along the curve [1/L], as the sum of the values at the beads.
+  /// Integral of curvature^2/2 along the curve [1/L], computed from the values at the beads.
   double bending_energy(const Eigen::VectorXd& positions) const;
   /// Derivatives of bending_energy(), 2 N numbers [1/L^2].
   Eigen::VectorXd bending_gradient(const Eigen::VectorXd& positions) const;
@@ -63,13 +64,14 @@ class MembraneCurve {
 
  private:
   int n_;
-  // Derivatives with respect to s at the beads, of first and second order, and of first order
-  // halfway between them.
+  // N x N matrices that give derivatives with respect to s from values at the beads: of first and
+  // second order at the beads, and of first order halfway between them.
   Eigen::MatrixXd first_, second_, first_halfway_;
 };
 
 /// Moves the positions as little as possible until all speeds are `perimeter`/(2 pi) [L] and the
-/// area is `area` [L^2]. Returns false if Newton's method finds no such positions.
+/// area is `area` [L^2], to rounding errors. Returns false if Newton's method finds no such
+/// positions; `positions` are then undefined.
 bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, double area,
                               Eigen::VectorXd& positions);
 
@@ -77,29 +79,28 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
 struct AreaMoments {
   double x = 0,   ///< of the centre [L]
       y = 0;      ///< of the centre [L]
-  double xx = 0,  ///< integral of x^2, x from the centre [L^4]
-      yy = 0,     ///< integral of y^2 [L^4]
-      xy = 0;     ///< integral of x y [L^4]
+  double xx = 0,  ///< integral of x^2 over the area, with x from the centre [L^4]
+      yy = 0,     ///< integral of y^2, likewise [L^4]
+      xy = 0;     ///< integral of x y, likewise [L^4]
   /// The direction of the long axis, in (-pi/2, pi/2] [rad].
   double inclination() const;
-  /// From a point (x, y) to the centre. `area` [L^2] is inside, mx and my are its first moments
-  /// about the point [L^3].
+  /// Changes moments about another point (x, y) to those about the centre. `area` [L^2] is the area
+  /// inside; mx and my are its first moments about the point [L^3].
   void move_to_centre(double area, double mx, double my);
 };
 
-/// A closed line through beads, as measure() needs it: a MembraneCurve or the polygon of
-/// necklace.hpp.
+/// What measure() must know of a closed line: of a MembraneCurve or the polygon of necklace.hpp.
 struct MeasuredLine {
-  double area = 0;       ///< inside [L^2]
-  double perimeter = 0;  ///< [L]
-  /// The moments of the area if the beads are at the given positions.
+  double area = 0;       ///< area inside [L^2]
+  double perimeter = 0;  ///< length of the line [L]
+  /// Returns the moments of the area inside if the beads are at the given positions.
   std::function<AreaMoments(const Eigen::VectorXd&)> moments;
-  /// The integral along the line of the tangential component of the given velocities of the beads
-  /// [L^2/T].
+  /// Returns the line integral of the tangential velocity for velocities of the beads [L^2/T].
   std::function<double(const Eigen::VectorXd&)> circulation;
 };
 
-/// Measures a membrane by its line. Without `velocities` [L/T] (empty), its rates are 0.
+/// Measures a membrane by its line. `positions` [L] and `velocities` [L/T] of the beads have 2 N
+/// numbers; if `velocities` is empty, the speed and the frequency are 0.
 MembraneMeasures measure(const MeasuredLine& line, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities);
 /// The same for the curve of a membrane in a fluid.

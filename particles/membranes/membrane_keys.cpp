@@ -1,6 +1,8 @@
-// Reads [[membrane]] of a case (particles/case/particles_sections.hpp), and makes the beads.
-// Lengths and masses are in the units of the case. A wrong value is an Error(kBadInput) with its
-// line. A change must keep the keys and their defaults, because users have written cases with them.
+// Reads the sections [[membrane]] of a case file, and makes the particles (beads) of membranes that
+// are not given by particles. case/particles_sections.hpp declares its two functions, which case/
+// calls. Lengths and masses are in the units of the case file, angles in radians. A wrong value
+// throws Error(kBadInput) with its line. A change must keep the keys and their defaults, because
+// users have written cases with them.
 #include <algorithm>
 #include <numbers>
 #include <utility>
@@ -13,21 +15,21 @@
 namespace viscontact::particles {
 namespace {
 
-/// A vesicle of a reduced area above 0.999 is nearly a circle, which hardly anything deforms; below
-/// 0.3 its two sides touch.
+/// Allowed range of 4 pi area/perimeter^2, the reduced area. Above 0.999 a membrane is nearly a
+/// circle, which hardly anything deforms; below 0.3 its two long sides touch.
 constexpr Allowed kReducedArea = {[](double v) { return v >= 0.3 && v <= 0.999; },
                                   "from 0.3 to 0.999"};
 
-/// A table [[membrane]].
+/// The values of a section [[membrane]]; the keys below say what each means.
 struct MembraneTable {
   Membrane membrane;
-  Vector centre{}, velocity{};
+  Vector centre{}, velocity{};  // [L, L/T]
   std::int32_t beads = 48;
   double reduced_area = 0, angle = 0, inner_viscosity = 0, bead_mass = 0;
-  double bead_radius = 0;  // 0: the default
+  double bead_radius = 0;  // [L]; 0: the default
 };
 
-/// The keys of a membrane that is made; a membrane of given particles has none of them.
+/// Reads the keys of a membrane whose beads are made; a section with `particles` has none of them.
 void shape_keys(case_file::Keys& keys, MembraneTable& table, bool in_fluid) {
   auto& membrane = table.membrane;
   const bool is_made = !keys.has("particles");
@@ -106,7 +108,7 @@ void membrane_keys(case_file::Keys& keys, MembraneTable& table, const ParticlesC
   membrane.viscosity_ratio = table.inner_viscosity / outside;
 }
 
-/// Sets the perimeter, area and distances of a membrane from its given particles.
+/// Sets perimeter, area and distances of a membrane to those of its given particles.
 void take_shape(const case_file::TomlSection& section, ParticlesCase& c, Membrane& membrane) {
   c.particles.cell = cell_of(c.setting.domain);
   check_given_beads(section, c, membrane);
@@ -114,8 +116,7 @@ void take_shape(const case_file::TomlSection& section, ParticlesCase& c, Membran
     shape_polygon(membrane, c.particles);
     return;
   }
-  // Given places may be rounded: beads may move by this part of their distance to become
-  // equidistant.
+  // Positions in a file may be rounded: beads may be moved by this fraction of their distance.
   constexpr double kRounded = 0.02;
   const double moved = shape_curve(membrane, c.particles);
   const double allowed = kRounded * membrane.perimeter / membrane.count();
@@ -142,8 +143,8 @@ void make_beads(const case_file::TomlSection& section, ParticlesCase& c, Membran
                   table.reduced_area, table.beads, table.reduced_area > 0.9 ? "smaller" : "larger");
   require_ids(section, "beads", p, static_cast<std::size_t>(table.beads));
   p.positions.insert(p.positions.end(), places->begin(), places->end());
-  // `in_case` has entries for the particles of [[particle]]. Discs of an [arrangement], which have
-  // no line, come before the beads and get empty entries.
+  // `in_case` has the line of each particle of a section [[particle]]. The discs of an
+  // [arrangement], which come before the beads, have no line and get entries of 0.
   lines.in_case.resize(p.count() - lines.in_file.size());
   for (std::int32_t k = 0; k < table.beads; ++k) {
     p.velocities.insert(p.velocities.end(), {table.velocity[0], table.velocity[1]});

@@ -1,6 +1,7 @@
-// Newton's method for a step of membranes (membrane_motion.hpp), in the units of the case. A step
-// that it cannot solve is an Error(kNotConverged). A change must keep lengths and areas exact after
-// a step, and the matrix the derivative of the equations, so that the method stays quadratic.
+// Solves a time step of membranes in a fluid by Newton's method; membrane_motion.hpp has the
+// equations, the shapes and units of all arrays, and who uses it. Throws Error(kNotConverged) if it
+// cannot solve a step. A change must keep that step_matrix() is the derivative of the equations, so
+// that the method converges quadratically.
 #include "viscontact/particles/membranes/membrane_motion.hpp"
 
 #include <Eigen/LU>
@@ -89,8 +90,8 @@ Eigen::VectorXd Membranes::bending_forces(const Eigen::VectorXd& positions) cons
   return forces;
 }
 
-/// Second derivatives of the sum of the bending energy, the tensions times the speeds, and the
-/// pressures times the areas, with respect to the positions.
+/// Second derivatives by the 2 beads() positions of bending energy plus tensions times speeds
+/// (MembraneCurve::speeds) plus pressures times areas [M/T^2].
 Eigen::MatrixXd Membranes::stiffness(const Eigen::VectorXd& positions,
                                      const MembraneMotion& motion) const {
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(2 * beads(), 2 * beads());
@@ -116,7 +117,7 @@ MembraneMotion Membranes::motion_at(const Eigen::VectorXd& positions,
   const Eigen::VectorXd free = answer.flow + answer.mobility * motion.forces;
   const Eigen::MatrixXd answers = answer.mobility * rows.transpose();
   // The tension of a circle is not unique, because a constant tension acts like a pressure inside.
-  // The decomposition then chooses the smallest tension.
+  // This decomposition then finds the tension with the least sum of squares.
   const Eigen::VectorXd tension =
       (rows * answers).completeOrthogonalDecomposition().solve(rows * free);
   motion.forces -= rows.transpose() * tension;
@@ -124,7 +125,7 @@ MembraneMotion Membranes::motion_at(const Eigen::VectorXd& positions,
   return motion;
 }
 
-/// Derivatives of the areas with respect to all positions: a column for each membrane [L].
+/// Derivatives of the areas by the positions: 2 beads() rows, a column for each membrane [L].
 Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const {
   const auto count = static_cast<Eigen::Index>(curves_.size());
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(2 * beads(), count);
@@ -136,9 +137,9 @@ Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const 
   return columns;
 }
 
-/// The matrix of Newton's method for step(), in which unknowns are scaled so that its entries have
-/// similar sizes. The unknowns are the positions [L]; the tensions, divided by `unit` [M L/T^2];
-/// and the pressures times the norm of their column of area_columns(), divided by `unit`.
+/// The matrix of Newton's method for step(). Its unknowns are scaled so that its entries have
+/// similar sizes. They are the positions [L]; the tensions over `unit`, a force [M L/T^2]; and the
+/// pressures times the norm of their column of area_columns(), over `unit`.
 Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
                                        const Eigen::VectorXd& positions,
                                        const MembraneMotion& motion, double unit) const {
@@ -153,7 +154,7 @@ Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
   matrix.block(0, 2 * n, 2 * n, n) = unit * moves * rows.transpose();
   matrix.topRightCorner(2 * n, count) = unit * moves * scaled_areas;
   matrix.block(2 * n, 0, n, 2 * n) = rows;
-  // The condition a.P f = 0: the forces of a membrane do no work when its area changes.
+  // These rows demand that flow_forces do no work when the area of a membrane changes.
   matrix.bottomLeftCorner(count, 2 * n) = scaled_areas.transpose() * of_forces / unit;
   for (std::size_t m = 0; m < curves_.size(); ++m) {
     const auto row = static_cast<Eigen::Index>(m);
@@ -166,13 +167,12 @@ Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
   return matrix;
 }
 
-/// Newton's method for step(): returns whether it has found `positions` and the tensions and
-/// pressures of `motion`, of which both are first guesses.
+/// Newton's method for step(). `positions`, and the tensions and pressures of `motion`, are first
+/// guesses, and the solution afterwards. Returns false if it has not converged.
 bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                            Eigen::VectorXd& positions, MembraneMotion& motion) const {
   const auto n = beads(), count = static_cast<Eigen::Index>(curves_.size());
-  // Unit of tensions in the matrix (a force): one unit moves a bead by about the length 1 in the
-  // step.
+  // The unit of tensions is a force that moves a bead by about the length 1 in the step.
   const double unit = static_cast<double>(2 * n) / (time * answer.mobility.trace());
   Eigen::VectorXd wanted(n);
   double size = 0;
@@ -183,8 +183,9 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
   }
   // The limit is a free choice.
   constexpr int kMostRounds = 30;
-  // Newton's method is quadratic: after a change of this size the next one would be a rounding
-  // error. Rounding errors of stiff membranes are larger; then changes no longer become smaller.
+  // Newton's method is quadratic: after a change of the positions by less than kExact of their
+  // size, the next one would be a rounding error. In stiff membranes rounding errors are larger.
+  // Therefore a change below kRounding and above half of the one before also ends the method.
   constexpr double kExact = 1e-9, kRounding = 1e-6;
   double last = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds; ++round) {
@@ -228,7 +229,7 @@ MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const F
   bool is_solved = solve_step(from, time, loaded, positions, motion);
   if (!is_solved) {
     // Newton's method may fail if a stiff membrane is far from its equilibrium. Then steps of the
-    // lengths time/2^12, time/2^11, ..., time are solved, each with the solution of the one before
+    // lengths time/2^12, time/2^11, ..., time are solved, each with the solution of the shorter one
     // as its first guess. The number 12 is a free choice.
     begin();
     is_solved = true;

@@ -1,7 +1,7 @@
-// Time stepping of membranes and rigid discs in a fluid (membrane_simulation.hpp). Lengths, masses
-// and times are in the units of the case. Errors are those of that header. A change must keep that
-// a run which is continued from a restart file gives the same bits as one without a break;
-// therefore a step may depend on nothing but the setting and the state.
+// Time steps of membranes (closed curves through particles, their beads) and rigid discs in a
+// fluid; membrane_simulation.hpp has the equations, the units, the errors and who uses it. A change
+// must keep that a step depends on nothing but the setting and the state, because a run that
+// continues from a restart file must give the same bits as one without a break.
 #include "viscontact/particles/membranes/membrane_simulation.hpp"
 
 #include <Eigen/Core>
@@ -21,7 +21,7 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr std::size_t kComponents = 3;  // of the motion of a particle in the plane
+constexpr std::size_t kComponents = 3;  // x, y and turn of a particle in the plane
 
 }  // namespace
 
@@ -36,9 +36,9 @@ class MembraneSimulation::Implementation {
   const FluidSolver& solver() const { return *solver_; }
 
  private:
-  // Arrays of this class, of places [L, rad], velocities [L/T, 1/T] or forces [M L/T^2, M L^2/T^2],
-  // have first x of all beads, then y of all beads, and then x, y and the angle of each disc, that
-  // is each particle that is no bead.
+  // The Eigen vectors of this class, of places [L, rad], velocities [L/T, 1/T] or forces and
+  // torques [M L/T^2, M L^2/T^2], have first x of all beads, then y of all beads, and then x, y and
+  // the angle of each disc. The discs are the particles that are no beads.
   Eigen::Index bead_components() const { return 2 * membranes_.beads(); }
   Eigen::VectorXd places(std::span<const double> positions,
                          const Eigen::VectorXd* near = nullptr) const;
@@ -110,8 +110,8 @@ MembraneSimulation::Implementation::Implementation(Setting setting, State state,
   to_particles(forces, state_.earlier_forces);
 }
 
-/// Places of all beads and discs, as arrays of this class, from the positions of all particles. In
-/// a periodic domain the images nearest to the places in `near` are taken, if it is given.
+/// Places of all beads and discs from `positions` of all particles, two numbers for each [L]. In a
+/// periodic domain, if `near` is given, the images nearest to the places in `near` are taken.
 Eigen::VectorXd MembraneSimulation::Implementation::places(std::span<const double> positions,
                                                            const Eigen::VectorXd* near) const {
   const auto& p = state_.particles;
@@ -133,7 +133,7 @@ Eigen::VectorXd MembraneSimulation::Implementation::places(std::span<const doubl
   return places;
 }
 
-/// An array of this class from kComponents numbers for each particle.
+/// An array of all beads and discs from kComponents numbers for each particle.
 Eigen::VectorXd MembraneSimulation::Implementation::from_particles(
     std::span<const double> numbers) const {
   const auto beads = bead_components();
@@ -177,8 +177,8 @@ void MembraneSimulation::Implementation::set_velocities(const Eigen::VectorXd& v
   }
 }
 
-/// The mean forces of the case on all beads and discs between two times, or, if both are equal,
-/// those at this time [M L/T^2].
+/// The mean forces of the case on all beads and discs between the times `from` and `to` [T], or, if
+/// these are equal, the forces at this time.
 Eigen::VectorXd MembraneSimulation::Implementation::applied_forces(double from, double to) const {
   std::vector<double> forces(kComponents * state_.particles.count());
   for (const auto& [particle, force] : setting_.forces) {
@@ -188,8 +188,8 @@ Eigen::VectorXd MembraneSimulation::Implementation::applied_forces(double from, 
   return from_particles(forces);
 }
 
-/// Gives the fluid solver the places of all beads and discs, and the mean motions of driven discs
-/// between two times.
+/// Gives the fluid solver the places of all beads and discs, and the mean velocities, between the
+/// times `from` and `to` [T], of the discs whose motion is given (driven discs).
 void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, double from,
                                                double to) {
   auto placed = state_.particles;
@@ -205,8 +205,8 @@ void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, do
   solver_->place(bodies);
 }
 
-/// The answer of the fluid, flow and mobility, for beads and discs at `places`, with the walls and
-/// driven discs as they move between the times `from` and `to` [T].
+/// Asks the fluid solver for the velocities of beads and discs at `places`: without forces, with
+/// walls and driven discs that move as between the times `from` and `to` [T]; and per force.
 FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& places, double from,
                                                     double to) {
   place(places, from, to);
@@ -223,13 +223,12 @@ FluidAnswer MembraneSimulation::Implementation::ask(const Eigen::VectorXd& place
   for (Eigen::Index i = 0; i < n; ++i)
     as_solved.col(i) =
         from_particles({rows.data() + static_cast<std::size_t>(order(i)) * size, size});
-  // The mobility is symmetric; rounding errors of the solutions are not.
+  // The mobility is symmetric but for rounding errors of the solutions, which the mean removes.
   answer.mobility = (as_solved + as_solved.transpose()) / 2;
   return answer;
 }
 
-/// The part of the answer that concerns the beads: velocities without forces on them, but with
-/// these loads on the discs, and the mobility of the beads.
+/// The `answer` for the beads alone, whose flow is that with `loads` on the discs.
 FluidAnswer MembraneSimulation::Implementation::answer_to_beads(
     const FluidAnswer& answer, const Eigen::VectorXd& loads) const {
   const auto b = bead_components(), d = answer.flow.size() - b;
@@ -237,7 +236,7 @@ FluidAnswer MembraneSimulation::Implementation::answer_to_beads(
           answer.mobility.topLeftCorner(b, b)};
 }
 
-/// The velocities under the forces of a motion on the fluid and these loads on the discs.
+/// The velocities of all, with the forces of `motion` at the beads and `loads` on the discs.
 Eigen::VectorXd MembraneSimulation::Implementation::velocities_of_all(
     const FluidAnswer& answer, const MembraneMotion& motion, const Eigen::VectorXd& loads) const {
   const auto b = bead_components(), d = answer.flow.size() - b;
@@ -248,8 +247,9 @@ Eigen::VectorXd MembraneSimulation::Implementation::velocities_of_all(
   return velocities;
 }
 
-/// How the places at the end of a step change per load on beads and discs: a symmetric matrix
-/// [T^2/M, and 1/L or 1/L^2 times this for turns and torques].
+/// Change of the places at the end of a step per force on beads and discs, a symmetric matrix:
+/// displacements per force [T^2/M], turns per force and displacements per torque [T^2/(M L)], turns
+/// per torque [T^2/(M L^2)]. `time` and `motion` are those of Membranes::step.
 Eigen::MatrixXd MembraneSimulation::Implementation::response(
     double time, const FluidAnswer& answer, const MembraneMotion& motion,
     const Eigen::VectorXd& positions) const {
@@ -261,13 +261,14 @@ Eigen::MatrixXd MembraneSimulation::Implementation::response(
   response.topRows(b) = changes.positions;
   response.bottomRows(n - b) =
       moves.bottomRows(n - b) + moves.bottomLeftCorner(n - b, b) * changes.forces;
-  // The response is symmetric; its rounding errors are not.
+  // The mean removes rounding errors, which are not symmetric.
   return (response + response.transpose()) / 2;
 }
 
-/// Places of the discs at the end of a step of length h from `now`. Those of free discs are `from`
-/// + `time` times their velocities, the backward difference of second order; those of driven discs
-/// are the integral of their velocity. Angles are integrated by the trapezoidal rule.
+/// Places of the discs at the end of a step of length `h` that begins at the places `now`. Centres
+/// of free discs are at `from` + `time` times their velocities, the backward difference of second
+/// order. Those of driven discs are at `now` + h times their mean velocities. Angles are integrated
+/// by the trapezoidal rule.
 Eigen::VectorXd MembraneSimulation::Implementation::moved_discs(const Eigen::VectorXd& now,
                                                                 const Eigen::VectorXd& from,
                                                                 double time,
@@ -286,9 +287,10 @@ Eigen::VectorXd MembraneSimulation::Implementation::moved_discs(const Eigen::Vec
   return moved;
 }
 
-/// Solves the contacts of a step of length h that ends at time `next` [T], except those between
-/// beads of one membrane. `free` are the velocities without contacts, and `response()` is the
-/// matrix of the displacements per load.
+/// Solves the contacts of a step of length `h` that ends at the time `next` [T]. Beads of one
+/// membrane make no contact with each other. `free` are the mean velocities of the step without
+/// contacts, and response() returns the matrix of the displacements per force. Enters iterations
+/// and residuals in `report`. Throws Error(kNotConverged) if a deep overlap would remain.
 StepContacts MembraneSimulation::Implementation::solve_contacts_of(
     const Eigen::VectorXd& free, double h, double next,
     const std::function<Eigen::MatrixXd()>& response, StepReport& report) {
@@ -309,7 +311,8 @@ StepContacts MembraneSimulation::Implementation::solve_contacts_of(
     return (is_driven(pair.first) && is_driven(pair.second)) ||
            (pair.first >= 0 && setting_.fluid->are_of_one_membrane(pair.first, pair.second));
   };
-  // Relative error of the fluid's velocities, as error_of_answers() in fluid/fluid_motion.hpp.
+  // Relative error of the velocities that the fluid solver gives; error_of_answers() in
+  // fluid/fluid_motion.hpp has the same number and its reason.
   constexpr double kErrorOfAnswers = 1e-9;
   const double radius = mean_radius(state_.particles);
   const ContactConditions conditions{velocities,      h,      MotionLayout{kComponents},
@@ -395,7 +398,7 @@ StepReport MembraneSimulation::Implementation::step(double end) {
   const auto quantities = solver_->quantities();
   report.fluid.dissipation = quantities.dissipation;
   report.fluid.apparent_viscosity = quantities.apparent_viscosity;
-  // The force that drives a disc balances the force of the fluid on it.
+  // The force that drives a disc is minus the force of the fluid on it.
   for (const auto& [particle, motion_of_disc] : setting_.given_motions)
     for (std::size_t d = 0; d < kComponents && !quantities.fluid_forces.empty(); ++d) {
       const auto i = kComponents * index_of(particle) + d;

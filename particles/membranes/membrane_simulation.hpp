@@ -1,6 +1,7 @@
-// Simulates membranes and rigid discs in a Stokes flow, docs/physics.md (8.1) to (8.8). Lengths,
-// masses and times are in the units of the case. particle_simulation.hpp uses it. A change must
-// keep that a continued run gives the same bits as an uninterrupted one.
+// Simulates membranes (closed curves through particles, their beads) and rigid discs in a Stokes
+// flow, docs/physics.md (8.1) to (8.8). Lengths, masses and times are in the units of the case
+// file; M stands for a mass per length of the third dimension. run/particle_simulation.hpp uses it.
+// A change must keep that a run from a restart file gives the same bits as an uninterrupted one.
 #pragma once
 
 #include <memory>
@@ -17,36 +18,39 @@ namespace viscontact::particles {
 ///
 ///     (z - from)/time = S(at) P f(z),   f(z) = -grad E(z) - G(z)^T tension,   lengths(z) kept,
 ///
-/// where S(at) f are the velocities of the beads that the fluid gives with membranes at `at` under
-/// the forces f, E is the bending energy and G the derivative of the lengths. P subtracts the
-/// forces that the pressure inside balances, because they make no flow (Membranes::step). With the
-/// positions x^n and x^{n-1} and the step k before, r = h/k, at = (1 + r) x^n - r x^{n-1}, and
-/// `from` and `time` are those of the backward difference of second order; the first step is of
-/// first order (docs/physics.md (8.6)). Discs move in the same steps, with the forces of the case,
-/// or as they are driven. Beads of different membranes, discs and walls make viscous contact as
-/// particles do: the impulses are loads beside P f, and the displacements without contact are the
-/// free motion.
+/// for the positions z of the beads at its end. S(at) f are the velocities that the fluid gives the
+/// beads at the places `at` under the forces f, E is the bending energy, and G the derivative of
+/// the lengths. P subtracts the forces that the pressure inside balances, because they make no flow
+/// (Membranes::step). With the positions x^n and x^{n-1} at the beginning of the step and of the
+/// step before, whose length is k, and with r = h/k, the places are at = (1 + r) x^n - r x^{n-1};
+/// `from` and `time` are those of the backward difference of second order. The first step is of
+/// first order (docs/physics.md (8.6)). Discs move in the same steps, under the forces of the case
+/// or with given motions. Beads of different membranes, discs and walls make viscous contact as
+/// other particles in a fluid do; the forces of the contacts are added to P f.
 class MembraneSimulation {
  public:
-  /// `setting.fluid` has membranes; the particles of `state` that are no beads are discs without
-  /// mass, with forces or a given motion; `state` is what read_restart returned, or a state of
-  /// which only the particles are set. For such a state the fluid solver computes the motion at the
-  /// start, and its errors are thrown.
+  /// `setting.fluid` has membranes. The particles of `state` that are no beads are discs without
+  /// mass, with forces or a given motion. `state` is what read_restart returned, or a state of
+  /// which only the particles are set. For the latter the fluid solver computes the velocities at
+  /// the start, and its errors are thrown. Throws Error(kBadInput) if membranes of a restart file
+  /// have another shape than those of the case (check_shapes()).
   MembraneSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
   ~MembraneSimulation();
 
-  /// Computes one step; see Simulation::step. Throws Error(kNotConverged) if the step does not
-  /// converge, and the errors of FluidSolver. The state is then that before the step.
+  /// Computes one step of the length Setting::time_step, which ends at `end` [T] if that is earlier
+  /// (StepGrid::next). Throws Error(kNotConverged) if membranes or contacts do not converge, and
+  /// the errors of FluidSolver. The state is then that before the step.
   StepReport step(double end);
 
   const State& state() const;  ///< after the last step
 
-  /// The flow where the membranes were at the beginning of the last step.
+  /// The flow with the membranes and discs at their places before the last step; there must have
+  /// been a step. Throws the errors of FluidSolver.
   FlowField flow();
-  /// The flow where the membranes are now.
+  /// The flow with the membranes and discs at their present places. Throws as flow() does.
   FlowField flow_at_present();
 
-  /// Forces and torques of the fluid on the beads in the last step, motion_components() each.
+  /// Forces of the fluid on all particles in the last step: x, y [M L/T^2], torque [M L^2/T^2].
   std::vector<double> fluid_forces() const;
 
   std::size_t unknowns() const;  ///< number of unknowns on the last mesh

@@ -1,5 +1,6 @@
-// Geometry of the polygon through the beads of a membrane (necklace.hpp). Lengths are in the unit
-// of the case. Nothing is checked or thrown.
+// Geometry of the polygon through the particles (beads) of a membrane; necklace.hpp has the shapes
+// and units of all arrays. Nothing is checked or thrown. membrane.cpp and necklace_rows.cpp use it.
+// A change must keep that area_gradient() is the derivative of area_of().
 #include "viscontact/particles/membranes/necklace.hpp"
 
 #include <Eigen/Cholesky>
@@ -10,7 +11,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// Bead k of N, where k counts around the necklace.
+/// Position of bead k, where k counts around the polygon, from -N.
 Eigen::Vector2d bead(const Eigen::VectorXd& necklace, Eigen::Index k) {
   const auto n = necklace.size() / 2;
   const auto i = (k + n) % n;
@@ -21,12 +22,13 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
+/// Centre and second moments of the area inside a polygon.
 AreaMoments moments_of_polygon(const Eigen::VectorXd& necklace) {
   const auto n = necklace.size() / 2;
   const Eigen::Vector2d mean(necklace.head(n).mean(), necklace.tail(n).mean());
   double area = 0, mx = 0, my = 0;
   AreaMoments moments{mean.x(), mean.y()};
-  // Sums over the triangles that the mean of the beads makes with each pair of neighbours.
+  // Sums over the triangles that each pair of neighbours forms with the mean of the beads.
   for (Eigen::Index k = 0; k < n; ++k) {
     const Eigen::Vector2d a = bead(necklace, k) - mean, b = bead(necklace, k + 1) - mean;
     const double twice = cross(a, b);
@@ -65,8 +67,7 @@ Eigen::VectorXd distances_of(const Eigen::VectorXd& necklace) {
 }
 
 double area_of(const Eigen::VectorXd& necklace) {
-  // Places are taken relative to a bead, so that rounding errors do not grow with the distance from
-  // the origin.
+  // Relative to the first bead, rounding errors do not grow with the distance from the origin.
   const Eigen::Vector2d first = bead(necklace, 0);
   double twice = 0;
   for (Eigen::Index k = 1; k + 1 < necklace.size() / 2; ++k)
@@ -108,8 +109,9 @@ bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::Vector
   const auto n = lengths.size();
   const double size = lengths.mean();
   constexpr int kMostRounds = 50;
-  // Rounding errors of areas and distances, divided by (powers of) the mean distance; smaller
-  // changes end the iteration.
+  // Bounds of the errors of distances and area, divided by the mean distance and its square. kExact
+  // is near rounding errors. Newton's method is quadratic: one more step after kNearlyExact also
+  // leaves only rounding errors.
   constexpr double kExact = 1e-13, kNearlyExact = 1e-10;
   for (int round = 0; round < kMostRounds; ++round) {
     Eigen::VectorXd missing(n + 1);

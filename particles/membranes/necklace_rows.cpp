@@ -1,6 +1,8 @@
-// Makes the equations of a membrane without a fluid (necklace.hpp). Lengths, masses and times are
-// in the units of the case. Nothing is checked or thrown. A change must keep that rows and
-// membrane_value_after() agree to first order in the motion.
+// The equations of a membrane without a fluid in a time step (necklace.hpp): a closed polygon of
+// particles (beads), numbered from 0 counter-clockwise, whose distances and area are kept. Lengths,
+// masses and times are in any consistent units. Nothing is checked or thrown. links/link_rows.cpp
+// uses them. A change must keep that the parts of a row are the derivatives of
+// membrane_value_after() with respect to the motion.
 #include <cmath>
 
 #include "viscontact/particles/membranes/necklace.hpp"
@@ -10,13 +12,13 @@ namespace {
 
 using Kind = LinkEquations::Kind;
 
-/// The vector from one bead to the next one, or to the one after it: the nearest image [L].
+/// The vector from bead `from` to the nearest image of bead `to` [L].
 Vector apart(const Membrane& membrane, const Particles& p, std::int32_t from, std::int32_t to) {
   return nearest_image(
       p.cell, p.position(index_of(membrane.bead(to))) - p.position(index_of(membrane.bead(from))));
 }
 
-/// The vector from the bead before `k` to the bead after it [L].
+/// The vector from bead k - 1 to bead k + 1 [L].
 Vector across(const Membrane& membrane, const Particles& p, std::int32_t k) {
   return apart(membrane, p, k - 1, k) + apart(membrane, p, k, k + 1);
 }
@@ -28,6 +30,7 @@ double angle_between(const Vector& from, const Vector& to) {
   return std::atan2(from[0] * to[1] - from[1] * to[0], dot(from, to));
 }
 
+/// The part of bead k in a row: the product of `direction` and its displacement.
 LinkPart part(const Membrane& membrane, std::int32_t k, const Vector& direction) {
   LinkPart of_bead;
   of_bead.particle = membrane.bead(k);
@@ -52,9 +55,10 @@ LinkRow distance_row(const Membrane& membrane, const Particles& p, std::int32_t 
   return row;
 }
 
-/// The bending spring at bead k, (8.12). Its extension [L] is the angle of the turn times the
-/// length l of the bead, so that its stiffness is kappa/l^3. It is integrated by Newmark's method
-/// as other springs are; the bending viscosity acts on the change of the extension in the step.
+/// The bending spring at bead k, docs/physics.md (8.12). Its extension [L] is the angle by which
+/// the polygon turns at the bead, times the mean length l of its two sides, so that its stiffness
+/// is bending rigidity/l^3 [M/T^2]. It is integrated by Newmark's method as other springs are; the
+/// bending viscosity acts on the change of the extension in the step.
 LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
                  const LinkTimes& times) {
   const auto n = membrane.lengths.size(), i = static_cast<std::size_t>(k);
@@ -79,8 +83,7 @@ LinkRow bend_row(const Membrane& membrane, const Particles& p, std::int32_t k,
   return row;
 }
 
-/// The row of a turn: by how much bead k has turned more than the line between its neighbours
-/// [rad].
+/// The row of a turn: by how much more bead k turns than the line between its neighbours [rad].
 LinkRow turn_row(const Membrane& membrane, const Particles& p, std::int32_t k) {
   const Vector chord = across(membrane, p, k);
   const Vector of_ends = (1 / dot(chord, chord)) * left_of(chord);
@@ -91,8 +94,8 @@ LinkRow turn_row(const Membrane& membrane, const Particles& p, std::int32_t k) {
   return row;
 }
 
-/// The row of the area: by how much it is too large, divided by the mean distance of neighbours
-/// [L].
+/// The row of the area: by how much the area inside is too large, divided by the mean distance of
+/// neighbours, so that all rows of distances and area have the dimension [L].
 LinkRow area_row(const Membrane& membrane, const Particles& p) {
   const double length = membrane.perimeter / membrane.count();
   const auto necklace = necklace_of(membrane, p);

@@ -1,7 +1,8 @@
-// Cell lists, one grid for each factor of 2 in the extents (close_pairs.hpp, docs/particles.md), a
-// sweep along a line, and copies of the particles near the sides of a periodic cell. Lengths are in
-// one unit; nothing is checked or thrown. A change must keep the order of the pairs, on which the
-// results of a simulation depend.
+// Finds pairs of close particles (close_pairs.hpp has the condition, the units and who uses it): in
+// two and three dimensions by grids of cells, one for each factor of 2 in the extents; in one
+// dimension by a sweep along the line; and in a periodic cell with copies of the particles near its
+// sides. Nothing is checked or thrown. A change must keep the order of the pairs, on which bits of
+// results depend.
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
 #include <algorithm>
@@ -21,8 +22,8 @@ struct Entry {
   std::int32_t particle;
 };
 
-/// Sorts entries by cell and keeps the order of entries with equal cells: a radix sort with 11 bits
-/// in a pass. `most` is the largest cell number.
+/// Sorts entries by cell and keeps the order of entries with equal cells. `most` is the largest
+/// cell number. A radix sort with 11 bits in a pass (a table of 16 kB).
 void sort_by_cell(std::vector<Entry>& entries, std::uint64_t most) {
   constexpr int kBits = 11;
   std::vector<Entry> sorted(entries.size());
@@ -38,10 +39,11 @@ void sort_by_cell(std::vector<Entry>& entries, std::uint64_t most) {
   }
 }
 
-/// Cells of one size that cover all particles, numbered row by row, and particles in them.
+/// Cells of one size that cover all particles, numbered row by row, and some of the particles.
 template <int D>
 class Grid {
  public:
+  /// `cell` > 0 is the width of a cell [L]; `positions` has D numbers for each particle [L].
   Grid(double cell, std::span<const double> positions) : per_cell_(1 / cell) {
     const std::size_t count = positions.size() / D;
     for (std::size_t d = 0; d < D; ++d) {
@@ -50,9 +52,9 @@ class Grid {
         low = std::min(low, positions[k * D + d]);
         high = std::max(high, positions[k * D + d]);
       }
-      // Particles further than half a million cells from the middle share the cells at the border
-      // (kMostCells). Cells that are next to each other remain neighbours, so that no pair is
-      // missed.
+      // Particles further than half a million cells (kMostCells / 2) from the middle are put into
+      // the cells at the border. Particles of neighbouring cells remain in one cell or in
+      // neighbouring ones, so that no pair is missed.
       middle_[d] = middle(positions, d);
       half_[d] = std::min(std::ceil(std::max(high - middle_[d], middle_[d] - low) * per_cell_) + 1,
                           kMostCells / 2);
@@ -60,12 +62,14 @@ class Grid {
     }
   }
 
+  /// A bound of all cell numbers.
   std::uint64_t last_cell() const {
     std::uint64_t product = 1;
     for (const auto cells : cells_) product *= cells;
     return product;
   }
 
+  /// Number of the cell of a position, D numbers.
   std::uint64_t cell_of(const double* position) const {
     std::uint64_t cell = 0;
     for (std::size_t d = D; d-- > 0;) {
@@ -76,8 +80,8 @@ class Grid {
     return cell;
   }
 
-  /// Calls see(first cell, number of the run, from 0) for each run of three cells along the first
-  /// axis. Together these runs are `cell` and the cells around it.
+  /// `cell` and its neighbours form 3 (in the plane) or 9 (in space) runs of three cells along the
+  /// first axis. Calls see(first cell of the run, number of the run, from 0) for each.
   template <class See>
   void for_rows_around(std::uint64_t cell, const See& see) const {
     constexpr std::uint64_t kLayers = D == 2 ? 1 : 3;
@@ -87,7 +91,7 @@ class Grid {
         see(cell - 1 - row - layer + y * row + z * layer, y + 3 * z);
   }
 
-  std::vector<Entry> entries;  ///< in order of cell
+  std::vector<Entry> entries;  ///< the particles in the grid, in order of cell
 
  private:
   /// The median of a sample, which a few particles far away do not change.
@@ -101,13 +105,14 @@ class Grid {
     return *half;
   }
 
-  // Largest number of cells along an axis: the cell numbers of three axes fit into 64 bits.
+  // Largest number of cells along an axis, so that cell numbers of three axes fit into 64 bits.
   static constexpr double kMostCells = 1 << 20;
   double per_cell_;
   std::array<double, D> middle_{}, half_{};
   std::array<std::uint64_t, D> cells_{};
 };
 
+/// The search in D dimensions. The arguments must outlive the object.
 template <int D>
 class Search {
  public:
@@ -125,7 +130,7 @@ class Search {
       for (std::size_t k = 0; k < extents_.size(); ++k)
         if (levels[k] == level) largest = std::max(largest, extents_[k]);
       Grid<D> grid(2 * largest, positions_);
-      // Pairs within the grid, then pairs of its particles with particles of smaller extent.
+      // Find the pairs within the grid, then those of its particles with particles of finer grids.
       grid.entries = entries_of(grid, [&](std::size_t k) { return levels[k] == level; });
       look(grid, grid.entries, true);
       if (level != present.front())
@@ -135,6 +140,7 @@ class Search {
   }
 
  private:
+  /// The particles k for which test(k) is true, in order of their cell in `grid`.
   template <class Test>
   std::vector<Entry> entries_of(const Grid<D>& grid, const Test& test) const {
     std::vector<Entry> entries;
@@ -156,8 +162,9 @@ class Search {
     return square < reach * reach;
   }
 
-  /// Finds the pairs of `seekers` with the particles in the grid. The seekers are in order of cell,
-  /// so that the runs of cells around them only move forward.
+  /// Adds the pairs of `seekers` with the particles in the grid to found_. `same` is true if the
+  /// seekers are the particles of the grid. They are in order of cell, so that the search for the
+  /// cells around them only moves forward.
   void look(const Grid<D>& grid, const std::vector<Entry>& seekers, bool same) {
     const auto& in_grid = grid.entries;
     found_ += pool_.sum_of_blocks<ConcatenatedBlocks<ClosePair>>(
@@ -188,8 +195,7 @@ class Search {
         });
   }
 
-  /// The pairs in order: sorted by `first` with a counting sort, then the few with the same
-  /// `first`.
+  /// The pairs in order: sorted by `first` with a counting sort, then by `second`.
   std::vector<ClosePair> sorted() const {
     std::vector<std::size_t> begin(extents_.size() + 1, 0);
     for (const auto& pair : found_.values) ++begin[static_cast<std::size_t>(pair.first) + 1];
@@ -210,8 +216,8 @@ class Search {
   ConcatenatedBlocks<ClosePair> found_;
 };
 
-/// Close pairs in one dimension. Visits the particles in order of position, and compares each with
-/// those before it whose intervals may still reach it.
+/// Close pairs in one dimension. Particle k has the interval position -+ extent. Compares each
+/// particle, in order of the lower ends, with those before it whose intervals reach it.
 std::vector<ClosePair> close_pairs_on_line(std::span<const double> positions,
                                            std::span<const double> extents) {
   std::vector<std::int32_t> order(extents.size());
@@ -253,14 +259,15 @@ std::vector<ClosePair> close_pairs(int dimension, std::span<const double> positi
 
 namespace {
 
-/// The particles in the cell, and copies of those near its sides.
+/// Points for the search: all particles, moved into the cell, and then copies near its sides.
 struct Copies {
-  std::vector<double> positions, extents;
-  std::vector<std::int32_t> particles;          // particle of each point
-  std::vector<std::array<int, 3>> shifts;       // periods by which each point is shifted
-  std::vector<std::array<int, 3>> into_cell{};  // periods subtracted to bring each particle inside
+  std::vector<double> positions, extents;  // of the points [L]
+  std::vector<std::int32_t> particles;     // of each point: the particle that it is an image of
+  std::vector<std::array<int, 3>> shifts;  // of each point: periods from the cell to the copy
+  std::vector<std::array<int, 3>> into_cell{};  // of each particle: periods that were subtracted
 };
 
+/// The points for a periodic cell. A copy is near enough if it can be close to a particle inside.
 Copies copies_near_sides(std::size_t dimension, const PeriodicCell& cell,
                          std::span<const double> positions, std::span<const double> extents) {
   const double largest = extents.empty() ? 0 : *std::ranges::max_element(extents);
@@ -291,7 +298,7 @@ Copies copies_near_sides(std::size_t dimension, const PeriodicCell& cell,
     all.into_cell.push_back(beyond);
     add(k, inside[k], {});
   }
-  std::vector<std::array<int, 3>> shifts;  // shifts of all images along periodic axes
+  std::vector<std::array<int, 3>> shifts;  // of all images that the cell has
   for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image)
     if (image != 0 && has_image(cell, image)) shifts.push_back(periods_of_image(image));
   for (std::size_t k = 0; k < extents.size(); ++k)
@@ -308,8 +315,9 @@ std::vector<ClosePair> close_pairs_in_period(const PeriodicCell& cell,
   const auto dimension = positions.size() / extents.size();
   const auto all = copies_near_sides(dimension, cell, positions, extents);
   std::vector<ClosePair> pairs;
-  // The particles come before the copies, so that `first` is a particle or both are copies. Each
-  // pair with an image is found twice, once from each of its particles.
+  // The particles come before the copies, so that `first` of a pair is a particle, or both are
+  // copies, which is skipped. A pair with an image is found twice, once from each of its particles,
+  // of which the one with i < j is kept.
   for (const auto& pair :
        close_pairs(static_cast<int>(dimension), all.positions, all.extents, pool)) {
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);

@@ -1,7 +1,8 @@
 // Finds all pairs of close particles by cell lists, for any ratio of radii. Memory grows with the
-// number of particles and pairs, and time also with the number of grids. All lengths are in one
-// unit. Nothing is thrown. A change must keep the order of the pairs, on which the results of a
-// simulation depend.
+// number of particles and pairs; time also grows with the number of grids, one for each factor of 2
+// in the extents. Lengths are in any unit. Nothing is checked or thrown. neighbour_list.cpp, case/,
+// fluid/ and current_contacts.cpp use it. A change must keep the order of the pairs, on which the
+// bits of results depend.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +18,14 @@ namespace viscontact::particles {
 struct ClosePair {
   std::int32_t first,      ///< number of a particle, < second
       second;              ///< number of a particle
-  std::int32_t image = 0;  ///< which image of `second` (periods.hpp)
-  /// True if the particles and the image are the same.
+  std::int32_t image = 0;  ///< number of the periodic image of `second`, -13 to 13 (periods.hpp)
+  /// True if all members are equal.
   bool operator==(const ClosePair&) const = default;
 };
 
-/// All pairs of particles i and j with |x_i - x_j| < e_i + e_j, in order of first, then second,
-/// where x are the positions and e the extents. `positions` is a flat array of `dimension` (1, 2 or
-/// 3) finite numbers for each particle [L]. `extents` has a number > 0 for each particle [L].
+/// All pairs of particles i < j with |x_i - x_j| < e_i + e_j, where x are the positions and e the
+/// extents, in order of first, then second. `positions` has `dimension` (1, 2 or 3) finite numbers
+/// for each particle [L], and `extents` one number > 0 [L].
 ///
 /// Particles whose extents are within the same factor of 2 share a grid, whose cells are twice as
 /// wide as the largest of these extents. Each particle looks for neighbours in its own grid and in
@@ -32,14 +33,13 @@ struct ClosePair {
 std::vector<ClosePair> close_pairs(int dimension, std::span<const double> positions,
                                    std::span<const double> extents, ThreadPool& pool);
 
-/// All pairs with |x_j + shift - x_i| < e_i + e_j, i < j, where the shifts are those of the images
-/// -13 to 13 of particle j, in order of first, second, image. `positions` has 2 or 3 numbers for
-/// each extent; other arguments are those of close_pairs(). Positions may lie outside the cell by
-/// less than a period.
+/// The same in a periodic cell: all pairs i < j and images of j with |x_j + shift - x_i| < e_i +
+/// e_j, where the shifts are those of the images -13 to 13, in order of first, second, image. The
+/// dimension is 2 or 3. Positions may lie outside the cell by less than a period.
 ///
-/// Needs e_i + e_j < each period for all pairs: otherwise further images might be close. A particle
-/// makes no pair with its own images. Particles near the sides are copied to the opposite sides,
-/// and close_pairs() finds the pairs with the copies.
+/// e_i + e_j must be less than each period for all pairs, because otherwise images that have no
+/// number might be close. A particle makes no pair with its own images. Particles near the sides
+/// are copied to the opposite sides, and close_pairs() finds the pairs with the copies.
 std::vector<ClosePair> close_pairs_in_period(const PeriodicCell& cell,
                                              std::span<const double> positions,
                                              std::span<const double> extents, ThreadPool& pool);

@@ -1,7 +1,7 @@
-// Checks whether the list of close pairs is still valid, and makes it again (docs/particles.md).
-// Lengths are in the unit of the case. A particle that moves too far for a periodic cell is an
-// Error(kNotConverged). A change must keep the order of the pairs, on which the results of a
-// simulation depend.
+// Checks whether the list of close pairs of a simulation is still valid, and makes it again
+// (neighbour_list.hpp, which says who uses it). Lengths are in the unit of the case file. Throws
+// Error(kNotConverged) if a particle moves too far for a periodic cell. A change must keep the
+// order of the pairs, because the bits of a simulation depend on it.
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
 #include <fmt/format.h>
@@ -20,13 +20,13 @@
 namespace viscontact::particles {
 namespace {
 
-/// The numbers by which the list is ordered.
+/// The numbers by which the list of pairs is ordered.
 template <class AnyPair>
 auto place_of(const AnyPair& pair) {
   return std::tuple(pair.first, pair.second, pair.image);
 }
 
-/// Sum of vectors, from which a mean is computed.
+/// Sum of the vectors of a block of the thread pool.
 struct VectorSum {
   Vector value{};
   VectorSum& operator+=(const VectorSum& other) {
@@ -35,7 +35,7 @@ struct VectorSum {
   }
 };
 
-/// Mean over all particles k of `vector(k)`.
+/// Mean of vector(k) over all particles k < `count`.
 template <class Of>
 Vector mean_of(std::size_t count, ThreadPool& pool, const Of& vector) {
   const auto sum = pool.sum_of_blocks<VectorSum>(count, [&](std::size_t begin, std::size_t end) {
@@ -54,12 +54,13 @@ double half_shortest_period(const PeriodicCell& cell) {
   return shortest / 2;
 }
 
-/// The smaller of `skin` and the largest skin with which each pair of the list stays closer than a
-/// period, r_i + 2 skin_i + r_j + 2 skin_j <= period, so that periods.hpp has a number for its
-/// image. Throws Error(kNotConverged) if the particle moves further than this skin.
+/// The smaller of `skin` and the largest skin that particle k may have in a periodic cell [L]. With
+/// it, each pair of the list stays closer than a period while its particles move by their skins,
+/// r_i + 2 skin_i + r_j + 2 skin_j <= period, so that its image has a number (periods.hpp). Throws
+/// Error(kNotConverged) if the particle moves by `moved`, further than this largest skin.
 double skin_within_period(const Particles& p, std::size_t k, double half_period, double skin,
                           double moved) {
-  // The skin is a little smaller, because rounding errors of positions add to the sum.
+  // Slightly smaller than that, because rounding errors of positions add to the sum.
   constexpr double kLess = 1 - 1e-9;
   const double longest = kLess * (half_period - p.radii[k]) / 2;
   if (!(moved <= longest))
@@ -93,9 +94,9 @@ bool neighbour_list_is_valid(const State& state, std::span<const double> displac
 
 void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool) {
   const auto& p = state.particles;
-  // A skin is at least these multiples of the particle's radius and of its displacement in a step.
-  // On bench/box2d.cpp shorter skins cost time because the list is made more often, longer ones
-  // because it has more pairs.
+  // A skin is at least kOfRadius times the radius of the particle, and kSteps times its
+  // displacement in a step. On bench/box2d.cpp, smaller values cost time because the list is made
+  // more often, and larger ones because it has more pairs.
   constexpr double kOfRadius = 0.25, kSteps = 3;
   const auto displacement = [&](std::size_t k) {
     return point_of(displacements.data(), k, p.dimension);
@@ -113,8 +114,8 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
           skin_within_period(p, k, half_period, state.skins[k], norm(displacement(k) - common));
     extents[k] = p.radii[k] + state.skins[k];
   }
-  // Most pairs have no memory that must be kept. Only the others are copied, so that the memory of
-  // the old list is free while the search needs its own.
+  // Only the pairs with something to keep are copied, which are few, so that the storage of the old
+  // list is free while the search needs storage.
   std::vector<Pair> before;
   std::ranges::copy_if(state.pairs, std::back_inserter(before), [](const Pair& pair) {
     return pair.gamma < 0 || pair.impulse != 0 || pair.memory != PairMemories::kNone;
@@ -149,7 +150,7 @@ void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, doub
     const auto plane = -1 - static_cast<std::int32_t>(w);
     const auto in_block = [&](std::size_t begin, std::size_t end) {
       ConcatenatedBlocks<Pair> pairs;
-      // state.walls is in falling order of first = -1 - k, which is the order of the planes.
+      // state.walls is in the order of the planes, in which `first` = -1 - k falls.
       auto old = std::ranges::partition_point(state.walls, [&](const Pair& pair) {
         return pair.first > plane || (pair.first == plane && index_of(pair.second) < begin);
       });
@@ -185,8 +186,8 @@ void wrap_into_cell(State& state) {
         state.positions_at_listing[dimension * k + d] -= periods * p.cell.lengths[d];
     }
   if (!any) return;
-  // The vector between the centres of a pair stays the same, so its image changes by the periods by
-  // which its particles were wrapped.
+  // The vector between the centres of a pair must stay the same, so that the shift of its image
+  // changes by the periods by which its particles were moved.
   for (auto& pair : state.pairs) {
     auto shift = periods_of_image(pair.image);
     for (std::size_t d = 0; d < dimension; ++d)

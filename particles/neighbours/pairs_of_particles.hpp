@@ -1,6 +1,7 @@
-// The pairs of a state as a graph of particles. When some gaps close, it serves to find which
-// further gaps may close in turn. It holds numbers of pairs and particles only. The projection, the
-// fluid and the blows use it. Nothing is thrown. Results depend on the order of pairs.
+// The pairs of a neighbour list as a graph whose nodes are the particles. It tells which pairs a
+// particle has, and which further gaps may close when some gaps close. All numbers are numbers of
+// pairs and particles. Nothing is checked or thrown. projection/ and impacts/ use it. A change must
+// keep the order of pairs, because the bits of a simulation depend on it.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +13,13 @@
 
 namespace viscontact::particles {
 
-/// Graph of the pairs of particles. A blow on one end of a chain closes its gaps one after the
-/// other. With this class all these gaps are found at once; otherwise each solution of the
-/// projection would find only the next one.
+/// Graph of the pairs of particles. If a particle hits one end of a chain, the gaps of the chain
+/// close one after the other. This class finds all these gaps before the problem of the step is
+/// solved; otherwise each solution would show only the next gap that closes.
 class PairsOfParticles {
  public:
-  /// `state` must outlive the object, and its lists of pairs must not change. Particles at
-  /// obstacles are listed only `with_walls`, and serve only of().
+  /// `state` must outlive the object, and its lists of pairs must not change. Pairs with an
+  /// obstacle (State::walls) are in the graph only `with_walls`, which excludes connected().
   explicit PairsOfParticles(const State& state, bool with_walls = false)
       : state_(&state), pair_count_(state.pairs.size()), offsets_(state.particles.count() + 1, 0) {
     const std::size_t count = pair_count_ + (with_walls ? state.walls.size() : 0);
@@ -34,17 +35,16 @@ class PairsOfParticles {
     for_particles([&](std::size_t k, std::size_t f) { pairs_of_[next[k]++] = f; });
   }
 
-  /// The numbers of the pairs of a particle. A pair has its number in state.pairs, from 0 on; the
-  /// numbers of state.walls follow after them.
+  /// The numbers of the pairs of a particle: places in State::pairs, continued by State::walls.
   std::span<const std::size_t> of(std::int32_t particle) const {
     const auto k = index_of(particle);
     return std::span(pairs_of_).subspan(offsets_[k], offsets_[k + 1] - offsets_[k]);
   }
 
-  /// Returns `start` and all pairs that are connected with it through at most `depth` pairs for
-  /// which `may_close(number of the pair)` is true. may_close is called at most once for each pair.
-  /// `start` may contain particles at planes, but the search follows pairs of particles only,
-  /// because a plane does not pass a blow on. The object must be without walls.
+  /// Returns the numbers `start` and those of all pairs that are connected with them through at
+  /// most `depth` pairs f for which may_close(f) is true. may_close is called at most once for each
+  /// pair. `start` may contain pairs of State::walls, but the search follows pairs of particles
+  /// only, because an obstacle does not pass an impact on.
   template <class Predicate>
   std::vector<std::size_t> connected(std::span<const std::size_t> start, int depth,
                                      const Predicate& may_close) const {
@@ -85,7 +85,8 @@ class PairsOfParticles {
 
   const State* state_;
   std::size_t pair_count_;
-  std::vector<std::size_t> offsets_, pairs_of_;  // the pairs of each particle
+  // The pairs of particle k are entries offsets_[k] to offsets_[k + 1] - 1 of pairs_of_.
+  std::vector<std::size_t> offsets_, pairs_of_;
 };
 
 }  // namespace viscontact::particles

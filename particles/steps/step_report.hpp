@@ -1,10 +1,9 @@
-// What is recorded of one step of a simulation, for steps.csv and run.json, and how far its
-// solution misses its conditions, by which it is accepted: the same for particles with masses
-// (projection/) and in a fluid (fluid/). A residual [L] is the distance of a gap or a length from
-// the value that its condition demands; docs/particles.md, "The projection", says what is allowed.
-// Lengths, masses and times are in the units of the case. Simulations fill the report, and
-// particles/run writes it. A change must keep what the columns of steps.csv mean; a change of a
-// limit changes which steps are accepted.
+// What is recorded of one time step of a simulation, for steps.csv and run.json, and the residuals
+// that decide whether the step is accepted. A residual [L] is the distance of a gap or a length
+// from the value that its condition demands; docs/particles.md, "The projection", says what is
+// allowed. Lengths, masses and times are in the units of the case file. simulation.cpp and
+// projection/ (particles with masses), fluid/ and membranes/ fill the report, and particles/run
+// writes it. A change must keep what the columns of steps.csv mean.
 #pragma once
 
 #include <array>
@@ -18,97 +17,100 @@
 
 namespace viscontact::particles {
 
-/// Three estimates of errors, each relative to the largest result, >= 0; < 0: not made.
+/// Estimates of the errors of the flow's results, each relative to the largest result [1], >= 0. A
+/// negative number means that no estimate was made.
 struct RelativeErrors {
-  double best = -1;         ///< of the most accurate results, extrapolated from two meshes
-  double of_one_mesh = -1;  ///< of the results on the mesh of the placement, which move particles
-  double of_penalty = -1;   ///< the part of both that is the error of the penalty
+  double best = -1;         ///< of the results extrapolated from two meshes, the most accurate ones
+  double of_one_mesh = -1;  ///< of the results on the first mesh, with which particles are moved
+  /// The part of both that is due to the penalty, a finite viscosity inside the particles.
+  double of_penalty = -1;
 };
 
 /// What is recorded of one step in a fluid.
 struct FluidStepReport {
-  double dissipation = 0;  ///< of the flow [M L^2/T^3], in two dimensions per unit length
-  /// Apparent viscosity over that of the fluid [1], docs/physics.md (6.6); 0 if the flow without
-  /// particles does not dissipate or is not known (FlowQuantities).
+  double dissipation = 0;  ///< of the flow [M L^2/T^3], in two dimensions per length [M L/T^3]
+  /// Dissipation over that without particles [1], docs/physics.md (6.6); 0 if that is 0 or unknown.
   double apparent_viscosity = 0;
   // In a fluid with inertia:
-  double kinetic_energy = 0;   ///< of the fluid [M L^2/T^2], in two dimensions per unit length
-  double reynolds_number = 0;  ///< largest rho_f |V| 2 r/mu of a particle of velocity V, radius r
-  double courant_number = 0;   ///< FlowQuantities::courant_number
-  /// Sum of the forces of the fluid on the particles whose motion is given [M L/T^2]; on an axis
-  /// the first is that along z.
+  double kinetic_energy = 0;  ///< of the fluid [M L^2/T^2], in two dimensions per length [M L/T^2]
+  /// Largest 2 r |V| density/viscosity of a particle of velocity V and radius r in the fluid [1].
+  double reynolds_number = 0;
+  /// Largest path of the fluid relative to the mesh in the step, over the length of an edge [1].
+  double courant_number = 0;
+  /// Sum of the forces of the fluid on the particles whose motion is given [M L/T^2], in two
+  /// dimensions per length [M/T^2]; on an axis only the first, along z.
   std::array<double, 2> given_force{};
   double flow_time = 0;  ///< time of the flow that the step has computed [T]
-  /// FlowQuantities::probes at that time; empty in a step that the next one computes again.
+  /// Flow [L^2/T] and mean pressure [M/(L T^2)] of each probe of the case at flow_time; empty if
+  /// the next step computes this flow again.
   std::vector<std::array<double, 2>> probes{};
-  double seconds = 0;  ///< wall time of the step: mesh, fluid solver and contacts [s]
-  /// Errors of the velocities of the particles; < 0 if they were not estimated in this step.
-  RelativeErrors velocity_errors;
-  /// Errors of the forces of the fluid; < 0 if they were not estimated in this step.
-  RelativeErrors force_errors;
+  double seconds = 0;              ///< wall time of the step: mesh, fluid solver and contacts [s]
+  RelativeErrors velocity_errors;  ///< of the velocities of the particles
+  RelativeErrors force_errors;     ///< of the forces of the fluid on the particles
 };
 
-/// What is recorded of one step. Here D + h G v is the linearised gap of a contact after the step
-/// [L], p its impulse [M L/T], gamma the Pair::gamma before the step [M L/T], and w the change of
-/// the gap per impulse [T/M].
+/// What is recorded of one step. For a contact, let d be its linearised gap after the step [L], p
+/// its impulse [M L/T], gamma the lower bound of p (minus the impulse that its film had absorbed
+/// before the step) [M L/T], and w the change of the gap per impulse [T/M].
 struct StepReport {
   double time = 0;           ///< at the end of the step [T]
-  std::size_t contacts = 0;  ///< number of contacts in the projection
+  std::size_t contacts = 0;  ///< number of contacts in the problem that the step solves
   std::size_t glued = 0;     ///< number of contacts with gamma < 0 after the step
-  int iterations = 0;        ///< sum over all parts of the step
-  /// Largest residual |min(D + h G v, w (p - gamma))| of a close pair, divided by the mean radius.
+  int iterations = 0;        ///< of the solver of this problem, summed over the parts of the step
+  /// Largest residual |min(d, w (p - gamma))| of a contact, divided by the mean radius [1].
   double residual = 0;
-  /// Largest residual divided by w and by the impulses at work on the particles of the contact
-  /// (docs/particles.md, "The projection").
+  /// Largest residual divided by w and by the impulses at work on the particles of the contact [1]:
+  /// of forces, of contacts, and the change of momentum (docs/particles.md, "The projection").
   double impulse_residual = 0;
-  bool converged = true;  ///< the residuals of all contacts are within the tolerances
-  /// Largest residual over what is allowed for its contact or link, >= 0; infinite if the step did
-  /// not converge for another reason.
+  bool converged = true;  ///< true if the residuals of all contacts and links are allowed
+  /// Largest residual over what is allowed for its contact or link [1], >= 0; infinite if the step
+  /// did not converge for another reason.
   double excess = 0;
-  /// Largest overlap -(D + h G v) after the step, divided by the mean radius. It is computed from
-  /// linearised gaps; no gap is smaller than its linearised gap.
+  /// Largest overlap -d after the step, divided by the mean radius [1]. The true overlap is at most
+  /// as large, because no gap is smaller than its linearised gap.
   double largest_overlap = 0;
-  /// Number of parts that the step was divided into, 1 to 256, because a step is halved at most 8
-  /// times (simulation.hpp).
+  /// Number of parts into which the step was divided, 1 to 256, where particles move fast.
   int parts = 0;
-  /// Number of contacts that turn further than kLargestTurn (contact.hpp) in the smallest parts.
+  /// Number of contacts whose particles move around each other too far for linearised gaps, even in
+  /// the smallest parts of the step (kLargestTurn in contact.hpp).
   std::size_t unresolved = 0;
-  FluidStepReport fluid{};  ///< zeros without a fluid
+  FluidStepReport fluid{};  ///< defaults without a fluid
 };
 
 /// The residuals of all contacts and links of a step.
 struct StepResiduals {
-  double largest = 0;  ///< [L]
-  double excess = 0;   ///< largest residual, divided by what is allowed for its contact or link
-  /// Largest residual as an impulse, divided by the impulses at work in its contact or link.
+  double largest = 0;  ///< largest residual [L], >= 0
+  double excess = 0;   ///< largest residual over what is allowed for its contact or link [1], >= 0
+  /// Largest residual as an impulse, over the impulses at work in its contact or link [1], >= 0.
   double of_impulses = 0;
   double smallest_gap = 0;  ///< smallest linearised gap after the step [L], at most 0
-  Pair deepest_overlap;     ///< the pair with the smallest gap
-  bool converged = true;    ///< all residuals are allowed
-  /// Of each contact [M L/T], >= 0: its residual divided by its mobility Contact::w.
+  Pair deepest_overlap;     ///< the pair with the smallest gap, if this is < 0
+  bool converged = true;    ///< true if all residuals are allowed
+  /// Residual of each contact over its Contact::w (change of the gap per impulse) [M L/T], >= 0.
   std::vector<double> impulse_errors;
 
-  /// Adds a residual >= 0 of which `allowed` > 0 is allowed [L]. Returns true if it is larger than
-  /// allowed, or not a number; then `converged` becomes false.
+  /// Takes a residual >= 0 into account; up to `allowed` > 0 is allowed, both [L]. Returns true and
+  /// sets `converged` to false if it is larger than allowed or not a number.
   bool take(double residual, double allowed);
-  /// Adds the residual of an impulse [M L/T]; `at_work` >= 0 are the impulses at work [M L/T].
+  /// Takes the residual of an impulse into account. `at_work` >= 0 are the impulses at work, both
+  /// [M L/T]; if they are 0, the residual is ignored.
   void take_impulse(double residual, double at_work);
-  /// Adds the gap of a pair after the step [L]. A gap that is not a number stays the smallest.
+  /// Takes the linearised gap of a pair after the step into account [L]; NaN stays the smallest.
   void take_gap(double gap, const Pair& pair);
 };
 
-/// Adds the residuals of a step, or of one part of a divided step, to the report. `mean_radius` > 0
-/// [L].
+/// Enters the residuals of a step, or of a part of it, in the report. `mean_radius` > 0 [L].
 void report_residuals(const StepResiduals& residuals, double mean_radius, StepReport& report);
 
 /// Throws Error(kNotConverged) if a step that ends at `time` [T] has not converged and leaves an
-/// overlap of more than the mean radius [L]. `reason` says what may be the cause.
+/// overlap of more than `mean_radius` [L]. `reason` returns the end of the message, the possible
+/// cause.
 void refuse_deep_overlap(const StepResiduals& residuals, const Particles& particles,
                          const Setting& setting, double mean_radius, double time,
                          const std::function<std::string()>& reason);
 
-/// "particles 3 and 4", "particle 3 and plane 1": a pair in messages, with the ids of its
-/// particles. All obstacles are called planes if the domain has no walls.
+/// A pair in messages, with the ids of its particles: "particles 3 and 4", "particle 3 and plane
+/// 1", or, if the domain has walls, "particle 3 and obstacle 1".
 std::string name_of_pair(const Pair& pair, const Particles& particles, const Setting& setting);
 
 }  // namespace viscontact::particles

@@ -1,5 +1,6 @@
-// Places the steps around or at the times of jumps (step_times.hpp). Times [T] are in the unit of
-// the case. A run that continues must take the same steps, bit for bit.
+// Decides where each time step ends: on a grid of equal steps, but for jumps of forces, torques or
+// velocities of planes (step_times.hpp has the reasons and who uses it). Times [T] are in the unit
+// of the case file. Nothing is checked or thrown. A change must keep all ends of steps bit for bit.
 #include "viscontact/particles/steps/step_times.hpp"
 
 #include <algorithm>
@@ -9,7 +10,8 @@
 namespace viscontact::particles {
 namespace {
 
-// Differences of times below this share of a step are rounding errors.
+// Differences of times below this fraction of a step count as rounding errors, which reach it only
+// in runs of more than 1e9 steps.
 constexpr double kTiny = 1e-6;
 
 }  // namespace
@@ -37,13 +39,14 @@ std::vector<double> jump_times(const Setting& setting) {
 double leapfrog_step_end(double time, double grid_end, double h, std::span<const double> jumps) {
   const auto next = std::ranges::upper_bound(jumps, time + kTiny * h);
   const double until_jump = next == jumps.end() ? 2 * h : *next - time;
-  // A whole step that begins less than 1.125 h before a jump would end less than h/8 before it. The
-  // step is then shortened, such that the jump is in the middle of the next one.
+  // A step of the length h that begins at most 1.125 h before a jump would end after it, or at most
+  // h/8 before it. The step is then shortened so that the jump is in the middle of the next one,
+  // which gets the same length.
   constexpr double kNear = 1.125;
   if (until_jump <= h / 2) return time + 2 * until_jump;
   if (until_jump <= kNear * h) return time + until_jump * 2 / 3;
   const double rest = grid_end - time;
-  // The steps return to the grid: in one step or, if it ends less than h/2 later, in two.
+  // The steps return to the grid in one step of the length `rest` or, below h/2, in two.
   if (rest < h / 2 - kTiny * h) return time + (rest + h) / 2;
   return grid_end;
 }
@@ -69,7 +72,7 @@ std::optional<StepInterval> StepGrid::next(const State& state, double end) const
     step.new_grid = (step.end < on_grid - tiny ? on_grid : on_grid + time_step_) - time_step_;
   }
   step.reaches_end = step.end >= end - tiny;
-  // A step on the grid has exactly the length h, whatever the rounding errors of times are.
+  // A step from one point of the grid to the next has the length h without rounding errors.
   if (is_cut || std::abs(step.end - state.time - time_step_) > tiny) step.h = step.end - state.time;
   return step;
 }
