@@ -24,7 +24,7 @@ Vector PiecewiseConstant::mean(double from, double to) const {
   double begin = 0;
   for (const auto& piece : pieces) {
     if (from >= begin && to <= piece.until)
-      return piece.value;  // exact: a sum would have rounding errors
+      return piece.value;  // not a sum, which would have rounding errors
     const double overlap = std::min(to, piece.until) - std::max(from, begin);
     if (overlap > 0) sum = sum + overlap * piece.value;
     begin = piece.until;
