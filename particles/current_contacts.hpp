@@ -1,7 +1,7 @@
 // Lists the contacts of a state for output, and measures its overlaps. Lengths, masses and times
 // are in the units of the case. Tables, VTK files and pages show these contacts; io/, run/ and
 // python/ use this file. Nothing is checked or thrown. A change must keep the order of
-// contacts_of(): io/vtk_reader.cpp assumes it when it reads contacts back.
+// contacts_of(), because io/vtk_reader.cpp returns the contacts of a file in the same order.
 #pragma once
 
 #include <cstdint>
