@@ -73,8 +73,7 @@ Place place_of(const Setting& setting, const Particles& p, const Pair& pair,
   return p.dimension == 2 ? place_of<2>(p, pair, places) : place_of<3>(p, pair, places);
 }
 
-/// The smallest gap of two discs in a periodic cell, between their nearest images [L], <= 0; 0 if
-/// no discs overlap.
+/// The smallest gap of two discs or their nearest periodic images [L]; 0 if none overlap.
 double smallest_gap_of_images(const Particles& p) {
   double smallest = 0;
   for (std::size_t j = 0; j < p.count(); ++j)

@@ -22,12 +22,10 @@ enum class ContactFriction : std::int8_t {
 
 /// A contact as files show it.
 struct CurrentContact {
-  std::int32_t first;      ///< number of a particle, or -1 - k for obstacle k of obstacles_of()
-                           ///< (setting.hpp)
+  std::int32_t first;      ///< a particle, or -1 - k for obstacle k of obstacles_of()
   std::int32_t second;     ///< number of a particle
   double gap;              ///< [L]
-  double gamma;            ///< minus the impulse that the film has absorbed [M L/T], of discs in a
-                           ///< fluid [M/T]; <= 0
+  double gamma;            ///< Pair::gamma [M L/T], of discs in a fluid [M/T]; <= 0
   double gamma_error = 0;  ///< Pair::gamma_error, in the unit of gamma
   std::int32_t image = 0;  ///< Pair::image
   ContactFriction friction = ContactFriction::kNone;  ///< in the last step
@@ -37,23 +35,20 @@ struct CurrentContact {
   Vector tangential_force{};  ///< mean friction on `second` in the last step, in the same unit
   // The next members are not in VTK files.
   Vector normal{};  ///< unit normal from `first` to `second`
-  /// Vector to the centre of `second`, from that of `first` or from the nearest point of an
-  /// obstacle [L].
+  /// Vector [L] to the centre of `second` from that of `first` or the nearest point of an obstacle.
   Vector branch{};
-  /// The numbers that contact laws remember of the pair and files show (pair_memory.hpp). It takes
-  /// no memory if there are none.
+  /// Numbers that laws remember of the pair and files show (pair_memory.hpp), often none.
   [[no_unique_address]] ShownMemory shown{};
 };
 
-/// Names of both bodies of a contact in files: the ids of two particles, or the id of a particle
-/// and then -1 - k for obstacle k.
+/// Names of both bodies in files: the ids of two particles, or of one, and -1 - k for obstacle k.
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact);
 
 /// The pairs that are glued (gamma < 0), touch, or had a force in the last step: first pairs of
 /// particles, then particles at obstacles, each in the order of the state. A pair touches if its
-/// gap is at most SolverSettings::tolerance times the mean radius, in a fluid at most this length
-/// plus Fluid::threshold_gap.
+/// gap is at most SolverSettings::tolerance times the mean radius, in a fluid plus
+/// Fluid::threshold_gap.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
 /// Largest Pair::gamma_error of all pairs, in the unit of gamma, >= 0.

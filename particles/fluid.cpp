@@ -1,7 +1,6 @@
 // Computes velocities of walls and pressure gradients that depend on time, and sizes and moments of
 // inertia of particles (fluid.hpp), in the units of the case. Nothing is checked or thrown. A
-// change must keep the mean velocity over a step exact, so that as much fluid flows in as the case
-// says.
+// change must keep means over a step exact, so that as much fluid flows in as the case says.
 #include "viscontact/particles/fluid.hpp"
 
 #include <algorithm>
@@ -14,8 +13,7 @@ namespace viscontact::particles {
 
 namespace {
 
-/// The factor 1 + amplitude sin(2 pi time/period) of a velocity or pressure gradient; 1 if `period`
-/// is 0.
+/// Factor 1 + amplitude sin(2 pi time/period) of a velocity or pressure gradient; 1 if period is 0.
 double pulsation(double period, double amplitude, double time) {
   return period > 0 ? 1 + amplitude * std::sin(2 * std::numbers::pi * time / period) : 1;
 }

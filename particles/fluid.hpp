@@ -28,8 +28,7 @@ enum class RigidConstraint {
 /// Whether the mesh of the fluid follows the particles.
 enum class FluidMesh {
   kFitted,  ///< curved edges of the mesh follow the surfaces of the particles
-  kFixed,   ///< one mesh of the whole domain, which does not depend on the particles (the lecture's
-            ///< method)
+  kFixed,   ///< one mesh of the whole domain, whatever the particles do (the lecture's method)
 };
 
 /// How contact acts on particles in a fluid, docs/physics.md (6.4).
@@ -41,10 +40,8 @@ enum class Coupling {
 
 /// How a fluid with inertia carries its velocity along (the term u.grad u), docs/physics.md (6.9).
 enum class Advection {
-  kSemiImplicit,     ///< in u.grad u the first u is extrapolated from the steps before, so that the
-                     ///< problem is linear
-  kCharacteristics,  ///< the velocities of the steps before are taken at the places where the fluid
-                     ///< then was
+  kSemiImplicit,     ///< the first u of u.grad u is extrapolated in time: a linear problem
+  kCharacteristics,  ///< earlier velocities are taken at the places where the fluid was
 };
 
 /// How a fluid with inertia begins.
@@ -59,13 +56,11 @@ struct WallVelocity {
   /// Which velocity the wall has.
   enum class Kind {
     kConstant,   ///< `value` everywhere
-    kParabolic,  ///< along the inward normal, with the largest speed value[0], in the middle of the
-                 ///< wall
+    kParabolic,  ///< along the inward normal; value[0] is the speed in the middle of the wall
     kOpen,       ///< no stress acts on this side, and fluid flows through it freely
   };
   Kind kind = Kind::kConstant;  ///< which velocity the wall has
-  /// Components along x and y of a constant velocity [L/T]; of a parabola value[0] is the largest
-  /// speed [L/T].
+  /// x and y of a constant velocity [L/T]; of a parabola value[0] is the largest speed [L/T].
   std::array<double, 2> value{};
   /// If it has pieces, they take the place of `value` [L/T]; component 2 is not used.
   PiecewiseConstant pieces{};
@@ -75,8 +70,8 @@ struct WallVelocity {
 
   /// True if the velocity depends on time.
   bool depends_on_time() const { return !pieces.pieces.empty() || period > 0; }
-  /// The numbers that `value` has at `time` [T]. If `to` > `from`, the pieces are averaged over the
-  /// times from `from` to `to` [T].
+  /// The numbers of `value` at `time` [T]; if `to` > `from`, pieces are averaged between both
+  /// times.
   std::array<double, 2> at(double time, double from = 0, double to = 0) const;
 };
 
@@ -84,12 +79,11 @@ struct WallVelocity {
 /// periodic both ways, E is the mean velocity gradient. A shear with the rate s has E = (0, s; 0,
 /// 0) and the velocity (s y, 0), a strain with the rate s has E = (s, 0; 0, -s) and (s x, -s y).
 struct LinearFlow {
-  std::array<double, 4> gradient{};  ///< E, row after row: du/dx, du/dy, dv/dx, dv/dy [1/T]; zeros:
-                                     ///< walls at rest
+  std::array<double, 4> gradient{};  ///< E: du/dx, du/dy, dv/dx, dv/dy [1/T]; zeros: at rest
 };
 
-/// One entry for each side of a box, in the order left, right, bottom, top. The entries of periodic
-/// sides are not used.
+/// One entry for each side of a box: left, right, bottom, top. Those of periodic sides are not
+/// used.
 using SideVelocities = std::array<WallVelocity, 4>;
 
 /// A line across a channel: `[[probe]]` of a case. The flow through the line and the mean pressure
@@ -122,8 +116,7 @@ struct Fluid {
   /// velocities have relative errors of some 1e-4 at gaps of 0.1 radii and more (docs/fluid.md).
   int edges_per_particle = 24;
   Coupling coupling = Coupling::kConstrained;  ///< how contact acts on the particles
-  double threshold_gap = 0;  ///< gap at which particles make contact, D_c of docs/physics.md [L],
-                             ///< >= 0
+  double threshold_gap = 0;  ///< gap at which contact is made [L], >= 0: D_c of docs/physics.md
   /// Velocities of the walls, or of a cell that is periodic both ways.
   std::variant<LinearFlow, SideVelocities> boundary;
   /// Command of a flow solver of the user's own, with its arguments; empty: FreeFEM.
@@ -148,8 +141,7 @@ struct Fluid {
 
   /// The pressure gradient at `time` [T].
   std::array<double, 2> pressure_gradient_at(double time) const;
-  /// True if the particles with the numbers `first` and `second` are beads of one membrane; they
-  /// then make no contact.
+  /// True if both particles are beads of one membrane; they then make no contact with each other.
   bool are_of_one_membrane(std::int32_t first, std::int32_t second) const;
   /// True if the fluid has inertia.
   bool has_inertia() const { return density > 0; }

@@ -73,8 +73,7 @@ std::vector<BodyLoad> Simulation::loads_of_bodies(
   return loads;
 }
 
-/// Sets the displacements and turns of the rigid bodies without contacts and links, and those of
-/// their members.
+/// Sets displacements and turns of rigid bodies, and of their members, without contacts and links.
 void Simulation::move_bodies_freely(double h, double next) {
   const auto& p = state_.particles;
   const auto loads = loads_of_bodies(

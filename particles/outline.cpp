@@ -62,9 +62,7 @@ double least_on(const Outline& outline, const Function& function) {
       at = i * kStep;
     }
   double low = at - kStep, high = at + kStep;
-  constexpr int kDivisions =
-      60;  // (2/3)^60 is 3e-11, and its square, the relative error of a minimum, is below rounding
-           // errors
+  constexpr int kDivisions = 60;  // (2/3)^60 is 3e-11; the error of a minimum is its square
   for (int n = 0; n < kDivisions; ++n) {
     const double first = low + (high - low) / 3, second = high - (high - low) / 3;
     if (value(first) < value(second))
@@ -173,8 +171,7 @@ Point Outline::at(double t) const {
   if (is_plate) {
     constexpr double kPi = std::numbers::pi;
     const double half = semi_axes[0] - semi_axes[1], b = semi_axes[1], arc = kPi * b;
-    // Distance along the outline, counter-clockwise, from the beginning of the round end in the
-    // direction `angle`.
+    // Distance along the outline from where the round end in the direction `angle` begins.
     double s = (t / (2 * kPi) - std::floor(t / (2 * kPi))) * length() + arc / 2;
     if (s >= length()) s -= length();
     // The other half of the outline is the same, turned by pi.

@@ -3,8 +3,8 @@
 // chords at which its circle meets those of the others, so that the cut discs cover the union of
 // the discs once. Lengths are in the unit of the case, angles in radians, counter-clockwise.
 // particles/ (case/, fluid/, picture/) and freefem_flow/ (meshes) use this file. Nothing is checked
-// or thrown. A change must keep gaps of circles exact, and that the cut discs together have the
-// area of the union.
+// or thrown. A change must keep gaps of circles exact, and the total area of cut discs that of
+// their union.
 #pragma once
 
 #include <array>
@@ -19,10 +19,9 @@
 
 namespace viscontact::particles {
 
-/// A circle, an ellipse whose first semi-axis points along `angle`, or a plate with round ends. The
-/// outline of a plate is all points at the distance semi_axes[1] from its spine, a line of the
-/// length 2 (semi_axes[0] - semi_axes[1]) along `angle` with the middle `centre`. The spine of a
-/// circle is its centre.
+/// A circle, an ellipse whose first semi-axis points along `angle`, or a plate with round ends: all
+/// points at the distance semi_axes[1] from its spine, a line of the length 2 (semi_axes[0] -
+/// semi_axes[1]) through the centre along `angle`. The spine of a circle is its centre.
 struct Outline {
   std::array<double, 2> centre{};  ///< [L]
   /// Radius of the circle, or the larger semi-axis of an ellipse or plate [L], > 0.
@@ -36,8 +35,7 @@ struct Outline {
   /// The point of the outline with the parameter t [L], which goes around it once from 0 to 2 pi.
   /// On a circle t is the angle from the x axis. On an ellipse with the semi-axes a, b along the
   /// unit vectors e_1, e_2 it is the point centre + a cos(t) e_1 + b sin(t) e_2. On a plate t is
-  /// proportional to the length along the outline from its outermost point in the direction
-  /// `angle`.
+  /// proportional to the length along the outline from the tip in the direction `angle`.
   std::array<double, 2> at(double t) const;
   /// Length of the derivative of at() by t [L].
   double speed_at(double t) const;
@@ -46,8 +44,8 @@ struct Outline {
   double curvature_radius_at(double t) const;
   /// Radius of the round ends of a plate, or else `radius` [L].
   double end_radius() const { return is_plate ? semi_axes[1] : radius; }
-  /// The ends of the spine [L], the first one in the direction `angle`. Both are the centre if the
-  /// outline is no plate.
+  /// Ends of the spine [L], the first in the direction `angle`; both are the centre without a
+  /// plate.
   std::array<std::array<double, 2>, 2> spine() const;
   /// Circumference of a circle or plate [L].
   double length() const;
@@ -68,9 +66,8 @@ SpinePoints nearest_on_spines(const Outline& first, const Outline& second);
 /// of the other spine that is nearest to it form a place. The ends of the first spine form the
 /// places 0 and 1, those of the second spine 2 and 3. The place with the shortest distance between
 /// its two points is a contact. The second contact is the shortest of the places both of whose
-/// points are further than a tenth of the smaller end radius from those of the first contact.
-/// Spines that cross have one contact. Each other place belongs to the contact whose points are
-/// nearer to its own.
+/// points are further than a tenth of the smaller end radius from those of the first. Spines that
+/// cross have one contact. Each other place belongs to the contact whose points are nearer.
 class SpineContacts {
  public:
   /// Finds the contacts of both outlines where they are.
@@ -80,8 +77,7 @@ class SpineContacts {
   /// The place of the contact to which `place`, 0 to 3, belongs.
   int contact_of(int place) const { return contact_of_[static_cast<std::size_t>(place)]; }
   /// The points at which the contact of `place` acts after the outlines have moved to `first` and
-  /// `second`: of all places that belong to this contact, those of the place with the shortest
-  /// distance.
+  /// `second`: those of the place with the shortest distance among all that belong to it.
   SpinePoints at(int place, const Outline& first, const Outline& second) const;
 
  private:
@@ -92,13 +88,12 @@ class SpineContacts {
 /// Distance of a point from the outline [L]; < 0 inside.
 double distance_to(const Outline& outline, const std::array<double, 2>& x);
 
-/// Distance between two outlines of which neither contains the other [L]. If they overlap, it is
-/// minus the depth of the deepest point of `first` in `second`; for plates whose spines cross it is
-/// minus the sum of both end radii.
+/// Distance between two outlines of which neither contains the other [L]. If they overlap, minus
+/// the depth of the deepest point of `first` in `second`; for plates whose spines cross, minus the
+/// sum of both end radii.
 double gap(const Outline& first, const Outline& second);
 
-/// Distance of the outline from an obstacle [L]; < 0 if a part of the outline is behind the
-/// obstacle.
+/// Distance of the outline from an obstacle [L]; < 0 if a part of it is behind the obstacle.
 double gap(const PlanePosition& obstacle, const Outline& outline);
 
 /// Outline of particle k in the plane, or of a sphere on the axis with its centre at (0, z).
@@ -114,8 +109,7 @@ struct Chord {
   // counter-clockwise, is inside the other disc.
   std::array<double, 2> from{},  ///< first end [L]
       to{};                      ///< last end [L]
-  double middle = 0;             ///< angle from the x axis to the middle of this arc [rad], -pi to
-                                 ///< pi
+  double middle = 0;             ///< angle from the x axis to the middle of this arc [rad]
   double half = 0;               ///< half of the angle of this arc [rad], > 0 and < pi
   double area = 0;               ///< area of the part of the disc beyond the chord [L^2], > 0
   /// Angle between the circles in the fluid outside both, where they meet [rad], > 0 and < pi. The
@@ -124,8 +118,7 @@ struct Chord {
 };
 
 /// The chord at which disc `other` cuts disc k; none if their circles do not meet. Periodic images
-/// are not considered. The ends of the chord are the same, to the last bit, if k and `other` are
-/// exchanged.
+/// are not considered. If k and `other` are exchanged, the ends are the same bits.
 std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::size_t other);
 
 /// The chords at which discs of its body cut disc k, in the order of their `middle`, without those

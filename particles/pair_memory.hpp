@@ -3,8 +3,8 @@
 // restart file, contacts.csv, final_contacts.csv and the VTK files take their names from there. To
 // add a number, add a row to kMemoryFields and a place to Remembered, with the unit in its comment.
 // Names must not change, because restart files contain them. A pair loses its memory when its gamma
-// is 0 and it leaves the lists of close pairs. All laws and solvers of contacts use this file.
-// Nothing is checked or thrown.
+// is 0 and it leaves the lists of close pairs. All contact laws and solvers use this file; nothing
+// is thrown.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,7 @@
 
 namespace viscontact::particles {
 
-/// The numbers in a PairMemory, in the order of kMemoryFields. Impulses of discs in a fluid are per
-/// unit length.
+/// The numbers in a PairMemory, in the order of kMemoryFields; of discs in a fluid per length.
 enum class Remembered : std::uint8_t {
   /// x of the impulse of friction on Pair::second in the last step [M L/T]. This vector is
   /// tangential; the solver of the next step takes it as its first guess.
@@ -35,8 +34,7 @@ enum class Remembered : std::uint8_t {
 /// A number that a law remembers, as files show it.
 struct MemoryField {
   std::string_view name;  ///< in restart files and as a column
-  bool is_impulse;        ///< whether it is an impulse of the last step; if a step is divided,
-                          ///< impulses of its parts are added
+  bool is_impulse;        ///< whether it is an impulse, added over the parts of a divided step
   bool is_shown;          ///< whether contacts.csv and the frames have the number
 };
 

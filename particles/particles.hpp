@@ -1,8 +1,8 @@
 // The particles of a simulation: rigid discs or spheres, and how they turn. Lengths, masses and
 // times are in any consistent units; turns and angles are in radians. The restart file stores these
 // arrays as they are (io/restart.cpp), so that a change of their layout needs a new version of that
-// file. A change must also keep quaternions at length 1. All of particles/ uses this file; nothing
-// is checked or thrown here.
+// file. A change must keep quaternions at length 1. All of particles/ uses this file; nothing is
+// checked or thrown.
 #pragma once
 
 #include <algorithm>
@@ -30,8 +30,7 @@ struct Particles {
   std::vector<double> positions;   ///< of the centres [L]
   std::vector<double> velocities;  ///< [L/T]
   std::vector<double> radii;       ///< [L], > 0
-  std::vector<double> masses;      ///< [M], > 0, in a fluid >= 0; of discs in a fluid per length
-                                   ///< [M/L]
+  std::vector<double> masses;      ///< [M], of discs in a fluid [M/L]; > 0, in a fluid >= 0
   /// Number of each particle in files, >= 0; no two are equal. Empty: particle k has the id k.
   std::vector<std::int32_t> ids{};
   // The next four arrays describe rotation. They are empty if nothing in the case depends on
@@ -40,11 +39,9 @@ struct Particles {
   /// Orientations of spheres: unit quaternions, four numbers (w, x, y, z) for each particle. They
   /// are the rotations from the start until now; empty for discs.
   std::vector<double> orientations{};
-  /// Angular velocities [1/T]: one for each disc, counter-clockwise; three components for each
-  /// sphere.
+  /// Angular velocities [1/T]: one for each disc, counter-clockwise; three for each sphere.
   std::vector<double> angular_velocities{};
-  std::vector<double> inertias{};  ///< about the centre [M L^2], > 0, in a fluid >= 0; of discs in
-                                   ///< a fluid per length [M L]
+  std::vector<double> inertias{};  ///< [M L^2], of discs in a fluid [M L]; > 0, in a fluid >= 0
   /// The periodic cell, which says how images of particles are shifted. A simulation takes it from
   /// its setting; the restart file does not store it.
   PeriodicCell cell{};
@@ -57,8 +54,7 @@ struct Particles {
 
   std::size_t count() const { return radii.size(); }         ///< number of particles
   bool turn() const { return !angular_velocities.empty(); }  ///< whether rotation is computed
-  /// True if two particles make no contact, because they belong to one body or are neighbours on a
-  /// membrane.
+  /// True if two particles of one body, or neighbours on a membrane, which make no contact.
   bool are_joined(std::int32_t first, std::int32_t second) const {
     if (bodies.are_one(first, second)) return true;
     if (neighbours.empty()) return false;

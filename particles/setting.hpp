@@ -1,9 +1,9 @@
 // What moves the particles of a simulation, how their motion is computed, and how accurately: the
 // content of a case file. Nothing is checked here; particles/case checks the values. Both
 // simulations (simulation.hpp, fluid/fluid_simulation.hpp) and the files in io/, picture/ and run/
-// read it. Lengths, masses and times are in any consistent units; in the plane of a fluid masses
-// and forces are per unit length. A change of a default of SolverSettings changes the results of
-// every case that does not set it.
+// read it. Lengths, masses and times are in any consistent units; masses and forces of discs in a
+// fluid are per length. A change of a default of SolverSettings changes the results of every case
+// that does not set it.
 #pragma once
 
 #include <algorithm>
@@ -25,9 +25,8 @@
 
 namespace viscontact::particles {
 
-/// When the projection of a step, the problem that gives its velocities and contact impulses, is
-/// solved accurately enough. Tolerances have no dimension; docs/particles.md, "The projection",
-/// says how each is measured.
+/// How accurately the projection of a step, the problem that gives its velocities and impulses, is
+/// solved. Tolerances have no dimension (docs/particles.md, "The projection").
 struct SolverSettings {
   /// Largest error of a gap after a step, divided by the mean radius; > 0.
   double tolerance = 1e-6;
@@ -61,8 +60,7 @@ enum class Scheme {
   kLeapfrog,  ///< the time t^n - h/2; away from impacts errors of positions are proportional to h^2
 };
 
-/// What moves the particles, and how their motion is computed. The keys of the maps must be numbers
-/// of existing particles.
+/// What moves the particles, and how. The keys of the maps must be numbers of existing particles.
 struct Setting {
   std::vector<Plane> planes;  ///< rigid planes, at rest or moving, that particles cannot cross
   /// Region that holds the particles, and the fluid if there is one. Its walls are obstacles.
@@ -79,8 +77,8 @@ struct Setting {
   SolverSettings solver;           ///< tolerances and limits of the projection
   std::optional<Fluid> fluid;      ///< fluid around the particles, if there is one; needs a domain
   /// Torques on single particles, by the number of the particle [M L^2/T^2]; of discs in component
-  /// 2, counter-clockwise. They need particles that turn. A particle with a torque has no entry in
-  /// `given_motions`.
+  /// 2, counter-clockwise. They need particles that turn. A particle with a torque has no given
+  /// motion.
   std::map<std::int32_t, PiecewiseConstant> torques;
   /// Motions of the particles that are driven through the fluid, by the number of the particle. A
   /// driven particle has no entry in `forces`, and gravity does not change its motion.
@@ -88,13 +86,11 @@ struct Setting {
   /// Forces [M L/T^2] on all particles in addition to gravity and `forces`, in the order of
   /// Particles::velocities; empty: none. Those on driven particles have no effect. The caller of a
   /// simulation may change them between two steps (Simulation::added_forces()).
-  std::vector<double> added_forces{}, added_torques{};  ///< torques [M L^2/T^2], likewise, in the
-                                                        ///< order of Particles::angular_velocities;
-                                                        ///< they need particles that turn
+  std::vector<double> added_forces{}, added_torques{};  ///< torques [M L^2/T^2], for particles that
+                                                        ///< turn
 };
 
-/// The periodic cell of the domain, with the mean velocity gradient of the fluid, which is 0
-/// without a fluid.
+/// The periodic cell of the domain, with the mean velocity gradient of the fluid if there is one.
 PeriodicCell cell_of(const Setting& setting);
 
 /// The force of Setting::added_forces on particle k [M L/T^2]; 0 if there are none.
@@ -111,8 +107,7 @@ inline Vector added_torque(const Setting& setting, std::size_t k, int dimension)
   return {0, 0, setting.added_torques[k]};
 }
 
-/// Setting::added_forces with one entry for each velocity component of `particles`. New entries are
-/// 0.
+/// Setting::added_forces, extended by zeros to one entry for each velocity component.
 inline std::span<double> added_forces_for(const Particles& particles, Setting& setting) {
   setting.added_forces.resize(particles.velocities.size());
   return setting.added_forces;
@@ -124,8 +119,7 @@ inline std::span<double> added_torques_for(const Particles& particles, Setting& 
   return setting.added_torques;
 }
 
-/// All obstacles of a case: the walls of its domain, then its planes. In files obstacle k, from 0,
-/// has the number -1 - k.
+/// All obstacles: the walls of the domain, then the planes. In files obstacle k is -1 - k.
 std::vector<Plane> obstacles_of(const Setting& setting);
 
 }  // namespace viscontact::particles

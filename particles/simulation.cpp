@@ -47,8 +47,7 @@ std::array<std::int32_t, 3> key_of(const Pair& pair) {
   return {pair.first, pair.second, pair.image};
 }
 
-/// Calls `change` with each number of `memory` that is an impulse of the step, and with the
-/// corresponding number of `other`.
+/// Calls `change` with each number of `memory` that is an impulse, and that of `other`.
 template <class Change>
 void for_impulses(PairMemory& memory, const PairMemory& other, const Change& change) {
   for (std::size_t f = 0; f < kMemoryFields.size(); ++f)
@@ -96,8 +95,7 @@ void Simulation::pour() {
   if (!setting_.added_torques.empty()) added_torques();
 }
 
-/// Multiplies the impulses of all pairs by `factor`, so that they are first guesses for a part of a
-/// step of another length.
+/// Multiplies the impulses of all pairs, which are first guesses for a part of another length.
 void Simulation::scale_impulses(double factor) {
   for_pairs([&](Pair& pair) {
     pair.impulse *= factor;
@@ -107,8 +105,7 @@ void Simulation::scale_impulses(double factor) {
   });
 }
 
-/// Copies the impulses of the step before, and what pairs remember, to restore them if this step
-/// throws.
+/// Copies the impulses of the step before and the memories, to restore them if this step throws.
 void Simulation::save_impulses() {
   if (!saved_impulses_.empty() || before_division_) return;
   for_pairs([&](const Pair& pair) {
@@ -126,8 +123,7 @@ void Simulation::take_impulses(const ProjectionResult& projected) {
   }
 }
 
-/// Updates what contact laws remember of each pair in the projection. Returns the number of glued
-/// pairs (gamma < 0).
+/// Updates gamma and memories of each pair of the projection. Returns how many have gamma < 0.
 std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
   std::size_t glued = 0;
   for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
@@ -244,8 +240,7 @@ void Simulation::add_works_of_arms(double h) {
   }
 }
 
-/// Finds the blows of a part of a step with restitution. The displacements must be those without
-/// contacts.
+/// Finds the blows of a part with restitution. The displacements are those without contacts.
 template <int D>
 void Simulation::find_impacts(double h, double next) {
   impacts<D>().reset();
@@ -378,8 +373,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     });
 }
 
-/// Computes a step, in parts if necessary. If a part throws, the state becomes that before the
-/// step.
+/// Computes a step, perhaps in parts. If a part throws, the state becomes that before the step.
 template <int D>
 void Simulation::advance_whole(double h, double next, StepReport& report) {
   try {
@@ -389,8 +383,7 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
     rebounds_.clear();
     undo_impacts();
     if (before_division_) {
-      state_ = *before_division_;  // copied and not moved, so that the arrays stay where they are
-                                   // in memory
+      state_ = *before_division_;  // copied, so that the arrays keep their places in memory
     } else if (!saved_impulses_.empty()) {
       for_pairs([&](Pair& pair) {
         const auto saved = saved_impulses_.find(key_of(pair));

@@ -1,8 +1,7 @@
 // Simulates many rigid discs or spheres with viscous contact, without a fluid around them: problem
 // (5.2) and scheme (5.3) of docs/physics.md (Maury 2006; Lefebvre 2009). Lengths, masses and times
-// are in any consistent units. run/, sweep/ and python/ use it. A change must keep the results
-// independent of the number of threads, bit for bit, and a run that continues from a restart file
-// equal to an uninterrupted one.
+// are in any consistent units. run/, sweep/ and python/ use it. A change must keep the results bit
+// for bit, whatever the number of threads is, and if a run continues from a restart file.
 #pragma once
 
 #include <array>
@@ -60,13 +59,11 @@ class Simulation {
   /// The step has the length h = Setting::time_step, except near times at which a force or the
   /// velocity of a plane jumps (step_times.hpp). If `end` [T] is earlier than the end of this step
   /// by more than a millionth of h, the step ends at `end`. If less than a millionth of h is left
-  /// until `end`, no step is made. Without this millionth, rounding errors of the times would cause
-  /// tiny steps.
+  /// until `end`, no step is made: rounding errors of the times would cause tiny steps.
   ///
   /// A step in which two touching particles pass each other by more than half the sum of their
   /// radii (kLargestTurn in contact.hpp) is computed in two halves, and these again, up to
-  /// kMostHalvings times. StepReport::contacts and StepReport::glued are then those of the last
-  /// part.
+  /// kMostHalvings times. StepReport::contacts and ::glued are those of the last part.
   ///
   /// Throws Error(kNotConverged) if a position or displacement exceeds largest_resolved_distance(),
   /// if the projection has not converged and leaves an overlap of more than the mean radius (for
@@ -94,8 +91,7 @@ class Simulation {
   const State& state() const { return state_; }        ///< after the last step
   const Setting& setting() const { return setting_; }  ///< with the added forces and torques
 
-  /// The blows, impacts of solids with restitution, of the last step, in order of time; empty
-  /// without restitution.
+  /// The blows (impacts of solids) of the last step, in order of time; empty without restitution.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
 
   /// The particles with their velocities at the present time. With Scheme::kLeapfrog, velocities of
@@ -105,9 +101,8 @@ class Simulation {
   Particles reported_particles() const;
 
  private:
-  // In all private members `h` is the length of a part of a step, or of a step that is not divided,
-  // and `next` the time at its end [T]. kick_length() is the time for which forces act on the
-  // velocities in this part [T].
+  // In all private members `h` is the length of a step or of a part of it, and `next` the time at
+  // its end [T]. kick_length() is the time for which forces act on the velocities in it [T].
   double kick_length(double h) const {
     return setting_.scheme == Scheme::kLeapfrog ? state_.velocity_lag + h / 2 : h;
   }
@@ -169,13 +164,11 @@ class Simulation {
   std::unique_ptr<ThreadPool> pool_;
   std::vector<double> displacements_;  // h u*, later h v [L]
   std::vector<double> mobilities_;     // h/m [T/M]
-  // If the particles turn: their turns h w*, later h w [rad], and h/I with the moments of inertia I
-  // [T/(M L^2)].
+  // If particles turn: h w*, later h w [rad], and h/I, I the moments of inertia [T/(M L^2)].
   std::vector<double> turns_, turn_mobilities_;
   std::vector<BodyStep> body_steps_;  // displacements and turns of the rigid bodies in the part
-  // Forces and torques of the links in the present part of a step [M L/T^2, M L^2/T^2]; their
-  // impulses, summed over the parts of the step that are done [M L/T, M L^2/T]; and the sum of the
-  // times for which they acted [T].
+  // Forces and torques of the links in the present part [M L/T^2, M L^2/T^2]; the sums of their
+  // impulses over the parts that are done [M L/T, M L^2/T], and of the times for which they acted.
   std::vector<double> link_forces_, link_impulses_;
   double link_time_ = 0;
   std::vector<double> arm_works_;  // work of each arm in the parts that are done [M L^2/T^2]
@@ -184,9 +177,8 @@ class Simulation {
   std::unique_ptr<Impacts<2>> impacts_in_plane_;
   std::unique_ptr<Impacts<3>> impacts_in_space_;
   std::vector<Rebound> rebounds_;
-  // Impulses of a pair [M L/T]. In the maps below the key is Pair::first, second and image. If a
-  // step is divided, impulses_of_parts_ are the sums over its parts, and before_division_ is the
-  // state before the step.
+  // Impulses of a pair [M L/T], in the maps below by Pair::first, second and image. If a step is
+  // divided: the sums of the impulses over its parts, and the state before the step.
   struct Impulses {
     double of_contact = 0;
     PairMemory memory{};

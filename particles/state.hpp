@@ -18,23 +18,20 @@ namespace viscontact::particles {
 /// gamma is minus the impulse that the fluid film between both surfaces has absorbed. It falls
 /// while the film is pressed, down to gamma_min, at which the solids touch (film_law.hpp).
 struct Pair {
-  std::int32_t first = 0;   ///< number of a particle, or -1 - k for obstacle k of obstacles_of()
-                            ///< (setting.hpp)
+  std::int32_t first = 0;   ///< a particle, or -1 - k for obstacle k of obstacles_of()
   std::int32_t second = 0;  ///< number of a particle, > first
   double gamma = 0;         ///< gamma_min <= gamma <= 0 [M L/T]
   /// Impulse of the contact in the last step [M L/T], > 0 where it pushes, and at least the gamma
   /// before that step. The solver of the next step takes it as its first guess.
   double impulse = 0;
   /// Estimate of the error of gamma [M L/T], >= 0: the sum of the residuals and rounding errors of
-  /// all impulses that were subtracted from gamma. It is 0 where gamma is 0 or gamma_min, because
-  /// these values are exact.
+  /// all impulses that were subtracted from gamma. It is 0 if gamma is 0 or gamma_min, which are
+  /// exact.
   double gamma_error = 0;
   /// Number of the periodic image of `second` that meets `first`, -13 to 13, 0 without a shift
-  /// (image_number() in periods.hpp). If two images of `second` are near `first`, they are two
-  /// pairs.
+  /// (periods.hpp). Two images of `second` near `first` make two pairs.
   std::int32_t image = 0;
-  /// Row in State::memories of what the contact laws remember of the pair besides gamma; kNone:
-  /// nothing.
+  /// Row in State::memories, what contact laws remember besides gamma; kNone: nothing.
   std::int32_t memory = PairMemories::kNone;
   /// Number of the contact between both bodies, because plates with round ends may have two. At an
   /// obstacle it is the end, 0 or 1, of the plate; between two plates it is a place of
@@ -66,8 +63,8 @@ struct State {
   Particles particles;     ///< their places, sizes, masses and motions
   double time = 0;         ///< [T]
   std::int64_t steps = 0;  ///< number of steps done
-  /// The velocities are those at the time `time` - velocity_lag [T]. It is >= 0, and 0 unless the
-  /// scheme is Scheme::kLeapfrog.
+  /// The velocities are those at `time` - velocity_lag [T], >= 0; not 0 only with
+  /// Scheme::kLeapfrog.
   double velocity_lag = 0;
   /// Step n ends at time grid_time + (n - grid_step) h [T], where h is the time step of the case.
   /// Both members are 0 until a step ends elsewhere or a restart changes h; they are then the time
@@ -83,35 +80,31 @@ struct State {
   /// Flat array of the positions when `pairs` was made [L]; empty if there is no list yet.
   std::vector<double> positions_at_listing;
   std::vector<double> skins;  ///< skin of each particle [L], >= 0; empty if there is no list yet
-  /// Mean forces and torques of the links in the last step [M L/T^2, M L^2/T^2],
-  /// Links::force_count() numbers in the order given there: the first guess of the next step. Empty
-  /// before the first step.
+  /// Mean forces and torques of the links in the last step [M L/T^2, M L^2/T^2], in the order of
+  /// Links::force_count(): the first guess of the next step. Empty before the first.
   std::vector<double> link_forces;
   /// Mean power of each arm in the last step [M L^2/T^3]: its work divided by the length of the
   /// step. Empty before the first step.
   std::vector<double> arm_powers;
   double earlier_step = 0;  ///< length of the last step [T]; 0 if there was none
-  // What a simulation in a fluid needs of earlier steps; without a fluid these members stay empty
-  // or 0.
+  // What a simulation in a fluid needs of earlier steps; otherwise these members are empty or 0.
   /// Velocities and angular velocities in the last step [L/T, 1/T], motion_components() numbers
-  /// (fluid_solver.hpp) for each particle: vx, vy and angular velocity, or on an axis vz. Empty if
-  /// there was no step.
+  /// (fluid_solver.hpp) for each particle: vx, vy, angular velocity; on an axis vz. Empty without a
+  /// step.
   std::vector<double> earlier_velocities;
   /// Forces and torques of the particles on the fluid at `earlier_velocities` [M L/T^2, M L^2/T^2],
-  /// in the same order. The forces that bodies, hinges and arms exert on particles without mass are
-  /// left out.
+  /// in the same order, without those of bodies, hinges and arms on particles without mass.
   std::vector<double> earlier_forces;
   /// In a fluid with inertia: length of the step before the last one [T]; 0 if there was none.
   double step_before = 0;
   /// In a fluid with inertia: the flow of earlier steps, as FluidSolver::saved_flow() returns it.
   /// It is set only in a state that is to be written, and empty otherwise.
   std::vector<char> flow;
-  /// With membranes: the positions of all particles before the last step [L]. Empty if there was no
-  /// step, and without membranes.
+  /// With membranes: positions of all particles before the last step [L]. Empty without a step.
   std::vector<double> earlier_positions;
   /// The progress of each of Setting::sources. A simulation that begins adds an entry for each
-  /// source that is not in the state yet. Particles of sources follow those of the case, in the
-  /// order in which they were added.
+  /// source that is not in the state yet. Particles of sources follow those of the case in the
+  /// order in which they came.
   std::vector<SourceProgress> sources;
 };
 
