@@ -47,8 +47,8 @@ std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
 
 /// The pairs that are glued (gamma < 0), touch, or had a force in the last step: first pairs of
 /// particles, then particles at obstacles, each in the order of the state. A pair touches if its
-/// gap is at most SolverSettings::tolerance times the mean radius, in a fluid plus
-/// Fluid::threshold_gap.
+/// gap is at most SolverSettings::tolerance times the mean radius, to which Fluid::threshold_gap is
+/// added in a fluid.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
 /// Largest Pair::gamma_error of all pairs, in the unit of gamma, >= 0.

@@ -89,7 +89,7 @@ using SideVelocities = std::array<WallVelocity, 4>;
 /// A line across a channel: `[[probe]]` of a case. The flow through the line and the mean pressure
 /// on it are measured.
 struct Probe {
-  std::string name;              ///< in files
+  std::string name;              ///< in the column `name` of probes.csv
   std::array<double, 2> from{};  ///< a point on a wall [L]
   std::array<double, 2> to{};    ///< a point on another wall [L]
 };
@@ -98,7 +98,7 @@ struct Probe {
 struct Fluid {
   double viscosity = 0;  ///< mu [M/(L T)], > 0
   double density = 0;    ///< rho_f [M/L^3], >= 0; 0: Stokes flow
-  /// The next three members are used only if the density is > 0.
+  /// The members from here to `gradient_amplitude` are used only if the density is > 0.
   Advection advection = Advection::kSemiImplicit;  ///< how velocities are carried along
   FlowStart start = FlowStart::kRest;              ///< the flow at time 0
   /// Uniform pressure gradient that drives the fluid and acts on particles, too [M/(L^2 T^2)].
@@ -132,8 +132,7 @@ struct Fluid {
   /// Empty: no discs of bodies overlap.
   std::vector<double> cut_areas{};
 
-  /// Membranes in the fluid, closed chains of particles (beads), in the order of their beads. If
-  /// there are membranes, all particles of the case are beads.
+  /// Membranes in the fluid: closed chains of particles (beads) of the case.
   std::vector<Membrane> membranes{};
 
   /// The lines on which flow and pressure are measured.

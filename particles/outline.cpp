@@ -62,7 +62,7 @@ double least_on(const Outline& outline, const Function& function) {
       at = i * kStep;
     }
   double low = at - kStep, high = at + kStep;
-  constexpr int kDivisions = 60;  // (2/3)^60 is 3e-11; the error of a minimum is its square
+  constexpr int kDivisions = 60;  // (2/3)^60 is 3e-11; errors of a minimum are about its square
   for (int n = 0; n < kDivisions; ++n) {
     const double first = low + (high - low) / 3, second = high - (high - low) / 3;
     if (value(first) < value(second))
@@ -195,7 +195,7 @@ double Outline::speed_at(double t) const {
 
 double Outline::curvature_radius_at(double t) const {
   if (is_circle()) return radius;
-  if (is_plate) return semi_axes[1];  // the straight sides have none
+  if (is_plate) return semi_axes[1];  // that of the ends; straight sides have none
   const double speed = speed_at(t);
   return speed * (speed / semi_axes[0]) * (speed / semi_axes[1]);
 }

@@ -32,9 +32,9 @@ struct Outline {
 
   /// True if the outline is a circle.
   bool is_circle() const { return semi_axes[0] == semi_axes[1]; }
-  /// The point of the outline with the parameter t [L], which goes around it once from 0 to 2 pi.
-  /// On a circle t is the angle from the x axis. On an ellipse with the semi-axes a, b along the
-  /// unit vectors e_1, e_2 it is the point centre + a cos(t) e_1 + b sin(t) e_2. On a plate t is
+  /// The point [L] of the outline with the parameter t, which increases by 2 pi once around. On a
+  /// circle t is the angle from the x axis. On an ellipse with the semi-axes a, b along the unit
+  /// vectors e_1, e_2 it is the point centre + a cos(t) e_1 + b sin(t) e_2. On a plate t is
   /// proportional to the length along the outline from the tip in the direction `angle`.
   std::array<double, 2> at(double t) const;
   /// Length of the derivative of at() by t [L].
@@ -44,8 +44,8 @@ struct Outline {
   double curvature_radius_at(double t) const;
   /// Radius of the round ends of a plate, or else `radius` [L].
   double end_radius() const { return is_plate ? semi_axes[1] : radius; }
-  /// Ends of the spine [L], the first in the direction `angle`; both are the centre without a
-  /// plate.
+  /// Ends of the spine [L], the first in the direction `angle`. Both ends of a circle's are its
+  /// centre.
   std::array<std::array<double, 2>, 2> spine() const;
   /// Circumference of a circle or plate [L].
   double length() const;
@@ -88,9 +88,9 @@ class SpineContacts {
 /// Distance of a point from the outline [L]; < 0 inside.
 double distance_to(const Outline& outline, const std::array<double, 2>& x);
 
-/// Distance between two outlines of which neither contains the other [L]. If they overlap, minus
-/// the depth of the deepest point of `first` in `second`; for plates whose spines cross, minus the
-/// sum of both end radii.
+/// Distance between two outlines of which neither contains the other [L]. If they overlap, it is
+/// minus the depth of the deepest point of `first` in `second`; for plates whose spines cross, it
+/// is minus the sum of both end radii.
 double gap(const Outline& first, const Outline& second);
 
 /// Distance of the outline from an obstacle [L]; < 0 if a part of it is behind the obstacle.

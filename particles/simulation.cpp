@@ -164,8 +164,8 @@ ProjectionResult Simulation::project(double h, double next) {
     for (std::size_t k = begin; k < end; ++k) longest.value = std::max(longest.value, length_of(k));
     return longest;
   };
-  // A particle further from a plane than twice the longest displacement cannot meet the plane. A
-  // quarter of the mean radius is the least margin.
+  // Only particles closer to an obstacle than the margin are listed. Both of its terms are free
+  // choices: the loop below repeats the step with a longer one if a particle moves further.
   const double longest =
       pool_->sum_of_blocks<MaximumOfBlocks>(state_.particles.count(), longest_of).value;
   double margin = std::max(2 * longest, mean_radius_ / 4);

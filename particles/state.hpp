@@ -67,8 +67,8 @@ struct State {
   /// Scheme::kLeapfrog.
   double velocity_lag = 0;
   /// Step n ends at time grid_time + (n - grid_step) h [T], where h is the time step of the case.
-  /// Both members are 0 until a step ends elsewhere or a restart changes h; they are then the time
-  /// at the end of that step, and its number.
+  /// Both members are 0 until a step ends at another time or a restart changes h; they are then the
+  /// time at the end of that step, and the number of that step.
   double grid_time = 0;
   std::int64_t grid_step = 0;  ///< number of the step that ended at grid_time, >= 0
   /// Neighbour list: pairs of particles that may touch soon, in order of first, second, image.

@@ -16,8 +16,7 @@ constexpr std::string_view kRadiusWords =
     "a number, a list of numbers, `{ uniform = [a, b] }` or `{ lognormal = { median, sigma } }`";
 
 void lognormal_keys(case_file::Keys& keys, RadiusDistribution& radius) {
-  // A free choice: with sigma = 1, radii differ from the median by a factor of up to 55, except for
-  // 6 in 1e5 radii.
+  // A free choice: with sigma = 1, all but 6 in 1e5 radii are within a factor of 55 of the median.
   constexpr Allowed kSigma = {[](double v) { return v >= 1e-6 && v <= 1; }, "from 1e-6 to 1"};
   keys.required("median", case_file::number(radius.median, kModeratelyPositive), {"median radius"});
   keys.required("sigma", case_file::number(radius.sigma, kSigma),
@@ -59,8 +58,7 @@ void read_radius(const case_file::TomlSection& section, std::string_view key,
     radius.list = {section.number(key, kModeratelyPositive)};
 }
 
-/// Declares the keys of a species. `is_listed`: they are in a table of the list `species`,
-/// otherwise in the section itself.
+/// Declares the keys of a species, in a table of the list `species` or else in the section itself.
 void species_keys(case_file::Keys& keys, Species& species, bool has_fluid, bool is_listed) {
   keys.required_if(true, "radius", case_file::custom(kRadiusWords, read_radius, species.radius),
                    {"radius of each particle. The radii of a list are taken in turn",

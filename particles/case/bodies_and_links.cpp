@@ -39,8 +39,7 @@ void check_members(const case_file::TomlSection& section, const std::vector<std:
         !c.setting.given_motions.contains(*member), "particles",
         "contains particle {}, whose motion is given; a particle of a body must be free", id);
   }
-  // In a periodic domain the members alone, and not their order, must determine which periodic
-  // images of them make the body.
+  // In a periodic domain the images that make the body must not depend on the order of the members.
   if (const auto ambiguous = ambiguous_images(c.particles, members))
     section.fail("particles",
                  fmt::format("do not determine which of their images make the body: along {} the "
@@ -203,8 +202,7 @@ void read_ends(const case_file::TomlSection& section, std::string_view key,
   place = {ends[0], ends[1]};
 }
 
-/// Distance of the centres of two particles at the start, to a periodic image if that is nearer
-/// [L].
+/// Distance [L] of the centres of two particles, or their nearest images, at the start.
 double distance_at_start(const ParticlesCase& c, std::int32_t first, std::int32_t second) {
   return norm(nearest_image(cell_of(c.setting.domain), c.particles.position(index_of(second)) -
                                                            c.particles.position(index_of(first))));
@@ -318,8 +316,7 @@ std::vector<double> times_of(std::span<const Arm* const> arms, double end) {
 }
 
 void check_arm(const case_file::TomlSection& section, const Arm& arm, const ParticlesCase& c) {
-  // Relative error of distances between places that the user gives with six digits. The first step
-  // corrects the distance.
+  // Relative error of distances of places with six digits. The first step corrects the distance.
   constexpr double kRounded = 1e-6;
   const double length = length_at(arm.length, 0);
   const double distance = distance_at_start(c, arm.first, arm.second);
@@ -368,8 +365,7 @@ void check_arms(std::span<const case_file::TomlSection> sections, const Particle
                         arm_in_words(c, arms[k]));
     check_arm(sections[k], arms[k], c);
   }
-  // Checks all triangles of arms: for each arm, each particle that arms connect with both of its
-  // ends.
+  // All triangles of arms: each arm with each particle that arms connect with both of its ends.
   std::map<std::int32_t, std::vector<std::int32_t>> neighbours;
   for (const auto& arm : arms) {
     neighbours[arm.first].push_back(arm.second);

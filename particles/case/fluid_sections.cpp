@@ -178,8 +178,7 @@ double influx(const BoxDomain& box, std::size_t side, const WallVelocity& of_sid
   return (is_first ? wall.value[axis] : -wall.value[axis]) * length;
 }
 
-/// True if fluid may flow through the side, whose normal is along `axis` (0: x, 1: y), at some
-/// time.
+/// True if fluid may ever flow through the side, whose normal is along `axis` (0: x, 1: y).
 bool brings_fluid(const WallVelocity& wall, std::size_t axis) {
   if (wall.kind != WallVelocity::Kind::kConstant) return true;
   return wall.value[axis] != 0 || std::ranges::any_of(wall.pieces.pieces, [&](const auto& piece) {
@@ -187,8 +186,7 @@ bool brings_fluid(const WallVelocity& wall, std::size_t axis) {
          });
 }
 
-/// The values of the table fluid.velocity: a shear rate, a strain rate, or the velocities of single
-/// sides.
+/// Values of the table fluid.velocity: a shear rate, a strain rate, or velocities of single sides.
 struct VelocityKeys {
   std::optional<double> shear_rate, strain_rate;  // [1/T]
   SideVelocities sides;

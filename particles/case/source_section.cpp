@@ -1,8 +1,7 @@
 // Reads the tables [[source]] of a case of many particles (particles_sections.hpp). A source adds
-// particles with random radii at random places during the run; the radii are checked here before
-// it. Lengths, masses and times are in the units of the case. A wrong value is an Error(kBadInput)
-// with its line. A change must keep keys and defaults, which users' cases rely on. Used by
-// particle_tables.cpp.
+// particles with random radii at random places during the run. Lengths, masses and times are in the
+// units of the case. A wrong value is an Error(kBadInput) with its line. A change must keep keys
+// and defaults, which users' cases rely on. Used by particle_tables.cpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -121,8 +120,7 @@ RadiiOfSource radii_of(const Source& source, int dimension) {
     radii.sum += particle.radius;
     ++radii.count;
   }
-  // The bounds of a uniform distribution count as radii, so that the case is accepted or refused
-  // whatever the seed is.
+  // Bounds of a uniform distribution count, so that acceptance does not depend on the seed.
   for (const auto& species : source.species) {
     if (species.radius.kind != RadiusDistribution::Kind::kUniform) continue;
     widen(species.radius.from);
@@ -131,9 +129,8 @@ RadiiOfSource radii_of(const Source& source, int dimension) {
   return radii;
 }
 
-/// An upper bound of the radius with which a particle has a place in the region of the source [L].
-/// Each wall and plane at rest bounds it alone, and so does the distance of opposite sides of a
-/// box.
+/// An upper bound of the radius [L] with which a particle has a place in the region of the source.
+/// Each wall and plane at rest bounds it, and the distance of opposite sides of a box does, too.
 double largest_radius_between_walls(const Source& source, const Setting& setting) {
   double radius = std::numeric_limits<double>::infinity();
   for (const auto& obstacle : obstacles_of(setting)) {

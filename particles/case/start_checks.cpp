@@ -74,8 +74,7 @@ std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
   for (std::size_t w = on_axis ? 1 : 0; w < obstacles.size(); ++w) {
     const auto place = obstacles[w].at(0);
     for (std::size_t k = 0; k < p.count(); ++k)
-      // The circle around an ellipse or plate contains it, so that the gap of the circle is not
-      // larger.
+      // The circle around an ellipse or plate contains it: the gap of the circle is not larger.
       if (const double least = gap(place, p.position(k), p.radii[k]); least < limit)
         gaps.push_back({-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k),
                         has_ellipses ? gap(place, outline(k)) : least});
@@ -141,8 +140,7 @@ void check_domain(const ParticlesCase& c, const ParticleNames& names) {
   const auto& p = c.particles;
   const auto periods = periods_of(c.setting.domain);
   // The gap between a particle and its own image never changes. In a fluid it must be at least the
-  // threshold gap, because no contact of a particle with itself is computed, and wide enough for a
-  // mesh.
+  // threshold gap, because particles have no contact with themselves.
   for (std::size_t k = 0; k < p.count(); ++k) {
     const auto wrong = std::visit(PlaceInDomain{p.position(k), p.radii[k]}, c.setting.domain);
     if (!wrong.empty())

@@ -22,8 +22,7 @@ std::string_view axes_of(int dimension) {
                         : std::string_view("xyz").substr(0, static_cast<std::size_t>(dimension));
 }
 
-/// Names of columns for the components of a vector: `begin` and an axis, each after a comma, such
-/// as ",force_x,force_y".
+/// Names of columns of a vector: `begin` and an axis, after a comma each, as ",force_x,force_y".
 std::string components(std::string_view begin, int dimension) {
   std::string text;
   for (const char axis : axes_of(dimension)) text += fmt::format(",{}{}", begin, axis);

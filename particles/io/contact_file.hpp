@@ -1,8 +1,7 @@
 // Writes contacts and their forces as CSV tables: those at the end of a run, and those over time
 // that a case asks for. Lengths, masses and times are in the units of the case; forces and impulses
 // of discs in a fluid are per length. Nothing is checked or thrown. run/ writes the tables into
-// files, and case/ checks their names. A change must keep the names and the order of the columns,
-// which users' scripts read.
+// files, and case/ checks their names. A change must keep the columns, which users' scripts read.
 #pragma once
 
 #include <array>
@@ -26,12 +25,10 @@ std::string write_contacts(const Particles& particles, std::span<const CurrentCo
 /// The line with the names of the columns of rebounds.csv.
 inline constexpr const char* kReboundsHeader =
     "time,first,second,approach_velocity,solid_impulse,velocity\n";
-/// The rows of rebounds.csv, Rebound of rebound.hpp. first and second are as i and j in
-/// write_contacts().
+/// The rows of rebounds.csv (rebound.hpp). first and second are as i and j in write_contacts().
 std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds);
 
-/// The names of the tables over time that a case may ask for (output.tables). A run in a fluid
-/// always has the first two.
+/// Tables over time that a case may ask for (output.tables). A run in a fluid has the first two.
 inline constexpr auto kAskedTables =
     std::to_array<std::string_view>({"motion", "contacts", "walls", "stress"});
 

@@ -167,12 +167,11 @@ struct DrawnCells {
   }
 };
 
-/// The three components in space of a vector; for particles on an axis its first component is along
-/// z.
+/// The components in space of a vector, which on an axis has only one, along z.
 Vector in_space(const Vector& x, int dimension) { return dimension == 1 ? Vector{0, 0, x[0]} : x; }
 
-/// Adds the line of a spring or arm, or between beads. `force` [M L/T^2] is > 0 if it pushes the
-/// ends apart.
+/// Adds the line of a spring or arm, or between beads. A `force` > 0 [M L/T^2] pushes its ends
+/// apart.
 void add_line(DrawnCells& drawn, const Particles& p, Kind kind, std::size_t id, std::int32_t first,
               std::int32_t second, double force) {
   const Vector from = p.position(index_of(first));

@@ -23,8 +23,7 @@ struct Frame {
   /// Flat array [L], Playback::dimension numbers for each particle; single precision is enough for
   /// a picture. They are NaN for a particle that a source has not added yet.
   std::vector<float> positions;
-  std::vector<PlanePosition> planes;     ///< positions of all obstacles, in the order of
-                                         ///< obstacles_of()
+  std::vector<PlanePosition> planes;     ///< all obstacles, in the order of obstacles_of()
   std::vector<CurrentContact> contacts;  ///< contacts that contacts_of() listed
   std::vector<float> angles{};           ///< of each disc [rad]; empty if none turns
   /// Orientation of each sphere in space, a unit quaternion (w, x, y, z); empty if none turns.
@@ -52,8 +51,7 @@ struct Playback {
   std::vector<float> radii;  ///< [L]
   /// Masses [M], of discs in a fluid per length [M/L]; empty: not known.
   std::vector<float> masses{};
-  /// Semi-axes of each particle in the plane [L], the first one along its angle; empty: all are
-  /// discs or spheres.
+  /// Semi-axes of each particle in the plane [L], the first along its angle; empty: no ellipses.
   std::vector<std::array<double, 2>> semi_axes{};
   /// For each particle 1 if it is a plate with round ends, else 0; empty: none is.
   std::vector<char> plates{};

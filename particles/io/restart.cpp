@@ -22,8 +22,7 @@ namespace {
 
 // The largest version. A file has the lowest version that holds its state. Version 7 adds the
 // memories of contact laws that have no array in version 6; 8 the flow of a fluid with inertia; 9
-// the positions before the last step, for membranes; 10 Pair::place, if one is not 0; and 11
-// State::sources.
+// the positions before the last step, for membranes; 10 Pair::place; and 11 State::sources.
 constexpr int kVersion = 11;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
@@ -49,8 +48,7 @@ struct StoredArrays {
   std::vector<std::int32_t> images;  ///< of state.pairs; empty if all are 0
   std::vector<std::int32_t> places;  ///< of state.pairs, then of state.walls; empty if all are 0
   std::vector<Vector> frictions;     ///< of pairs and walls; empty if all are 0
-  std::vector<double> carried;       ///< Remembered::kCarried of pairs and walls; empty if all are
-                                     ///< 0
+  std::vector<double> carried;       ///< Remembered::kCarried, as `frictions`
   std::vector<StoredBody> bodies;
   /// The other memories (kMemoryFields), if not all of their numbers are 0: `names` has the name of
   /// each with a line break, `memories` for each name one number for each pair and wall.
@@ -276,8 +274,7 @@ bool is_consistent(const State& state) {
   const auto is_empty_or = [](const std::vector<double>& values, std::size_t size) {
     return values.empty() || values.size() == size;
   };
-  auto others = static_cast<std::int64_t>(p.count());  // number of particles that do not come from
-                                                       // a source counted so far
+  auto others = static_cast<std::int64_t>(p.count());  // particles of no source counted so far
   for (const auto& source : state.sources) {
     if (source.poured < 0 || source.poured > others || !std::isfinite(source.begin)) return false;
     others -= source.poured;

@@ -49,8 +49,8 @@ struct VtpContent {
 /// file or was cut short.
 VtpContent read_vtp(const std::filesystem::path& path, int dimension);
 
-/// The beginning of a PVD file, a list of frames that ParaView opens. A pvd_line() for each frame,
-/// and kPvdFoot, follow.
+/// The beginning of a PVD file, a list of frames for ParaView: this, their pvd_line(), and
+/// kPvdFoot.
 inline constexpr const char* kPvdHead =
     "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
     "byte_order=\"LittleEndian\">\n<Collection>\n";

@@ -158,8 +158,7 @@ void add_text(hid_t object, const char* name, const std::string& text, const fs:
   checked(H5Awrite(attribute, type, &begin), file);
 }
 
-/// An array of the frames: its section and name in a frame, and its name and columns in the HDF5
-/// file.
+/// An array: its section and name in a frame, and its name and number of columns in the HDF5 file.
 struct Array {
   std::string_view section, name;
   std::string target;

@@ -29,8 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Says in words how the inputs or the version of the earlier run differ from those of this call;
-/// empty if they are the same.
+/// Says how inputs or version of the earlier run differ from this call's; empty if they are equal.
 std::string difference(const results::Provenance& before, const results::Provenance& now) {
   const auto version = [](const results::Provenance& provenance) {
     const auto found = provenance.versions.find("Viscontact");

@@ -182,8 +182,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The number of the frame whose file of this kind has the name `name`; nothing if it is not such a
-/// name.
+/// The number of the frame in the name of a file of this kind; nothing if it is another name.
 std::optional<std::uint64_t> number_of_frame(const FrameKind& kind, std::string_view name) {
   const std::string_view begin(kind.begin);
   if (!name.starts_with(begin) || name.size() <= begin.size()) return {};

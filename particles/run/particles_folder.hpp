@@ -22,8 +22,7 @@
 namespace viscontact::particles {
 
 /// The names of all files that a run may have, except those of its frames, in the order in which
-/// they are removed. restart.bin is the first, so that no run continues from files of which some
-/// are removed.
+/// they are removed. restart.bin is the first, because no run continues without it.
 inline constexpr auto kParticleResults = std::to_array<const char*>(
     {"restart.bin", "particles.pvd", "particles.html",      "particles.svg",
      "run.json",    "steps.csv",     "final_particles.csv", "final_contacts.csv",
@@ -32,8 +31,7 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
      "arms.csv",    "membranes.csv", "links.pvd",           "rebounds.csv",
      "probes.csv",  "particles.h5"});
 
-/// A kind of file of which a run has one for each frame. The name of a file is `begin`, the number
-/// of the frame, and `end`.
+/// A kind of file with one for each frame, named `begin`, "_", the number of the frame, and `end`.
 struct FrameKind {
   const char* begin;  ///< with ".pvd" it is also the name of the list of these files
   const char* end;    ///< extension, with the dot
@@ -76,14 +74,12 @@ struct StepTotals {
   int most_iterations = 0;                           ///< largest number of iterations in one step
   double first_time = 0, last_time = 0;              ///< at the start and after the last step [T]
   double largest_residual = 0, largest_overlap = 0;  ///< in mean radii
-  double largest_impulse_residual = 0;               ///< as a fraction of the impulses at work
-                                                     ///< (StepReport)
-  std::int64_t divided = 0;                          ///< number of steps that were divided into
-                                                     ///< parts
+  double largest_impulse_residual = 0;               ///< StepReport::impulse_residual
+  std::int64_t divided = 0;                          ///< number of divided steps
   std::int64_t unresolved = 0;                       ///< sum of StepReport::unresolved
-  double seconds = 0;                                ///< computing time of earlier calls; in a
-                                                     ///< saved record, of this one, too [s]
-  double peak_memory_mebibytes = 0;                  ///< largest memory, of the same calls [MiB]
+  double seconds = 0;                                ///< of earlier calls; a saved record includes
+                                                     ///< this call [s]
+  double peak_memory_mebibytes = 0;                  ///< largest memory, likewise [MiB]
   // With a fluid only.
   double fluid_seconds = 0;    ///< sum of FluidStepReport::seconds [s]
   std::uint64_t unknowns = 0;  ///< number of unknowns of the fluid solver in the last step
@@ -101,8 +97,7 @@ struct StepTotals {
   void add(const StepReport& report, double average_from);
 };
 
-/// What a run has done when it has reached a state. Each file that grows during the run has an
-/// entry in `files`.
+/// What a run has done until a state. Each file that grows during the run has an entry in `files`.
 struct RunRecord {
   StepTotals totals;
   std::uint64_t frames = 0, flows = 0;   ///< numbers of frames, and of frames whose flow is written
@@ -115,11 +110,9 @@ struct RunRecord {
 std::string steps_header(const std::optional<Fluid>& fluid);
 /// The line with the names of the columns of probes.csv.
 inline constexpr std::string_view kProbesHeader = "time,name,flow,pressure\n";
-/// The rows of probes.csv of a step: one for each probe, with time [T], flow [L^2/T] and pressure
-/// [M/(L T^2)].
+/// The rows of probes.csv of a step, one for each probe; flow [L^2/T], pressure [M/(L T^2)].
 std::string probe_rows(const FluidStepReport& report, std::span<const Probe> probes);
-/// The row of steps.csv of the step with the number `step`, from 1. Its numbers are those of
-/// StepReport.
+/// The row of steps.csv of the step with the number `step`, from 1: numbers of the report.
 std::string step_row(std::int64_t step, const StepReport& report,
                      const std::optional<Fluid>& fluid);
 

@@ -84,8 +84,7 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
     if (!playback.ids.empty()) playback.ids = last.ids;
     if (!playback.bodies.empty()) playback.bodies.resize(last.radii.size(), -1);
   }
-  constexpr std::size_t kMostBytes = std::size_t{256} << 20U;  // free choice; a page cannot show as
-                                                               // much
+  constexpr std::size_t kMostBytes = std::size_t{256} << 20U;  // a page cannot show as much
   std::size_t every = 1, kept_bytes = 0;
   for (std::size_t f = 0; f < files.size(); ++f) {
     if (kept_bytes > kMostBytes && frames.size() > 4) {

@@ -83,8 +83,7 @@ class Run {
       }
       tell(report);
       // Time between two savings [s], a free choice. It is shorter in a fluid with inertia, because
-      // the flow is lost if a signal ends the solver, and the run then continues from the last
-      // saved state.
+      // a signal can end the solver, and the flow is then lost.
       const auto& fluid = case_.setting.fluid;
       const double save_every = fluid && fluid->has_inertia() ? 10 : 60;  // [s]
       if (!is_at_end() && seconds_since(last_saved_) > save_every) save(with_costs(log_.record()));
@@ -95,9 +94,8 @@ class Run {
   /// Writes all files of the run. Returns the text of run.json.
   std::string write_results() {
     terminal::clear_progress();
-    // The record is taken before the last frame and its flow are added. If the run stops here and
-    // continues later, they are then removed, because an uninterrupted run has no frame at this
-    // time.
+    // The record is taken before the last frame and its flow are added. A run that continues from
+    // here removes them, because an uninterrupted run has no such frame.
     auto record = log_.record();
     const auto& state = simulation_.state();
     if (record.last_frame < state.time) add_frame();
@@ -160,8 +158,7 @@ class Run {
     return write_particles(reported, FluidForces{forces, errors, case_.setting.fluid->semi_axes});
   }
 
-  /// `record` with the computing time and memory of this call added to those of the calls before
-  /// it.
+  /// `record`, to whose computing time and memory those of this call are added.
   RunRecord with_costs(RunRecord record) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -296,8 +293,7 @@ void run_particles(const ParticlesRequest& request) {
   ParticleSimulation simulation(c.setting, std::move(state), request.threads, request.start_solver,
                                 request.stop);
   Run run(c, simulation, folder, provenance, log, request.stop);
-  // If a file cannot be written, simulate() throws, and restart.bin stays as it is: the same
-  // command continues from there.
+  // If a file cannot be written, simulate() throws; the same command continues from restart.bin.
   const auto failure = run.simulate();
   std::string json;
   try {

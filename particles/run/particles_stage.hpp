@@ -19,8 +19,7 @@ struct ParticlesRequest {
   int threads = 1;                ///< number of threads, >= 1; results do not depend on it
   StartFluidSolver start_solver;  ///< starts the fluid solver; used if the case has a fluid
   bool json = false;              ///< whether to print run.json to standard output
-  bool hdf5 = false;              ///< whether to write particles.h5, also for a run that is
-                                  ///< finished
+  bool hdf5 = false;              ///< whether to write particles.h5, also for a finished run
   StopToken stop{};               ///< a stop ends the run after its state is saved
 };
 

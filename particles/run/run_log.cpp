@@ -20,8 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Throws Error(kBadInput) if one of the first `count` files of a kind is missing or its end is
-/// missing.
+/// Throws Error(kBadInput) if one of the first `count` files of a kind, or its end, is missing.
 void check_frames(const fs::path& folder, const FrameKind& kind, std::uint64_t count) {
   constexpr std::string_view kEnd = "</VTKFile>\n";
   for (std::uint64_t number = 0; number < count; ++number) {

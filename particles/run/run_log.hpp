@@ -35,8 +35,7 @@ class RunLog {
   /// `record` is missing or has been changed since.
   void check(const RunRecord& record) const;
 
-  /// Continues the run with this record: removes what was written after the record. Throws the
-  /// errors of check().
+  /// Continues the run with this record: removes what was written after it. Throws as check() does.
   void resume(const RunRecord& record);
 
   /// Adds a step to the sums of the record and to steps.csv, and its blows (rebound.hpp) to
@@ -60,8 +59,7 @@ class RunLog {
 
   /// What has been written so far, with the places at which the files end.
   RunRecord record() const;
-  /// The sums of record(). The caller may change them, because it measures computing times and
-  /// memory.
+  /// The sums of record(), in which the caller sets the computing times and memory.
   StepTotals& totals() { return record_.totals; }
 
  private:

@@ -32,12 +32,10 @@ class ParticlesRuns {
   ParticlesRuns(const ParticlesSweep& sweep, const std::filesystem::path& output,
                 std::string version, int threads, bool keep_all, StartFluidSolver start_solver);
 
-  /// The results of row `index`, from 0, if its run has ended; otherwise nothing. Several threads
-  /// may call this function at once.
+  /// The results of row `index`, from 0, if its run has ended; else nothing. It is thread-safe.
   std::optional<sweep::RowResults> ended(std::uint64_t index) const;
 
-  /// True if the run of row `index` has ended without a failure, so that compute() would not run it
-  /// again.
+  /// True if the run of row `index` has ended without a failure. compute() then does not repeat it.
   bool has_succeeded(std::uint64_t index) const;
 
   /// Runs the case of row `index`, continues the run if it was interrupted, or takes the results of

@@ -97,8 +97,7 @@ std::vector<std::uint64_t> missing_rows(const ParticlesSweep& sweep, const Parti
   return missing;
 }
 
-/// Sets the computing time of a row [s] in `run`, extrapolated from the first steps of the first
-/// row.
+/// Sets the computing time of a row in `run` [s], extrapolated from first steps of the first row.
 void measure_first_steps(const ParticlesSweep& sweep, const StartFluidSolver& start_solver,
                          const StopToken& stop, pipeline::DryRun& run) {
   using Clock = std::chrono::steady_clock;

@@ -21,8 +21,7 @@ namespace viscontact::particles {
 
 /// The options of a sweep of particles.
 struct ParticlesSweepRequest {
-  std::string output;  ///< file of the rows (CSV); the folders of the simulations are in
-                       ///< OUTPUT.runs/
+  std::string output;  ///< file of the rows (CSV); OUTPUT.runs/ has the folders
   int jobs = 1;        ///< number of rows that are computed at once, >= 1
   /// Whether all files of a finished simulation are kept. If not, only the case, the result,
   /// run.json and steps.csv are; a simulation that failed keeps all.
