@@ -15,9 +15,9 @@ namespace viscontact::particles {
 
 /// What friction did at a contact in the last step.
 enum class ContactFriction : std::int8_t {
-  kNone,  ///< no friction: no load on the solids, or a case without friction
-  kSticks,
-  kSlides  ///< the friction has its largest magnitude, coefficient times load
+  kNone,    ///< no friction: no load on the solids, or a case without friction
+  kSticks,  ///< the friction is smaller than coefficient times load
+  kSlides   ///< the friction is coefficient times load, its largest magnitude
 };
 
 /// A contact as files show it.

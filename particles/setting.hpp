@@ -1,9 +1,9 @@
 // What moves the particles of a simulation, how their motion is computed, and how accurately: the
-// content of a case file. Nothing is checked here; particles/case checks the values. Both
-// simulations (simulation.hpp, fluid/fluid_simulation.hpp) and the files in io/, picture/ and run/
-// read it. Lengths, masses and times are in any consistent units; masses and forces of discs in a
-// fluid are per length. A change of a default of SolverSettings changes the results of every case
-// that does not set it.
+// content of a case file. Nothing is checked here; particles/case checks the values. The
+// simulations (simulation.hpp, fluid/, membranes/) and the files in io/, picture/ and run/ read it.
+// Lengths, masses and times are in any consistent units; masses and forces of discs in a fluid are
+// per length. A change of a default of SolverSettings changes the results of every case that does
+// not set it.
 #pragma once
 
 #include <algorithm>

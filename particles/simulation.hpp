@@ -67,10 +67,11 @@ class Simulation {
   /// kMostHalvings times. StepReport::contacts and ::glued are those of the last part.
   ///
   /// Throws Error(kNotConverged) if a position or displacement exceeds largest_resolved_distance(),
-  /// if the projection has not converged and leaves an overlap of more than the mean radius (for
-  /// example because moving planes leave the particles too little space), or if links and contacts
-  /// contradict each other. If it throws, the state is that before the step. Other steps that have
-  /// not converged are accepted, and StepReport::converged is false.
+  /// or a displacement what a period allows (rebuild_neighbour_list()), if the projection has not
+  /// converged and leaves an overlap of more than the mean radius (for example because moving
+  /// planes leave the particles too little space), or if links and contacts contradict each other.
+  /// If it throws, the state is that before the step. Other steps that have not converged are
+  /// accepted, and StepReport::converged is false.
   StepReport step(double end);
 
   /// How often a step may be halved. The smallest part is 2^-8 = 1/256 of the step. In it equal
@@ -163,7 +164,7 @@ class Simulation {
   double mean_radius_;
   double first_time_;  // time of the state that the constructor was given [T]
   std::unique_ptr<ThreadPool> pool_;
-  std::vector<double> displacements_;  // h u*, later h v [L]
+  std::vector<double> displacements_;  // h u* without contacts, later h v with contacts [L]
   std::vector<double> mobilities_;     // h/m [T/M]
   // If particles turn: h w*, later h w [rad], and h/I, I the moments of inertia [T/(M L^2)].
   std::vector<double> turns_, turn_mobilities_;

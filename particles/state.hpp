@@ -1,5 +1,5 @@
 // State of a simulation: everything, besides the case, that its future depends on. Lengths, masses
-// and times are in any consistent units. Both simulations change it, the files in io/ and run/ show
+// and times are in any consistent units. The simulations change it, the files in io/ and run/ show
 // it, and the restart file (io/restart.cpp) stores it bit for bit; a change of Pair or State must
 // keep old restart files readable. Nothing is checked here.
 #pragma once

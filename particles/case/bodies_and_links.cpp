@@ -81,11 +81,11 @@ void body_keys(case_file::Keys& keys, RigidBodyRequest& body, const ParticlesCas
        "that of the particles at their places, scaled with `mass` if that is given", words});
 }
 
-/// A table [[hinge]].
+/// The values of a table [[hinge]]; members without a value are not given.
 struct HingeTable {
   int body = -1;                                // number of the body; -1: a particle is named
   std::vector<std::int32_t> held;               // the particle, or the members of the body
-  Vector at{};                                  // [L]
+  Vector at{};                                  // place of the hinge [L]
   std::optional<double> stiffness, rest_angle;  // [M L^2/T^2], [rad]
   std::optional<double> lowest, highest;        // [rad]
 };
@@ -184,7 +184,7 @@ Hinge read_hinge(const case_file::TomlSection& section, const ParticlesCase& c,
   return hinge;
 }
 
-/// Reads `between` of a spring or arm.
+/// Reads the key `between` of a spring or arm, the ids of its two particles.
 void read_ends(const case_file::TomlSection& section, std::string_view key,
                std::array<std::int32_t, 2>& place, const ParticlesCase& c, const ParticleIds& ids) {
   std::vector<std::int32_t> ends;
@@ -249,7 +249,7 @@ void pieces_of_length_keys(case_file::Keys& keys, PiecewiseLinearLength& pieces)
                "is {}; it must be at least the last time of the pieces, {}", pieces.period,
                last[0]);
   if (last[0] != pieces.period) return;
-  // The end of the last piece is the beginning of the next period.
+  // The last point is the first point of the next period, and is dropped.
   keys.require(last[1] == pieces.points.front()[1], "pieces",
                "ends with the length {} at the end of the period; it must be {}, with which the "
                "next period begins",

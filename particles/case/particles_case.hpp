@@ -31,7 +31,7 @@ struct ParticlesCase {
   Particles particles;
   std::filesystem::path particles_file;  ///< the CSV file; empty if there is none
   double end_time = 0;                   ///< time at which the run ends [T], > 0
-  double frame_interval = 0;             ///< time between two frames [T], > 0
+  double frame_interval = 0;             ///< time between two outputs (frames) [T], > 0
   double average_from = 0;          ///< time at which means over time begin [T], >= 0, < end_time
   std::vector<std::string> tables;  ///< names of tables that the case asks for, of kAskedTables
                                     ///< (io/contact_file.hpp)

@@ -95,7 +95,7 @@ Fluid read_fluid(const case_file::TomlSection& section, const Domain& domain);
 /// solver of the user's own or with membranes.
 void read_probes(const case_file::TomlSection& root, const Domain& domain,
                  std::optional<Fluid>& fluid);
-/// Describes these sections.
+/// What docs/case-file.md says about the keys of these sections.
 std::vector<case_file::KeyTable> domain_and_fluid_tables();
 
 /// The command of a user's own fluid solver, with an absolute path in place of each word that names
@@ -124,7 +124,7 @@ ParticleLines read_particles_of_case(const case_file::TomlSection& root, Particl
 /// Reads [arrangement], which read_particles_of_case() calls, into c.arrangement, and adds its
 /// particles, at rest and at random places, after those that c.particles has.
 void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c);
-/// Describes this section, and species.
+/// What docs/case-file.md says about the keys of this section and of species.
 std::vector<case_file::KeyTable> arrangement_tables();
 /// Declares the keys of species, the kinds of particles of an arrangement or source: either the
 /// list `species`, or the keys of a single species in the section itself.
@@ -136,7 +136,7 @@ void all_species_keys(case_file::Keys& keys, std::vector<Species>& all, bool has
 /// large for a period or too small for solver.tolerance; and if fewer ids are left than particles
 /// come.
 void read_sources(const case_file::TomlSection& root, ParticlesCase& c);
-/// Describes this section.
+/// What docs/case-file.md says about the keys of this section.
 std::vector<case_file::KeyTable> source_tables();
 
 /// Reads [[membrane]], closed chains of particles (beads); read_particles_of_case() calls it. The
@@ -145,7 +145,7 @@ std::vector<case_file::KeyTable> source_tables();
 /// membranes; if a membrane of so few beads cannot have the reduced area that is asked for; and for
 /// membranes that cross.
 void read_membranes(const case_file::TomlSection& root, ParticlesCase& c, ParticleLines& lines);
-/// Describes this section.
+/// What docs/case-file.md says about the keys of this section.
 std::vector<case_file::KeyTable> membrane_tables();
 
 // The checks of read_membranes().
@@ -180,7 +180,7 @@ void require_ids(const case_file::TomlSection& section, std::string_view key, co
 /// Reads [[force]]: the same force on all particles whose ids it names. The particles must have
 /// been read. Also throws for an id that does not exist or has a force already.
 void read_forces_by_id(const case_file::TomlSection& root, ParticlesCase& c);
-/// Describes these sections.
+/// What docs/case-file.md says about the keys of these sections.
 std::vector<case_file::KeyTable> particle_tables();
 
 /// Finds the number of a particle, its place from 0 in ParticlesCase::particles, by the id that the
@@ -216,7 +216,7 @@ void read_bodies(const case_file::TomlSection& root, ParticlesCase& c);
 /// is not the distance of its particles, is less than the sum of their radii at a later time, or
 /// breaks the triangle inequality with two other arms.
 void read_links(const case_file::TomlSection& root, ParticlesCase& c);
-/// Describes these sections.
+/// What docs/case-file.md says about the keys of these sections.
 std::vector<case_file::KeyTable> body_and_link_tables();
 
 /// Describes a particle in a message, and says in which file and line it is given.

@@ -65,7 +65,8 @@ class ParticlesSweep {
   /// Viscontact, the case, and the CSV file of particles.
   std::string identity(std::uint64_t index, const std::string& version) const;
 
-  /// The study whose rows have the results of `run`. `version` is that of Viscontact.
+  /// The sweep in the form that sweep/study.hpp computes and writes; `run` computes its rows.
+  /// `version` is that of Viscontact.
   sweep::Study study(const std::string& version, ParticlesRunner run) const;
 
  private:

@@ -33,7 +33,7 @@ struct VtpContent {
   std::vector<double> radii;      ///< of each particle [L]
   std::vector<double> masses;     ///< of each particle [M]; empty if the file has none
   std::vector<double> speeds;     ///< of each particle [L/T]
-  std::vector<std::int32_t> ids;  ///< of each particle
+  std::vector<std::int32_t> ids;  ///< of each particle; empty if the file has none
   // Counter-clockwise; empty for discs that do not turn, and for spheres.
   std::vector<double> angles,  ///< of each disc [rad]
       angular_velocities;      ///< of each disc [1/T]

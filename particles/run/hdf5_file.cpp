@@ -265,8 +265,8 @@ void require_hdf5() {}
 
 void write_hdf5(const ParticlesCase& c, const fs::path& folder,
                 const results::Provenance& provenance) {
-  // After an error of writing, version 1.10 crashes when it closes the file once more at the end of
-  // the process. A file that was closed without an error needs nothing at the end.
+  // After an error of writing, version 1.10 of the library crashes when it closes the file again at
+  // the end of the process. A file that was closed without an error needs nothing at the end.
   H5dont_atexit();
   const SilentErrors silent;
   const fs::path file = folder / "particles.h5";

@@ -47,22 +47,30 @@ class ParticleSimulation {
     return in_fluid_ ? in_fluid_->rebounds() : dry_->rebounds();
   }
 
-  /// True if there is a fluid. The functions below need one; fluid_simulation.hpp describes them.
+  /// True if there is a fluid, which the functions below need.
   bool has_fluid() const { return dry_ == nullptr; }
+  /// The flow around the particles where they were at the beginning of the last step.
   FlowField flow() { return membranes_ ? membranes_->flow() : in_fluid_->flow(); }
+  /// The flow around the particles where they are now. Throws the errors of the fluid solver.
   FlowField flow_at_present() {
     return membranes_ ? membranes_->flow_at_present() : in_fluid_->flow_at_present();
   }
+  /// Forces and torques of the fluid on each particle in the last step [M L/T^2, M L^2/T^2]: x, y
+  /// and torque, on an axis z alone; empty before the first step.
   std::vector<double> fluid_forces() const {
     return membranes_ ? membranes_->fluid_forces() : in_fluid_->fluid_forces();
   }
+  /// Estimates of the errors of the forces in the last step; empty if they were not made.
   ForceErrors force_errors() const {
     return membranes_ ? ForceErrors{} : in_fluid_->force_errors();
   }
+  /// The state, with the flow of a fluid with inertia, for the restart file.
   State state_to_save() { return membranes_ ? state() : in_fluid_->state_to_save(); }
+  /// Number of unknowns on the last mesh; 0 if the solver does not say.
   std::size_t unknowns() const {
     return membranes_ ? membranes_->unknowns() : in_fluid_->unknowns();
   }
+  /// Largest memory of the fluid solver so far [MiB]; 0 if it runs in this process.
   double solver_peak_memory_mebibytes() const {
     return membranes_ ? membranes_->solver_peak_memory_mebibytes()
                       : in_fluid_->solver_peak_memory_mebibytes();

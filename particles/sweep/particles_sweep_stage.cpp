@@ -112,7 +112,7 @@ void measure_first_steps(const ParticlesSweep& sweep, const StartFluidSolver& st
   const double first = seconds_since(start);
   const auto after_first = Clock::now();
   const double tiny = 1e-6 * c.setting.time_step;
-  constexpr double kEnough = 2;  // [s]
+  constexpr double kEnough = 2;  // [s], a free choice
   while (simulation.state().time < c.end_time - tiny && seconds_since(start) < kEnough)
     simulation.step(c.end_time);
   const auto further = simulation.state().steps - 1;

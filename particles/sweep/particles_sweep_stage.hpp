@@ -27,7 +27,7 @@ struct ParticlesSweepRequest {
   /// run.json and steps.csv are; a simulation that failed keeps all.
   bool keep_all = false;
   StartFluidSolver start_solver;  ///< starts the fluid solver; used if the case has a fluid
-  StopToken stop{};
+  StopToken stop{};               ///< ends the sweep; finished simulations are kept
 };
 
 /// Computes the missing rows, and writes the file of the rows and, if there are draws, the table of
