@@ -2,7 +2,7 @@
 // contacts (free_motion.cpp), projection, new gamma, new positions; and divides steps with fast
 // particles. Numbers are in the units of the case; h [T] is the length of a step or of a part of
 // it. Errors are those of Simulation::step(). A change must keep that, if a step throws, the state
-// is that before the step.
+// is that before the step. Used by run/, sweep/ and python/.
 #include "viscontact/particles/simulation.hpp"
 
 #include <fmt/format.h>

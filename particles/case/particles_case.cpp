@@ -1,7 +1,8 @@
 // Reads the case file of many particles (particles_case.hpp), and its sections [space],
 // [viscous_contact], [friction], [solver], [output], [[plane]] and [sweep]; the other sections have
 // sources of their own. Numbers are in the units of the case. A wrong value is an Error(kBadInput)
-// with its line. A change must keep keys and defaults, which users' cases rely on.
+// with its line. A change must keep keys and defaults, which users' cases rely on. Used by run/,
+// sweep/ and python/.
 #include "viscontact/particles/case/particles_case.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // units of the case. A key that cannot be varied is an Error(kWrongUsage). A change must keep that
 // everything that determines the results of a row is in identity(), because results with the same
 // identity are not computed again, and that the draws of a point follow each other in the file,
-// because means are computed point by point.
+// because means are computed point by point. Used by sweep/ and app/.
 #include "viscontact/particles/case/particles_study.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // Writes bodies.csv, hinges.csv, springs.csv and arms.csv, and links as VTK PolyData
 // (link_file.hpp). Numbers are in the units of the case. Nothing is checked or thrown. A change
-// must keep the names and the order of the columns and arrays, which users' scripts read.
+// must keep the names and the order of the columns and arrays, which users' scripts read. Used by
+// run/.
 #include "viscontact/particles/io/link_file.hpp"
 
 #include <fmt/format.h>

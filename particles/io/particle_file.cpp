@@ -1,6 +1,6 @@
 // Reads and writes particles as CSV (particle_file.hpp). Numbers are in the units of the case. A
 // fault of a file is an Error(kBadInput) with its line. A change must keep the names of the
-// columns, which docs/file-formats.md states and users' files contain.
+// columns, which docs/file-formats.md states and users' files contain. Used by case/, io/ and run/.
 #include "viscontact/particles/io/particle_file.hpp"
 
 #include <fmt/format.h>

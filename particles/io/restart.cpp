@@ -1,6 +1,6 @@
 // Writes and reads the binary restart file (restart.hpp). Numbers are in the units of the case; a
 // damaged file is an Error(kBadInput). Files of versions 1 to 11 must stay readable; a change of
-// the fields of State or Pair (state.hpp) needs a new version.
+// the fields of State or Pair (state.hpp) needs a new version. Used by run/.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <algorithm>

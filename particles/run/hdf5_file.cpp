@@ -2,7 +2,7 @@
 // particles_pages.hpp). Numbers are in the units of the case and are copied without conversion. A
 // failure is an Error(kBadInput). A change must keep the names of groups and data sets, which
 // users' scripts read, and that checked() checks each call of the C library whose failure can lose
-// data.
+// data. Used by run/particles_stage.cpp.
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/run/particles_pages.hpp"
 

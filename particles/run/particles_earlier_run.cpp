@@ -3,7 +3,7 @@
 // has (particles_earlier_run.hpp). Times [T] are in the unit of the case, angles in [rad]. If the
 // run cannot be continued, a message says so, and a new run begins at the start; if a restart file
 // that the user names does not fit the case, it is an Error(kBadInput). A change must keep that a
-// run with other inputs is never continued.
+// run with other inputs is never continued. Used by run/, sweep/ and python/.
 #include "viscontact/particles/run/particles_earlier_run.hpp"
 
 #include <fmt/format.h>

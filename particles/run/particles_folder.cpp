@@ -3,7 +3,7 @@
 // (particles_folder.hpp). Numbers of frames count from 0, times are in the unit of the case,
 // computing times in seconds. A file of the user that has the name of a result, and a damaged
 // record, are an Error(kBadInput). A change must keep that only files that Viscontact wrote are
-// removed, and the columns and keys, which users' scripts read.
+// removed, and the columns and keys, which users' scripts read. Used by run/.
 #include "viscontact/particles/run/particles_folder.hpp"
 
 #include <fmt/format.h>

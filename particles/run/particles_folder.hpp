@@ -36,6 +36,7 @@ struct FrameKind {
   const char* begin;  ///< with ".pvd" it is also the name of the list of these files
   const char* end;    ///< extension, with the dot
 };
+/// The particles and contacts of a frame, the flow around them, and the links.
 inline constexpr FrameKind kFrameFile{"particles", ".vtp"}, kFlowFile{"flow", ".vtu"},
     kLinksFile{"links", ".vtp"};
 
@@ -99,7 +100,7 @@ struct StepTotals {
 
 /// What a run has done until a state. Each file that grows during the run has an entry in `files`.
 struct RunRecord {
-  StepTotals totals;
+  StepTotals totals;                     ///< sums over the steps
   std::uint64_t frames = 0, flows = 0;   ///< numbers of frames, and of frames whose flow is written
   double last_frame = 0;                 ///< time of the last frame [T]
   std::uint64_t rebounds = 0;            ///< number of rows of rebounds.csv

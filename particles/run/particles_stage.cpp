@@ -2,7 +2,7 @@
 // computes time steps, saves the state and writes the results. Numbers are in the units of the
 // case; errors are those of run_particles(). A change must keep that restart.bin is written after
 // all files that a run needs to continue (Run::save()), so that a run that is killed at any time
-// can be continued.
+// can be continued. Used by app/ and sweep/.
 #include "viscontact/particles/run/particles_stage.hpp"
 
 #include <fmt/format.h>

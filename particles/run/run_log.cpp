@@ -1,7 +1,7 @@
 // Writes frames (VTK), their lists (PVD) and tables (CSV), and continues them (run_log.hpp).
 // Numbers are in the units of the case. A file that cannot be written, or was changed, is an
 // Error(kBadInput). A change must keep that lists and tables only grow, because a run is continued
-// at the ends that its record states.
+// at the ends that its record states. Used by run/.
 #include "viscontact/particles/run/run_log.hpp"
 
 #include <algorithm>

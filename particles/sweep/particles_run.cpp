@@ -1,7 +1,7 @@
 // Runs the case of a row and keeps its results (particles_run.hpp), in the units of the case. A run
 // that fails is no error here: its row says why. A change must keep that result.json is written
 // after the run and records the case and the version, so that a process may be killed at any time
-// and no result of another case is taken.
+// and no result of another case is taken. Used by particles_sweep_stage.cpp.
 #include "viscontact/particles/sweep/particles_run.hpp"
 
 #include <fmt/format.h>
