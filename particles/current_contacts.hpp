@@ -20,7 +20,8 @@ enum class ContactFriction : std::int8_t {
   kSlides   ///< the friction is coefficient times load, its largest magnitude
 };
 
-/// A contact as files show it.
+/// A contact as files show it. gamma is minus the impulse that the fluid film between both surfaces
+/// has absorbed; a contact with gamma < 0 is glued.
 struct CurrentContact {
   std::int32_t first;      ///< a particle, or -1 - k for obstacle k of obstacles_of()
   std::int32_t second;     ///< number of a particle
@@ -45,10 +46,10 @@ struct CurrentContact {
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact);
 
-/// The pairs that are glued (gamma < 0), touch, or had a force in the last step: first pairs of
-/// particles, then particles at obstacles, each in the order of the state. A pair touches if its
-/// gap is at most SolverSettings::tolerance times the mean radius, to which Fluid::threshold_gap is
-/// added in a fluid.
+/// The pairs that are glued, touch, or had a force in the last step: first pairs of particles, then
+/// particles at obstacles, each in the order of the state. A pair touches if its gap is at most
+/// SolverSettings::tolerance times the mean radius, to which Fluid::threshold_gap is added in a
+/// fluid.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
 /// Largest Pair::gamma_error of all pairs, in the unit of gamma, >= 0.

@@ -240,7 +240,8 @@ void Simulation::add_works_of_arms(double h) {
   }
 }
 
-/// Finds the blows of a part with restitution. The displacements are those without contacts.
+/// Finds the blows (impacts of solids with restitution) of a part. The displacements must be those
+/// without contacts.
 template <int D>
 void Simulation::find_impacts(double h, double next) {
   impacts<D>().reset();

@@ -16,10 +16,10 @@
 
 namespace viscontact::particles {
 
-/// CSV text with the columns i,j,gap,gamma,gamma_error,normal_force [L, M L/T, M L/T^2], the
-/// tangential force on CurrentContact::second [M L/T^2] (x and y, in space also z; not on an axis)
-/// and those of kMemoryFields that are shown. i and j are the ids of two particles, of which j is
-/// the second; or of a particle, and -1, -2, ... for the first, second obstacle.
+/// CSV text with the columns i,j, the members gap,gamma,gamma_error,normal_force of CurrentContact,
+/// the tangential force on CurrentContact::second [M L/T^2] (x and y, in space also z; not on an
+/// axis) and those of kMemoryFields that are shown. i and j are the ids of two particles, of which
+/// j is the second; or of a particle, and -1, -2, ... for the first, second obstacle.
 std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts);
 
 /// The line with the names of the columns of rebounds.csv.

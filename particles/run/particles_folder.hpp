@@ -31,7 +31,7 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
      "arms.csv",    "membranes.csv", "links.pvd",           "rebounds.csv",
      "probes.csv",  "particles.h5"});
 
-/// A kind of file with one for each frame, named `begin`, "_", the number of the frame, and `end`.
+/// A kind of file of which each frame (output time) has one, named `begin`, "_", number, `end`.
 struct FrameKind {
   const char* begin;  ///< with ".pvd" it is also the name of the list of these files
   const char* end;    ///< extension, with the dot

@@ -38,10 +38,10 @@ class RunLog {
   /// Continues the run with this record: removes what was written after it. Throws as check() does.
   void resume(const RunRecord& record);
 
-  /// Adds a step to the sums of the record and to steps.csv, and its blows (rebound.hpp) to
-  /// rebounds.csv. `state` is that at the end of the step. After a million steps (50 MB), steps.csv
-  /// lists only every thousandth step and those that did not converge; rebounds.csv has at most a
-  /// million rows (80 MB). These limits are free choices.
+  /// Adds a step to the sums of the record and to steps.csv, and its blows (impacts of solids,
+  /// rebound.hpp) to rebounds.csv. `state` is that at the end of the step. After a million steps
+  /// (50 MB), steps.csv and probes.csv have only every thousandth step and those that did not
+  /// converge; rebounds.csv has at most a million rows (80 MB). These limits are free choices.
   void add_step(const StepReport& report, const State& state, std::span<const Rebound> rebounds);
 
   /// Writes a frame of the state and its rows in the tables. `link_force_errors` are estimates of
