@@ -25,7 +25,7 @@ double distance_to_ellipse(double a, double b, double x, double y) {
   const double u = x / a, v = y / b;
   double near_x = 0, near_y = b;
   if (v > 0) {
-    double s = std::max(v - 1, square * (u - 1));  // where one term is 1, so that the sum is >= 1
+    double s = std::max(v - 1, square * (u - 1));  // below the root, because one of the terms is 1
     // Newton's method ends by itself when s no longer grows. The bound of 100 is a free choice.
     for (int n = 0; n < 100; ++n) {
       const double p = square * u / (s + square), q = v / (s + 1);

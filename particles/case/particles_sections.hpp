@@ -30,7 +30,7 @@ inline constexpr double kLargestNumber = 1e100;
 /// A number whose magnitude is at most kLargestNumber.
 inline constexpr Allowed kModerate = {[](double v) { return std::abs(v) <= kLargestNumber; },
                                       "at most 1e100 in magnitude"};
-/// A number > 0 that is, as its inverse is, at most kLargestNumber.
+/// A number > 0; both it and its inverse are at most kLargestNumber.
 inline constexpr Allowed kModeratelyPositive = {
     [](double v) { return v >= 1 / kLargestNumber && v <= kLargestNumber; },
     "from 1e-100 to 1e100"};
