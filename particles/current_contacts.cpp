@@ -1,5 +1,6 @@
-// Contacts and overlaps of a state, in the units of the case. Nothing is thrown. A change must keep
-// the order of contacts, which vtk_reader.cpp restores.
+// Finds the contacts and overlaps of a state (current_contacts.hpp), in the units of the case.
+// Nothing is checked or thrown. A change must keep the order of contacts, because io/vtk_reader.cpp
+// returns the contacts of a file in the same order. Used by io/, run/ and python/.
 #include "viscontact/particles/current_contacts.hpp"
 
 #include <algorithm>
@@ -13,11 +14,11 @@
 namespace viscontact::particles {
 namespace {
 
-/// The relative place of the two bodies of a pair.
+/// How the two bodies of a pair are placed relative to each other.
 struct Place {
   double gap = 0;   ///< [L]
   Vector normal{},  ///< unit normal from the first to the second body
-      branch{};     ///< CurrentContact::branch [L]
+      branch{};     ///< vector to the centre of the second body (CurrentContact::branch) [L]
 };
 
 template <int D>
@@ -31,8 +32,9 @@ Place place_of(const Particles& p, const Pair& pair, std::span<const PlanePositi
   return place;
 }
 
-/// The place of a pair in a fluid with ellipses or plates, which make contact as the circles about
-/// the nearest points of their spines. At an obstacle Pair::place is the end of the spine.
+/// The place of a pair in a fluid with ellipses or plates. The spine of a plate is the line between
+/// the centres of its round ends; two plates make contact as circles about the nearest points of
+/// their spines. At an obstacle Pair::place is the end of the spine that makes contact.
 Place place_of_outlines(const Fluid& fluid, const Particles& p, const Pair& pair,
                         std::span<const PlanePosition> places) {
   const auto outline = [&](std::int32_t k, const Vector& shift = {}) {
@@ -71,7 +73,7 @@ Place place_of(const Setting& setting, const Particles& p, const Pair& pair,
   return p.dimension == 2 ? place_of<2>(p, pair, places) : place_of<3>(p, pair, places);
 }
 
-/// The smallest gap of two discs, between their nearest images [L]; 0 if none overlap.
+/// The smallest gap of two discs or their nearest periodic images [L]; 0 if none overlap.
 double smallest_gap_of_images(const Particles& p) {
   double smallest = 0;
   for (std::size_t j = 0; j < p.count(); ++j)
@@ -84,9 +86,9 @@ double smallest_gap_of_images(const Particles& p) {
 }
 
 ContactFriction friction_of(const Setting& setting, const PairMemory& memory) {
-  // Solvers set the friction of a sliding contact to its bound, so that it has this value within
-  // rounding errors. In a divided step friction and bound are sums over the parts; the sums are
-  // equal if the direction of the friction did not change.
+  // Solvers set the friction of a sliding contact to its largest value, the coefficient times the
+  // load, within rounding errors. If a step is computed in parts, friction and load are sums over
+  // the parts, and the friction has this value only if its direction was the same in all parts.
   constexpr double kRounding = 1e-9;
   const double carried = memory[Remembered::kCarried];
   if (!setting.laws.friction || !(carried > 0)) return ContactFriction::kNone;
@@ -108,8 +110,8 @@ double largest_overlap(const Setting& setting, const State& state) {
   double smallest = 0;
   const auto& p = state.particles;
   ThreadPool pool(1);
-  // close_pairs_in_period() takes the images where they were at the start. In a sheared cell images
-  // have moved, and all pairs are compared one by one.
+  // close_pairs_in_period() takes each image at the shift that it had at the start. In a sheared
+  // cell the images have moved since then, and all pairs are compared one by one.
   std::vector<ClosePair> close;
   if (p.cell.is_sheared()) {
     smallest = smallest_gap_of_images(p);
@@ -124,7 +126,8 @@ double largest_overlap(const Setting& setting, const State& state) {
   const auto places = positions_of(obstacles_of(setting), state.time);
   for (std::size_t w = 0; w < places.size(); ++w)
     for (std::size_t k = 0; k < p.count(); ++k)
-      // The gap of the circle around an outline is at most that of the outline.
+      // The circle with the radius of a particle contains the particle, so that the gap of the
+      // circle is at most that of the particle.
       if (gap(places[w], p.position(k), p.radii[k]) < smallest)
         for (const std::int32_t end : {0, 1}) {
           Pair pair{-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k)};
@@ -145,7 +148,7 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
   std::vector<CurrentContact> contacts;
   const auto& p = state.particles;
   const auto places = positions_of(obstacles_of(setting), state.time);
-  // Contacts in a fluid act at its threshold gap.
+  // In a fluid contact is made at the threshold gap.
   const double touching = setting.solver.tolerance * mean_radius(p) +
                           (setting.fluid ? setting.fluid->threshold_gap : 0);
   for (const auto* pairs : {&state.pairs, &state.walls})
@@ -153,7 +156,7 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
       const auto [gap, normal, branch] = place_of(setting, p, pair, places);
       if (!(pair.gamma < 0 || gap <= touching || pair.impulse != 0)) continue;
       const auto& memory = state.memories.of(pair.memory);
-      // Impulses are 0 before the first step, whose length is not known.
+      // Before the first step there is no length of a step, and all impulses are 0.
       const double per_time = state.earlier_step > 0 ? 1 / state.earlier_step : 0;
       contacts.push_back({.first = pair.first,
                           .second = pair.second,

@@ -1,6 +1,7 @@
 // Lists the contacts of a state for output, and measures its overlaps. Lengths, masses and times
-// are in the units of the case. Files, frames and pages show these contacts. A change must keep the
-// order of contacts_of(), which vtk_reader.cpp restores. Used by io/ and run/.
+// are in the units of the case. Tables, VTK files and pages show these contacts; io/, run/ and
+// python/ use this file. Nothing is checked or thrown. A change must keep the order of
+// contacts_of(), because io/vtk_reader.cpp returns the contacts of a file in the same order.
 #pragma once
 
 #include <cstdint>
@@ -14,46 +15,44 @@ namespace viscontact::particles {
 
 /// What friction did at a contact in the last step.
 enum class ContactFriction : std::int8_t {
-  kNone,  ///< no friction: a film, no load, or a case without friction
-  kSticks,
-  kSlides  ///< friction is at Coulomb's bound
+  kNone,    ///< no friction: no load on the solids, or a case without friction
+  kSticks,  ///< the friction is smaller than coefficient times load
+  kSlides   ///< the friction is coefficient times load, its largest magnitude
 };
 
-/// A contact as files show it.
+/// A contact as files show it. gamma is minus the impulse that the fluid film between both surfaces
+/// has absorbed; a contact with gamma < 0 is glued.
 struct CurrentContact {
-  std::int32_t first;      ///< number of a particle, or -1 - k for obstacle k
+  std::int32_t first;      ///< a particle, or -1 - k for obstacle k of obstacles_of()
   std::int32_t second;     ///< number of a particle
   double gap;              ///< [L]
-  double gamma;            ///< [M L/T], of discs in a fluid [M/T]; <= 0
+  double gamma;            ///< Pair::gamma [M L/T], of discs in a fluid [M/T]; <= 0
   double gamma_error = 0;  ///< Pair::gamma_error, in the unit of gamma
   std::int32_t image = 0;  ///< Pair::image
   ContactFriction friction = ContactFriction::kNone;  ///< in the last step
   /// Mean normal force in the last step [M L/T^2], of discs in a fluid per length: that of solids
-  /// and film together, > 0 where it pushes both apart.
+  /// and film together, > 0 where it pushes the bodies apart.
   double normal_force = 0;
   Vector tangential_force{};  ///< mean friction on `second` in the last step, in the same unit
-  // Not in frames:
+  // The next members are not in VTK files.
   Vector normal{};  ///< unit normal from `first` to `second`
-  /// Vector to the centre of `second` from that of `first`, or from the nearest point of an
-  /// obstacle [L].
+  /// Vector [L] to the centre of `second` from that of `first` or the nearest point of an obstacle.
   Vector branch{};
-  /// The numbers that laws remember of the pair and files show. It takes no memory if there are
-  /// none.
+  /// Numbers that laws remember of the pair and files show (pair_memory.hpp), often none.
   [[no_unique_address]] ShownMemory shown{};
 };
 
-/// Ids of both bodies of a contact in files: the ids of two particles, or the id of a particle and
-/// -1, -2, ... for the first, second obstacle (domain.hpp).
+/// Names of both bodies in files: the ids of two particles, or of one, and -1 - k for obstacle k.
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact);
 
-/// The pairs that are glued (gamma < 0), touch, or had a force in the last step: first pairs of
-/// particles, then particles at obstacles, each in the order of the state. A pair touches if its
-/// gap is at most SolverSettings::tolerance times the mean radius, in a fluid more than
-/// Fluid::threshold_gap.
+/// The pairs that are glued, touch, or had a force in the last step: first pairs of particles, then
+/// particles at obstacles, each in the order of the state. A pair touches if its gap is at most
+/// SolverSettings::tolerance times the mean radius, to which Fluid::threshold_gap is added in a
+/// fluid.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
-/// Largest Pair::gamma_error of all pairs, in the unit of gamma.
+/// Largest Pair::gamma_error of all pairs, in the unit of gamma, >= 0.
 double largest_gamma_error(const State& state);
 
 /// Largest overlap of two particles, or of a particle and an obstacle, divided by the mean radius;

@@ -1,6 +1,7 @@
-// Velocities of walls that depend on time, and sizes and moments of inertia of particles
-// (fluid.hpp), in the units of the case. Nothing is checked or thrown. A change must keep the mean
-// over a step exact, so that walls move as far as the case says.
+// Computes velocities of walls and pressure gradients that depend on time, and sizes and moments of
+// inertia of particles (fluid.hpp), in the units of the case. Nothing is checked or thrown. A
+// change must keep means over a step exact, so that as much fluid flows in as the case says. Used
+// by case/, fluid/ and freefem_flow/.
 #include "viscontact/particles/fluid.hpp"
 
 #include <algorithm>
@@ -13,8 +14,7 @@ namespace viscontact::particles {
 
 namespace {
 
-/// The factor 1 + amplitude sin(2 pi time/period) of a velocity or pressure gradient; 1 without
-/// period.
+/// Factor 1 + amplitude sin(2 pi time/period) of a velocity or pressure gradient; 1 if period is 0.
 double pulsation(double period, double amplitude, double time) {
   return period > 0 ? 1 + amplitude * std::sin(2 * std::numbers::pi * time / period) : 1;
 }

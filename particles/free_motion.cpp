@@ -1,7 +1,10 @@
-// The motion of a step of length h without contacts: displacements h u* and turns h w* of
-// docs/physics.md (5.3) and (5.10), and the velocities at the present time. Numbers are in the
-// units of the case. Nothing is thrown. simulation.cpp calls these functions at the beginning of
-// each step; a change must set displacements and turns of all members.
+// Members of Simulation (simulation.hpp): the motion of a step of length h [T] that would follow
+// without contacts and links; and the velocities at the present time, where those of the leapfrog
+// scheme are half a step behind. The velocities u* and angular velocities w* of this motion give
+// displacements h u* [L] and turns h w* [rad], docs/physics.md (5.3) and (5.10). `next` is the time
+// at the end of the step [T]. Numbers are in the units of the case. Nothing is checked or thrown.
+// simulation.cpp calls move_freely() at the beginning of each step; a change must set displacements
+// and turns of all particles, also of those in rigid bodies.
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/simulation.hpp"
 
@@ -37,13 +40,15 @@ void Simulation::move_freely(double h, double next) {
   link_forces_.resize(setting_.links.force_count(D), 0.0);
 }
 
-/// Mean of a force or torque over the time in which it acts on the velocities in a step.
+/// Mean of a force or torque over the times in which it changes the velocities of this step: the
+/// whole step, or with the leapfrog from the middle of the last step to the middle of this one.
 Vector Simulation::mean_of(const PiecewiseConstant& function, double h, double next) const {
   if (setting_.scheme == Scheme::kEuler) return function.mean(state_.time, next);
   return function.mean(state_.time - state_.velocity_lag, state_.time + h / 2);
 }
 
-/// Sums of the forces and torques on each rigid body; `mean` gives the mean of a function.
+/// Sums of the forces [M L/T^2] and torques [M L^2/T^2] on each rigid body. `mean` returns the mean
+/// of a force or torque over the time that the caller needs.
 std::vector<BodyLoad> Simulation::loads_of_bodies(
     const std::function<Vector(const PiecewiseConstant&)>& mean) const {
   const auto& p = state_.particles;
@@ -69,8 +74,7 @@ std::vector<BodyLoad> Simulation::loads_of_bodies(
   return loads;
 }
 
-/// Sets the steps of the rigid bodies in free motion, and the displacements and turns of their
-/// members.
+/// Sets displacements and turns of rigid bodies, and of their members, without contacts and links.
 void Simulation::move_bodies_freely(double h, double next) {
   const auto& p = state_.particles;
   const auto loads = loads_of_bodies(
@@ -94,8 +98,8 @@ void Simulation::move_bodies_freely(double h, double next) {
   }
 }
 
-/// For each particle 1 if in the last step only forces, gravity and torques changed its motion,
-/// else 0. The particle, or its rigid body, then has a link or a contact with an impulse.
+/// For each particle 1 if in the last step only forces, gravity and torques changed its motion. 0
+/// if the particle, or another one of its rigid body, has a link or had a contact with an impulse.
 std::vector<char> Simulation::free_particles() const {
   const auto& p = state_.particles;
   std::vector<char> is_free(p.count(), 1);
@@ -167,7 +171,7 @@ Particles Simulation::reported_particles() const {
   return reported;
 }
 
-/// Sets the turns h w* of the free motion [rad].
+/// Sets the turns h w* of the particles [rad].
 void Simulation::turn_freely(double h, double next) {
   const auto& p = state_.particles;
   const auto components = turn_components(p.dimension);

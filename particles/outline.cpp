@@ -1,7 +1,8 @@
-// Computes the distances to circles, ellipses and plates, and the points at which circles meet
-// (outline.hpp). The spine of a plate is the line between the centres of its round ends, and that
-// of a circle its centre. Lengths are in the unit of the case. Nothing is checked or thrown. A
-// change must keep distances exact to rounding errors.
+// Computes distances to and between circles, ellipses and plates, and the points at which circles
+// meet (outline.hpp). The spine of a plate is the line between the centres of its round ends, and
+// that of a circle its centre. Lengths are in the unit of the case. Nothing is checked or thrown. A
+// change must keep distances exact to rounding errors. Used by case/, fluid/, picture/ and
+// freefem_flow/.
 #include "viscontact/particles/outline.hpp"
 
 #include <algorithm>
@@ -16,15 +17,15 @@ using Point = std::array<double, 2>;
 
 /// Distance of the point (x, y), x >= 0 and y >= 0, from an ellipse with the semi-axes a >= b along
 /// the axes; < 0 inside. The nearest point of the ellipse is (a^2 x/(s + a^2), b^2 y/(s + b^2))
-/// with the largest root s of (a x/(s + a^2))^2 + (b y/(s + b^2))^2 = 1. In the code s is in units
-/// of b^2. For s > -1 the left side falls and is convex, so that Newton's method, started to the
-/// left of the root, approaches it from the left and never passes it.
+/// with the largest root s of (a x/(s + a^2))^2 + (b y/(s + b^2))^2 = 1. The code divides s by b^2.
+/// For s > -1 the left side of the equation decreases and is convex, so that Newton's method,
+/// started below the root, approaches it from below and never passes it.
 double distance_to_ellipse(double a, double b, double x, double y) {
   const double square = (a / b) * (a / b);
   const double u = x / a, v = y / b;
   double near_x = 0, near_y = b;
   if (v > 0) {
-    double s = std::max(v - 1, square * (u - 1));  // where one of the two terms alone is 1
+    double s = std::max(v - 1, square * (u - 1));  // below the root, because one of the terms is 1
     // Newton's method ends by itself when s no longer grows. The bound of 100 is a free choice.
     for (int n = 0; n < 100; ++n) {
       const double p = square * u / (s + square), q = v / (s + 1);
@@ -48,12 +49,11 @@ double distance_to_ellipse(double a, double b, double x, double y) {
   return u * u + v * v < 1 ? -distance : distance;
 }
 
-/// The least value of a function on the outline, where the function has at most two local minima.
-/// The function is computed at evenly spaced parameters, of which 128 is a free choice, and then
-/// ternary search finds the minimum around the best of them.
+/// The least value of a function of a point on the outline. The function is computed at evenly
+/// spaced parameters, and ternary search then finds the minimum around the best of them.
 template <class Function>
 double least_on(const Outline& outline, const Function& function) {
-  constexpr int kSamples = 128;
+  constexpr int kSamples = 128;  // a free choice: the functions have at most two local minima
   constexpr double kStep = 2 * std::numbers::pi / kSamples;
   const auto value = [&](double t) { return function(outline.at(t)); };
   double least = std::numeric_limits<double>::infinity(), at = 0;
@@ -63,8 +63,7 @@ double least_on(const Outline& outline, const Function& function) {
       at = i * kStep;
     }
   double low = at - kStep, high = at + kStep;
-  constexpr int kDivisions =
-      60;  // (2/3)^60 is 3e-11: its square is below rounding errors of the value
+  constexpr int kDivisions = 60;  // (2/3)^60 is 3e-11; errors of a minimum are about its square
   for (int n = 0; n < kDivisions; ++n) {
     const double first = low + (high - low) / 3, second = high - (high - low) / 3;
     if (value(first) < value(second))
@@ -75,7 +74,7 @@ double least_on(const Outline& outline, const Function& function) {
   return std::min(least, value((low + high) / 2));
 }
 
-/// The point of a line between two points that is nearest to x.
+/// The point nearest to x of the line between two points.
 Point nearest_on_line(const std::array<Point, 2>& line, const Point& x) {
   const double dx = line[1][0] - line[0][0], dy = line[1][1] - line[0][1];
   const double square = dx * dx + dy * dy;
@@ -89,15 +88,14 @@ double distance(const Point& x, const Point& y) {
   return std::sqrt(dx * dx + dy * dy);
 }
 
-/// On which side of a line a point is: > 0 on its left.
+/// On which side of a directed line a point is [L^2]: > 0 on the left, < 0 on the right.
 double side_of(const std::array<Point, 2>& line, const Point& x) {
   return (line[1][0] - line[0][0]) * (x[1] - line[0][1]) -
          (line[1][1] - line[0][1]) * (x[0] - line[0][0]);
 }
 
-/// The four places where two plates may touch. Each one belongs to an end of a spine, first to the
-/// two of the first spine, then to those of the second: it is this end and the nearest point of the
-/// other spine.
+/// The four places of SpineContacts: each end of the first and then of the second spine, with the
+/// point of the other spine that is nearest to it.
 std::array<SpinePoints, 4> places_of_ends(const Outline& first, const Outline& second) {
   const auto one = first.spine(), other = second.spine();
   const bool cross = side_of(one, other[0]) * side_of(one, other[1]) < 0 &&
@@ -108,8 +106,8 @@ std::array<SpinePoints, 4> places_of_ends(const Outline& first, const Outline& s
           SpinePoints{nearest_on_line(one, other[1]), other[1], cross}};
 }
 
-/// Number of the place with the least distance among those for which `takes_part(number)` is true,
-/// the first one of several; the number of places if there is none.
+/// Number of the place with the shortest distance among those for which `takes_part(number)` is
+/// true, the first one of several; places.size() if there is none.
 template <class Predicate>
 std::size_t nearest_of(const std::array<SpinePoints, 4>& places, const Predicate& takes_part) {
   std::size_t nearest = places.size();
@@ -142,7 +140,7 @@ SpinePoints nearest_on_spines(const Outline& first, const Outline& second) {
 }
 
 SpineContacts::SpineContacts(const Outline& first, const Outline& second) {
-  constexpr double kApart = 0.1;  // free choice, as a share of the smaller end radius (outline.hpp)
+  constexpr double kApart = 0.1;  // of the smaller end radius; free choice
   const auto places = places_of_ends(first, second);
   const auto nearest = nearest_of(places, [](std::size_t) { return true; });
   places_ = {static_cast<int>(nearest)};
@@ -174,7 +172,7 @@ Point Outline::at(double t) const {
   if (is_plate) {
     constexpr double kPi = std::numbers::pi;
     const double half = semi_axes[0] - semi_axes[1], b = semi_axes[1], arc = kPi * b;
-    // Distance along the outline from the beginning of the arc at the end along `angle`.
+    // Distance along the outline from where the round end in the direction `angle` begins.
     double s = (t / (2 * kPi) - std::floor(t / (2 * kPi))) * length() + arc / 2;
     if (s >= length()) s -= length();
     // The other half of the outline is the same, turned by pi.
@@ -198,14 +196,14 @@ double Outline::speed_at(double t) const {
 
 double Outline::curvature_radius_at(double t) const {
   if (is_circle()) return radius;
-  if (is_plate) return semi_axes[1];  // the smallest one
+  if (is_plate) return semi_axes[1];  // that of the ends; straight sides have none
   const double speed = speed_at(t);
   return speed * (speed / semi_axes[0]) * (speed / semi_axes[1]);
 }
 
 double distance_to(const Outline& outline, const Point& x) {
   const double dx = x[0] - outline.centre[0], dy = x[1] - outline.centre[1];
-  // std::hypot would take ten times as long, and is better only for lengths beyond 1e150.
+  // std::hypot takes ten times as long, and is better only for lengths beyond 1e150.
   if (outline.is_circle()) return std::sqrt(dx * dx + dy * dy) - outline.radius;
   if (outline.is_plate)
     return distance(nearest_on_line(outline.spine(), x), x) - outline.end_radius();
@@ -255,8 +253,8 @@ Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<con
 }
 
 std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::size_t other) {
-  // The formulas begin at the disc with the smaller number, whichever of both is asked about, so
-  // that both discs get the same points to the last bit.
+  // The points are computed from the disc with the smaller number, so that they are the same to the
+  // last bit if k and `other` are exchanged.
   const std::size_t i = std::min(k, other), j = std::max(k, other);
   const Vector x = particles.position(i), apart = particles.position(j) - x;
   const double d = norm(apart), a = particles.radii[i], b = particles.radii[j];

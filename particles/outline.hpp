@@ -1,9 +1,10 @@
 // The outline of a particle in the plane: a circle, an ellipse, or a plate with round ends; and
-// that of a rigid body in a fluid whose discs overlap, which is their union: each disc is cut along
-// the chords at which its circle meets those of the others, so that the cut discs cover the union
-// once. Lengths are in the unit of the case, angles in radians, counter-clockwise. Checks of a
-// case, the fluid and its meshes use it. Nothing is checked or thrown. A change must keep a circle
-// exact, and that the cut discs together have the area of the union.
+// gaps between outlines. If discs of one rigid body in a fluid overlap, each disc is cut along the
+// chords at which its circle meets those of the others, so that the cut discs cover the union of
+// the discs once. Lengths are in the unit of the case, angles in radians, counter-clockwise.
+// particles/ (case/, fluid/, picture/) and freefem_flow/ (meshes) use this file. Nothing is checked
+// or thrown. A change must keep gaps of circles exact, and the total area of cut discs that of
+// their union.
 #pragma once
 
 #include <array>
@@ -23,60 +24,60 @@ namespace viscontact::particles {
 /// semi_axes[1]) through the centre along `angle`. The spine of a circle is its centre.
 struct Outline {
   std::array<double, 2> centre{};  ///< [L]
-  /// Radius of the circle or, for an ellipse or plate, of the circle around it: its larger
-  /// semi-axis [L], > 0.
+  /// Radius of the circle, or the larger semi-axis of an ellipse or plate [L], > 0.
   double radius = 0;
   std::array<double, 2> semi_axes{};  ///< of an ellipse or plate [L], > 0; equal: a circle
-  double angle = 0;       ///< of the first semi-axis of an ellipse or plate with the x axis
+  double angle = 0;       ///< from the x axis to the first semi-axis of an ellipse or plate [rad]
   bool is_plate = false;  ///< whether it is a plate; then semi_axes[0] > semi_axes[1]
 
-  /// True if it is a circle of the radius `radius`.
+  /// True if the outline is a circle.
   bool is_circle() const { return semi_axes[0] == semi_axes[1]; }
-  /// The point centre + a cos(t) e_1 + b sin(t) e_2, with the directions e_1, e_2 of the semi-axes
-  /// a, b [L]. On a circle t is the angle from the x axis. On a plate t goes evenly along the
-  /// outline, from the point at the end along `angle`.
+  /// The point [L] of the outline with the parameter t, which increases by 2 pi once around. On a
+  /// circle t is the angle from the x axis. On an ellipse with the semi-axes a, b along the unit
+  /// vectors e_1, e_2 it is the point centre + a cos(t) e_1 + b sin(t) e_2. On a plate t is
+  /// proportional to the length along the outline from the tip in the direction `angle`.
   std::array<double, 2> at(double t) const;
-  /// Length of the derivative of at() [L].
+  /// Length of the derivative of at() by t [L].
   double speed_at(double t) const;
-  /// Radius of the circle that touches the outline best at at(t) [L]: (a^2 sin^2 t + b^2 cos^2
-  /// t)^(3/2)/(a b).
+  /// Radius of curvature at at(t) [L]: of an ellipse (a^2 sin^2 t + b^2 cos^2 t)^(3/2)/(a b), of a
+  /// plate everywhere the radius of its ends.
   double curvature_radius_at(double t) const;
-  /// The radius of a circle, or that of the round ends of a plate [L].
+  /// Radius of the round ends of a plate, or else `radius` [L].
   double end_radius() const { return is_plate ? semi_axes[1] : radius; }
-  /// The ends of the spine of a plate, the first one along `angle`; of a circle both are its
+  /// Ends of the spine [L], the first in the direction `angle`. Both ends of a circle's are its
   /// centre.
   std::array<std::array<double, 2>, 2> spine() const;
-  /// Length of the outline [L] of a circle or plate.
+  /// Circumference of a circle or plate [L].
   double length() const;
 };
 
-/// Points of the spines of two outlines, circles or plates.
+/// A point on the spine of each of two outlines, circles or plates.
 struct SpinePoints {
   std::array<double, 2> first{},  ///< on the first spine [L]
       second{};                   ///< on the second spine [L]
   bool cross = false;             ///< whether the spines cross each other
 };
-/// The points that are nearest to each other. Of several such pairs it is the first one in the
-/// order of the ends.
+/// The points of two spines that are nearest to each other. Of several such pairs it is the first
+/// one in the order of the places of SpineContacts.
 SpinePoints nearest_on_spines(const Outline& first, const Outline& second);
 
-/// The one or two contacts that two outlines, circles or plates, may have. Each end of a spine and
-/// the point of the other spine that is nearest to it are a place where both may touch; the places
-/// have the numbers 0 and 1 of the ends of the first spine, and 2 and 3 of those of the second one.
-/// The nearest place is a contact. Another contact is the nearest place of which neither point is
-/// within a tenth of the smaller end radius of those of the first contact, so that it keeps the
-/// other ends apart if plates lie side by side. Each further place belongs to the contact that is
-/// nearer to it.
+/// The one or two contacts that two outlines, circles or plates, may have. Two plates that lie side
+/// by side have two, at both ends of the part where they overlap. An end of a spine and the point
+/// of the other spine that is nearest to it form a place. The ends of the first spine form the
+/// places 0 and 1, those of the second spine 2 and 3. The place with the shortest distance between
+/// its two points is a contact. The second contact is the shortest of the places both of whose
+/// points are further than a tenth of the smaller end radius from those of the first. Spines that
+/// cross have one contact. Each other place belongs to the contact whose points are nearer.
 class SpineContacts {
  public:
-  /// Finds the contacts of both outlines at their present places.
+  /// Finds the contacts of both outlines where they are.
   SpineContacts(const Outline& first, const Outline& second);
-  /// The place of each contact, one or two.
+  /// The place, 0 to 3, of each contact; one or two entries.
   const std::vector<int>& places() const { return places_; }
-  /// The place of the contact to which the place `place` belongs.
+  /// The place of the contact to which `place`, 0 to 3, belongs.
   int contact_of(int place) const { return contact_of_[static_cast<std::size_t>(place)]; }
-  /// The points of the contact to which the place `place` belongs, after the outlines have moved to
-  /// `first` and `second`: those of the place of this contact with the least distance.
+  /// The points at which the contact of `place` acts after the outlines have moved to `first` and
+  /// `second`: those of the place with the shortest distance among all that belong to it.
   SpinePoints at(int place, const Outline& first, const Outline& second) const;
 
  private:
@@ -87,43 +88,46 @@ class SpineContacts {
 /// Distance of a point from the outline [L]; < 0 inside.
 double distance_to(const Outline& outline, const std::array<double, 2>& x);
 
-/// Distance between two outlines of which neither is in the other [L]; <= 0 if they overlap, and
-/// then it is the depth of the deepest point of `first` in `second`.
+/// Distance between two outlines of which neither contains the other [L]. If they overlap, it is
+/// minus the depth of the deepest point of `first` in `second`; for plates whose spines cross, it
+/// is minus the sum of both end radii.
 double gap(const Outline& first, const Outline& second);
 
 /// Distance of the outline from an obstacle [L]; < 0 if a part of it is behind the obstacle.
 double gap(const PlanePosition& obstacle, const Outline& outline);
 
-/// Outline of particle k in the plane, or of a sphere on the axis, which is at (0, z). `angles`: of
-/// all particles [rad]; used for ellipses only. `shift` [L] moves it to an image.
+/// Outline of particle k in the plane, or of a sphere on the axis with its centre at (0, z).
+/// `angles` are those of all particles [rad], used for ellipses and plates only. `shift` [L] is
+/// added to the centre, as for a periodic image.
 Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<const double> angles,
                    std::size_t k, const Vector& shift = {});
 
-/// How a disc is cut by one that overlaps it.
+/// How a disc is cut by another disc that overlaps it.
 struct Chord {
   std::size_t other = 0;  ///< number of the disc that overlaps it
   // The ends of the chord, at which the circles meet. The arc from `from` to `to`,
   // counter-clockwise, is inside the other disc.
   std::array<double, 2> from{},  ///< first end [L]
       to{};                      ///< last end [L]
-  double middle = 0;             ///< angle of the middle of this arc with the x axis [rad]
+  double middle = 0;             ///< angle from the x axis to the middle of this arc [rad]
   double half = 0;               ///< half of the angle of this arc [rad], > 0 and < pi
-  double area = 0;               ///< of the disc beyond the chord [L^2]
-  /// Angle of the wedge of fluid where the circles meet [rad], > 0 and < pi: the smaller, the more
-  /// shallow the overlap.
+  double area = 0;               ///< area of the part of the disc beyond the chord [L^2], > 0
+  /// Angle between the circles in the fluid outside both, where they meet [rad], > 0 and < pi. The
+  /// less the discs overlap, the smaller it is.
   double wedge = 0;
 };
 
-/// The chord at which the disc `other` cuts the disc k; none if their circles do not meet. Both
-/// must not be images of each other. The ends of the chord are the same numbers for both discs.
+/// The chord at which disc `other` cuts disc k; none if their circles do not meet. Periodic images
+/// are not considered. If k and `other` are exchanged, the ends are the same bits.
 std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::size_t other);
 
-/// The chords at which discs of its body cut disc k in this fluid, by their angle `middle` from -pi
-/// to pi, without those whose arc is within that of another one. None if particle k is an ellipse
-/// or plate, which have no chords, and by penalty, where discs may not overlap.
+/// The chords at which discs of its body cut disc k, in the order of their `middle`, without those
+/// whose arc is within the arc of another chord. None if particle k is an ellipse or plate, and
+/// with RigidConstraint::kPenalty, because discs may not overlap then.
 std::vector<Chord> chords_of(const Fluid& fluid, const Particles& particles, std::size_t k);
 
-/// Fluid::cut_areas for these particles [L^2]: of each one the sum of the areas beyond its chords.
+/// Fluid::cut_areas for these particles [L^2]: for each particle the sum of Chord::area over its
+/// chords_of(); empty if all sums are 0.
 std::vector<double> cut_areas_of(const Fluid& fluid, const Particles& particles);
 
 }  // namespace viscontact::particles

@@ -1,8 +1,10 @@
-// What contact laws remember of a pair besides gamma. It is declared once, in kMemoryFields, from
-// which the restart file, contacts.csv, final_contacts.csv and the frames take it. To add a memory,
-// add a row to kMemoryFields and a place to Remembered, with the unit in its comment. A memory is
-// dropped when gamma is 0 and the pair leaves the lists of close pairs; a law must not rely on it
-// longer.
+// What contact laws remember from step to step of a pair of touching bodies besides gamma
+// (state.hpp), in the units of the case. The numbers are declared once, in kMemoryFields, and the
+// restart file, contacts.csv, final_contacts.csv and the VTK files take their names from there. To
+// add a number, add a row to kMemoryFields and a place to Remembered, with the unit in its comment.
+// Names must not change, because restart files contain them. A pair loses its memory when its gamma
+// is 0 and it leaves the lists of close pairs. All contact laws and solvers use this file; nothing
+// is thrown.
 #pragma once
 
 #include <algorithm>
@@ -17,20 +19,22 @@
 
 namespace viscontact::particles {
 
-/// The places in a PairMemory, in the order of kMemoryFields.
+/// The numbers in a PairMemory, in the order of kMemoryFields; of discs in a fluid per length.
 enum class Remembered : std::uint8_t {
-  kFrictionX,  ///< x, y and z of the impulse of friction on Pair::second in the last step [M L/T],
-  kFrictionY,  ///< which is tangential, and the first guess of the next step
-  kFrictionZ,
-  kCarried,  ///< part of the impulse of the last step that the solids carried [M L/T], >= 0: p_s of
-             ///< docs/physics.md (5.7), which bounds the friction
-  kCount,    ///< number of places
+  /// x of the impulse of friction on Pair::second in the last step [M L/T]. This vector is
+  /// tangential; the solver of the next step takes it as its first guess.
+  kFrictionX,
+  kFrictionY,  ///< y of that vector
+  kFrictionZ,  ///< z of that vector
+  kCarried,    ///< part of the normal impulse of the last step that the solids carried and not the
+               ///< film [M L/T], >= 0: p_s of docs/physics.md (5.7), which bounds the friction
+  kCount,      ///< how many numbers there are
 };
 
-/// How files know a number that a law remembers.
+/// A number that a law remembers, as files show it.
 struct MemoryField {
   std::string_view name;  ///< in restart files and as a column
-  bool is_impulse;        ///< an impulse of the last step, summed over the parts of a divided step
+  bool is_impulse;        ///< whether it is an impulse, added over the parts of a divided step
   bool is_shown;          ///< whether contacts.csv and the frames have the number
 };
 
@@ -49,7 +53,7 @@ static_assert(kMemoryFields.size() == static_cast<std::size_t>(Remembered::kCoun
 using ShownMemory = std::array<double, static_cast<std::size_t>(std::ranges::count_if(
                                            kMemoryFields, &MemoryField::is_shown))>;
 
-/// The numbers of one pair; all are 0 where nothing is remembered.
+/// All numbers of one pair. They are 0 if nothing is remembered.
 class PairMemory {
  public:
   /// The number in one place, in the unit that Remembered says.
@@ -87,10 +91,10 @@ class PairMemory {
 };
 
 /// The memories of the pairs of a state. A pair has a row here only if a law remembers something of
-/// it, so that cases without such laws need no room for them.
+/// it, so that cases without such laws need no space in memory.
 class PairMemories {
  public:
-  /// The number of no row.
+  /// In place of the number of a row: the pair has no row.
   static constexpr std::int32_t kNone = -1;
 
   /// The memory with number `row` (Pair::memory); zeros if it is kNone.
@@ -107,14 +111,15 @@ class PairMemories {
     }
     return rows_[static_cast<std::size_t>(row)];
   }
-  /// Sets the memory of a pair, which has no row afterwards if `memory` is zero and it had none.
+  /// Sets the row with number `row` to `memory`. If `row` is kNone, a row is made as by make(),
+  /// unless all numbers of `memory` are 0.
   void set(std::int32_t& row, const PairMemory& memory) {
     if (row != kNone || !(memory == PairMemory{})) make(row) = memory;
   }
   bool empty() const { return rows_.empty(); }  ///< whether nothing is remembered
 
-  /// Drops the rows of pairs that are in none of the lists of Pair, and the rows that hold zeros
-  /// only. The numbers Pair::memory change with the rows.
+  /// Drops the rows of pairs that are in none of `lists` (containers of Pair), and the rows of
+  /// zeros. Pair::memory of each pair is changed to the new number of its row.
   template <class... Lists>
   void keep_only(Lists&... lists) {
     if (rows_.empty()) return;

@@ -1,5 +1,6 @@
-// Quaternions, and how particles turn in a step (particles.hpp). Turns are in radians; nothing is
-// checked or thrown. A change must keep quaternions at length 1.
+// Computes rotations by quaternions, and turns particles in a step (particles.hpp). Turns are in
+// radians; nothing is checked or thrown. A change must keep quaternions at length 1, and the order
+// of the operations, on which the last bits of all results depend. Used by all of particles/.
 #include "viscontact/particles/particles.hpp"
 
 #include <cmath>
@@ -8,7 +9,7 @@ namespace viscontact::particles {
 
 Quaternion turned(const Quaternion& from, const Vector& turn) {
   const double angle = norm(turn);
-  // sin(angle/2)/angle is 1/2 within rounding errors for small angles.
+  // sin(angle/2)/angle is 1/2 within rounding errors below this angle [rad].
   constexpr double kSmall = 1e-8;
   const double factor = angle > kSmall ? std::sin(angle / 2) / angle : 0.5;
   const double c = std::cos(angle / 2);

@@ -1,8 +1,8 @@
 // The particles of a simulation: rigid discs or spheres, and how they turn. Lengths, masses and
 // times are in any consistent units; turns and angles are in radians. The restart file stores these
 // arrays as they are (io/restart.cpp), so that a change of their layout needs a new version of that
-// file, and quaternions must keep the length 1. All of particles/ uses them; nothing is checked
-// here.
+// file. A change must keep quaternions at length 1. All of particles/ uses this file; nothing is
+// checked or thrown.
 #pragma once
 
 #include <algorithm>
@@ -19,49 +19,49 @@
 
 namespace viscontact::particles {
 
-/// The place in an array of the particle with number `number` >= 0.
+/// Index in an array of the particle with number `number` >= 0.
 constexpr std::size_t index_of(std::int32_t number) { return static_cast<std::size_t>(number); }
 
-/// Flat arrays of the numbers of all particles. Entry k of `radii`, `masses` and `ids` belongs to
-/// particle k, and so do `dimension` entries from dimension * k on of `positions` and `velocities`.
+/// The particles as flat arrays. Entry k of `radii`, `masses` and `ids` belongs to particle k, and
+/// so do the `dimension` entries from dimension * k on of `positions` and `velocities`.
 struct Particles {
   /// 2: discs, 3: spheres, 1: spheres on the axis z of a cylinder. z is component 0 of a Vector.
   int dimension = 2;
   std::vector<double> positions;   ///< of the centres [L]
   std::vector<double> velocities;  ///< [L/T]
   std::vector<double> radii;       ///< [L], > 0
-  std::vector<double> masses;      ///< [M], > 0; >= 0 in a fluid
-  /// Name of each particle in files, >= 0; no two are equal. Empty: particle k has the name k.
+  std::vector<double> masses;      ///< [M], of discs in a fluid [M/L]; > 0, in a fluid >= 0
+  /// Number of each particle in files, >= 0; no two are equal. Empty: particle k has the id k.
   std::vector<std::int32_t> ids{};
   // The next four arrays describe rotation. They are empty if nothing in the case depends on
-  // rotation (docs/particles.md), and on an axis.
+  // rotation (docs/particles.md), and for particles on an axis.
   std::vector<double> angles{};  ///< of discs, counter-clockwise [rad]; empty for spheres
-  /// Orientations of spheres: unit quaternions, four numbers (w, x, y, z) for each particle, which
-  /// turn directions of the start into those of now; empty for discs.
+  /// Orientations of spheres: unit quaternions, four numbers (w, x, y, z) for each particle. They
+  /// are the rotations from the start until now; empty for discs.
   std::vector<double> orientations{};
-  /// One number for each disc, counter-clockwise; three for each sphere [1/T].
+  /// Angular velocities [1/T]: one for each disc, counter-clockwise; three for each sphere.
   std::vector<double> angular_velocities{};
-  std::vector<double> inertias{};  ///< moments of inertia [M L^2], > 0; >= 0 in a fluid
-  /// Periods of the domain, by which the images of particles are shifted. A simulation takes them
-  /// from its setting; the restart file does not store them.
+  std::vector<double> inertias{};  ///< [M L^2], of discs in a fluid [M L]; > 0, in a fluid >= 0
+  /// The periodic cell, which says how images of particles are shifted. A simulation takes it from
+  /// its setting; the restart file does not store it.
   PeriodicCell cell{};
-  /// Rigid bodies of several particles. The case gives them; the restart file stores their motion.
+  /// Rigid bodies of several particles, from the case. The restart file stores their motion only.
   RigidBodies bodies{};
-  /// Numbers of the two beads that are next to each bead on its membrane, -1 for other particles;
-  /// empty without membranes, and in a fluid. The case gives them, the restart file does not.
+  /// For each particle of a membrane (a closed chain of particles) the numbers of its two
+  /// neighbours in the chain, -1 for other particles; empty without membranes, and in a fluid. They
+  /// come from the case; the restart file does not store them.
   std::vector<std::array<std::int32_t, 2>> neighbours{};
 
   std::size_t count() const { return radii.size(); }         ///< number of particles
-  bool turn() const { return !angular_velocities.empty(); }  ///< whether rotation matters
-  /// True if two particles make no contact, because they belong to one body or are neighbours on a
-  /// membrane.
+  bool turn() const { return !angular_velocities.empty(); }  ///< whether rotation is computed
+  /// True if two particles of one body, or neighbours on a membrane, which make no contact.
   bool are_joined(std::int32_t first, std::int32_t second) const {
     if (bodies.are_one(first, second)) return true;
     if (neighbours.empty()) return false;
     const auto& next = neighbours[static_cast<std::size_t>(first)];
     return next[0] == second || next[1] == second;
   }
-  /// Name of particle k < count() in files.
+  /// Id of particle k < count() in files.
   std::int32_t id(std::size_t k) const {
     return ids.empty() ? static_cast<std::int32_t>(k) : ids[k];
   }
@@ -71,20 +71,20 @@ struct Particles {
   Vector velocity(std::size_t k) const { return point_of(velocities.data(), k, dimension); }
 };
 
-/// The largest name of a particle in files; -1 if there are no particles.
+/// The largest id of a particle; -1 if there are no particles.
 inline std::int32_t largest_id(const Particles& particles) {
   return particles.ids.empty() ? static_cast<std::int32_t>(particles.count()) - 1
                                : std::ranges::max(particles.ids);
 }
 
-/// How many names are left above the largest one, for particles that are added.
+/// How many ids of std::int32_t are larger than largest_id(), for particles that are added.
 inline std::size_t ids_left(const Particles& particles) {
   return static_cast<std::size_t>(std::int64_t{std::numeric_limits<std::int32_t>::max()} -
                                   largest_id(particles));
 }
 
-/// If particles have ids, the last particles, which have none yet, get the largest id so far plus
-/// 1, 2, ... ids_left() must be at least their number.
+/// If `ids` is not empty but shorter than count(), the last particles get the largest id so far
+/// plus 1, 2, ... ids_left() must be at least their number.
 inline void add_missing_ids(Particles& particles) {
   if (particles.ids.empty()) return;
   auto largest = largest_id(particles);
@@ -112,16 +112,15 @@ inline double homogeneous_inertia_of_ellipse(double mass, const std::array<doubl
   return mass / 4 * (semi_axes[0] * semi_axes[0] + semi_axes[1] * semi_axes[1]);
 }
 
-/// Area of a plate with round ends of the radius semi_axes[1], and of the length 2 semi_axes[0]
-/// [L^2].
+/// Area [L^2] of a plate of the length 2 semi_axes[0] with round ends of the radius semi_axes[1].
 inline double size_of_plate(const std::array<double, 2>& semi_axes) {
   const auto [a, b] = semi_axes;
   return size_of_particle(2, b) + 4 * (a - b) * b;
 }
 
-/// Moment of inertia of a homogeneous plate about its centre [M L^2]: the sum for the rectangle of
-/// the half sides l = a - b and b and for the two half discs, whose centroids are 4 b/(3 pi) beyond
-/// it; a and b are the semi-axes.
+/// Moment of inertia of a homogeneous plate with the semi-axes a and b about its centre [M L^2]. It
+/// is the sum of those of a rectangle with the half sides l = a - b and b, and of two half discs,
+/// whose centroids are 4 b/(3 pi) beyond the ends of the rectangle.
 inline double homogeneous_inertia_of_plate(double mass, const std::array<double, 2>& semi_axes) {
   const auto [a, b] = semi_axes;
   const double l = a - b, discs = size_of_particle(2, b), rectangle = 4 * l * b;
@@ -130,12 +129,12 @@ inline double homogeneous_inertia_of_plate(double mass, const std::array<double,
   return mass / (discs + rectangle) * (rectangle * of_rectangle + discs * of_discs);
 }
 
-/// Makes all particles turn: extends each array of the rotation to all particles. The new entries
-/// are those of particles that do not turn yet, in the orientation of the start, with the moment of
-/// inertia of a homogeneous disc or sphere. The dimension is 2 or 3.
+/// Extends the four arrays of the rotation to all particles, so that all can turn. The new entries
+/// are those of particles at rest in the orientation of the start, with the moment of inertia of a
+/// homogeneous disc or sphere. The dimension is 2 or 3.
 void add_rotation(Particles& particles);
 
-/// Mean radius [L], by which residuals and overlaps are measured; 1 if there are no particles.
+/// Mean radius [L], the unit of residuals and overlaps; 1 if there are no particles.
 inline double mean_radius(const Particles& particles) {
   if (particles.count() == 0) return 1;
   double sum = 0;
@@ -148,18 +147,18 @@ inline double mean_radius(const Particles& particles) {
 /// The components w, x, y, z of a quaternion. A rotation has w^2 + x^2 + y^2 + z^2 = 1.
 using Quaternion = std::array<double, 4>;
 
-/// The orientation that `from` has after a rotation by |turn| [rad] about the vector `turn`, which
-/// is given in the fixed frame. The result has length 1.
+/// The orientation after `from` and a rotation by |turn| [rad] about the direction of `turn`, whose
+/// components are along the fixed axes. The result has length 1.
 Quaternion turned(const Quaternion& from, const Vector& turn);
 
-/// The vector `a` in the orientation `q`, whose length is 1.
+/// The vector `a` after the rotation `q`, a quaternion of length 1.
 Vector rotated(const Quaternion& q, const Vector& a);
 
 /// Number of components of a rotation: 1 for discs, 3 for spheres.
 constexpr std::size_t turn_components(int dimension) { return dimension == 3 ? 3 : 1; }
 
 /// Turns all particles by `turns` [rad], turn_components() numbers for each particle, in a step of
-/// length h [T], and sets their angular velocities.
+/// length h [T] > 0, and sets their angular velocities to turns/h.
 void turn_particles(Particles& particles, std::span<const double> turns, double h);
 
 }  // namespace viscontact::particles

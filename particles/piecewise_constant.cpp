@@ -1,6 +1,7 @@
 // Exact integrals and means of a piecewise constant vector (piecewise_constant.hpp). The vector may
 // have any unit; times [T] are in the unit of the case. Nothing is checked or thrown. A change must
-// keep that the mean over times within one piece is the value of the piece to the last bit.
+// keep that the mean over times within one piece is the value of the piece to the last bit. Used by
+// all of particles/.
 #include "viscontact/particles/piecewise_constant.hpp"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ Vector PiecewiseConstant::mean(double from, double to) const {
   double begin = 0;
   for (const auto& piece : pieces) {
     if (from >= begin && to <= piece.until)
-      return piece.value;  // exact: a sum would have rounding errors
+      return piece.value;  // not a sum, which would have rounding errors
     const double overlap = std::min(to, piece.until) - std::max(from, begin);
     if (overlap > 0) sum = sum + overlap * piece.value;
     begin = piece.until;

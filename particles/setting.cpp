@@ -1,5 +1,7 @@
-// Obstacles and periodic cell of a setting (setting.hpp). Lengths and times are in the units of the
-// case. Nothing is thrown. A change must keep the order of obstacles, their number in files.
+// Computes the obstacles and the periodic cell of a setting (setting.hpp). Lengths and times are in
+// the units of the case. Nothing is checked or thrown. A change must keep the order of the
+// obstacles, because files number them in this order. Used by the simulations and the files in io/
+// and run/.
 #include "viscontact/particles/setting.hpp"
 
 namespace viscontact::particles {

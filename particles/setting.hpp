@@ -1,8 +1,9 @@
-// What moves the particles of a simulation, how their motion is computed, and when the projection
-// of a step has converged: the content of a case file. Nothing is checked here; particles/case
-// checks the values. Both simulations (simulation.hpp, fluid/fluid_simulation.hpp) and the output
-// of their states read it. Lengths, masses and times are in any consistent units. A change of a
-// default of SolverSettings changes the results of every case that does not set it.
+// What moves the particles of a simulation, how their motion is computed, and how accurately: the
+// content of a case file. Nothing is checked here; particles/case checks the values. The
+// simulations (simulation.hpp, fluid/, membranes/) and the files in io/, picture/ and run/ read it.
+// Lengths, masses and times are in any consistent units; masses and forces of discs in a fluid are
+// per length. A change of a default of SolverSettings changes the results of every case that does
+// not set it.
 #pragma once
 
 #include <algorithm>
@@ -24,72 +25,72 @@
 
 namespace viscontact::particles {
 
-/// Tolerances have no dimension; docs/particles.md, "The projection", says how each is measured.
+/// How accurately the projection of a step, the problem that gives its velocities and impulses, is
+/// solved. Tolerances have no dimension (docs/particles.md, "The projection").
 struct SolverSettings {
-  /// Tolerance of the gaps, divided by the mean radius; > 0.
+  /// Largest error of a gap after a step, divided by the mean radius; > 0.
   double tolerance = 1e-6;
-  /// Tolerance of each contact's impulse, divided by the impulses at work on its particles; > 0.
+  /// Largest error of the impulse of a contact, divided by the largest impulse that acts on the
+  /// less loaded of its two particles; > 0.
   double impulse_tolerance = 1e-10;
-  /// Largest number of iterations in a step, >= 1. An iteration is a product with the matrix W of
-  /// the dual problem, docs/physics.md (5.4), a sweep over the contacts, or a factorisation.
+  /// Largest number of iterations in a step, >= 1. An iteration is a product of the matrix W,
+  /// docs/physics.md (5.4), and a vector, or a sweep over the contacts, or a factorisation.
   int max_iterations = 10000;
 };
 
-/// Largest distance from the origin, and largest displacement in a step, that a particle may have
-/// [L]. Beyond this distance the rounding errors of positions exceed `tolerance` (SolverSettings)
-/// times `mean_radius` [L].
+/// Largest magnitude of a coordinate, and of a component of a displacement in a step, that a
+/// particle may have [L]. Beyond it the rounding errors of positions exceed the allowed error of a
+/// gap, `tolerance` (SolverSettings) times `mean_radius` [L].
 inline double largest_resolved_distance(double tolerance, double mean_radius) {
   // Squares of distances must be finite: 1e120 is far below 1e154, the root of the largest double.
   constexpr double kFinite = 1e120;
   return std::min(kFinite, tolerance * mean_radius / std::numeric_limits<double>::epsilon());
 }
 
-/// Velocities of a driven particle, which no force changes. Both are 0 after their last piece.
+/// Motion of a driven particle, which no force changes. Each velocity is 0 after its last piece.
 struct GivenMotion {
-  PiecewiseConstant velocity;          ///< of the centre [L/T]
-  PiecewiseConstant angular_velocity;  ///< counter-clockwise, Piece::value[2] [1/T]
+  PiecewiseConstant velocity;          ///< velocity of the centre [L/T]
+  PiecewiseConstant angular_velocity;  ///< counter-clockwise, in component 2 [1/T]
 };
 
-/// The time to which the velocities u^n of the scheme belong, docs/physics.md (5.3) and (5.10); t^n
-/// is the time at the end of step n.
+/// The time to which the velocities u^n after step n belong, docs/physics.md (5.3) and (5.10). Step
+/// n ends at the time t^n and has the length h.
 enum class Scheme {
-  kEuler,     ///< u^n is the velocity at t^n; positions are of first order in the step
-  kLeapfrog,  ///< u^n is the velocity half a step before t^n; of second order away from impacts
+  kEuler,     ///< the time t^n; errors of positions are proportional to h
+  kLeapfrog,  ///< the time t^n - h/2; away from impacts errors of positions are proportional to h^2
 };
 
-/// What moves the particles, and how their motion is computed. particles/case checks all values
-/// when it reads a case, and a simulation does not check them again. The keys of the maps must be
-/// numbers of existing particles.
+/// What moves the particles, and how. The keys of the maps must be numbers of existing particles.
 struct Setting {
   std::vector<Plane> planes;  ///< rigid planes, at rest or moving, that particles cannot cross
-  /// Holds the particles, and the fluid if there is one. Its walls are obstacles.
+  /// Region that holds the particles, and the fluid if there is one. Its walls are obstacles.
   Domain domain;
-  Vector gravity{};  ///< acceleration, on all particles [L/T^2]
+  Vector gravity{};  ///< acceleration of all particles [L/T^2]
   /// Forces on single particles, by the number of the particle, in addition to gravity [M L/T^2].
   std::map<std::int32_t, PiecewiseConstant> forces;
-  /// The laws of each pair. Friction needs particles that turn (add_rotation).
+  /// The laws that each contact obeys. Friction needs particles that turn (add_rotation()).
   ContactLaws laws;
-  std::vector<Source> sources{};  ///< pour particles in; only without a fluid
+  std::vector<Source> sources{};  ///< add particles during the simulation; only without a fluid
   Links links;           ///< hinges, springs and arms; need particles that turn, except on an axis
   double time_step = 0;  ///< h [T], > 0
   Scheme scheme = Scheme::kEuler;  ///< kLeapfrog only without a fluid
   SolverSettings solver;           ///< tolerances and limits of the projection
-  std::optional<Fluid> fluid;      ///< around the particles; needs a domain
-  /// Torques on single particles, by the number of the particle [M L^2/T^2]; for discs component 2,
-  /// counter-clockwise. Needs particles that turn. A particle with a torque has no entry in
-  /// `given_motions`.
+  std::optional<Fluid> fluid;      ///< fluid around the particles, if there is one; needs a domain
+  /// Torques on single particles, by the number of the particle [M L^2/T^2]; of discs in component
+  /// 2, counter-clockwise. They need particles that turn. A particle with a torque has no given
+  /// motion.
   std::map<std::int32_t, PiecewiseConstant> torques;
   /// Motions of the particles that are driven through the fluid, by the number of the particle. A
   /// driven particle has no entry in `forces`, and gravity does not change its motion.
   std::map<std::int32_t, GivenMotion> given_motions;
-  /// Forces [M L/T^2] and torques [M L^2/T^2] on all particles in addition to those above, in the
-  /// order of Particles::velocities and Particles::angular_velocities; empty: none. Those of driven
-  /// particles have no effect. The caller of a simulation may change them between two steps
-  /// (Simulation::added_forces). Torques need particles that turn.
-  std::vector<double> added_forces{}, added_torques{};  ///< the torques, as above
+  /// Forces [M L/T^2] on all particles in addition to gravity and `forces`, in the order of
+  /// Particles::velocities; empty: none. Those on driven particles have no effect. The caller of a
+  /// simulation may change them between two steps (Simulation::added_forces()).
+  std::vector<double> added_forces{}, added_torques{};  ///< torques [M L^2/T^2], for particles that
+                                                        ///< turn
 };
 
-/// The cell of the domain with the mean velocity gradient of the fluid, 0 without a fluid.
+/// The periodic cell of the domain, with the mean velocity gradient of the fluid if there is one.
 PeriodicCell cell_of(const Setting& setting);
 
 /// The force of Setting::added_forces on particle k [M L/T^2]; 0 if there are none.
@@ -106,19 +107,19 @@ inline Vector added_torque(const Setting& setting, std::size_t k, int dimension)
   return {0, 0, setting.added_torques[k]};
 }
 
-/// Setting::added_forces for these particles, with zeros at first.
+/// Setting::added_forces, extended by zeros to one entry for each velocity component.
 inline std::span<double> added_forces_for(const Particles& particles, Setting& setting) {
   setting.added_forces.resize(particles.velocities.size());
   return setting.added_forces;
 }
 
-/// Setting::added_torques for these particles, with zeros at first; empty if they do not turn.
+/// Setting::added_torques, likewise; empty if the particles do not turn.
 inline std::span<double> added_torques_for(const Particles& particles, Setting& setting) {
   setting.added_torques.resize(particles.angular_velocities.size());
   return setting.added_torques;
 }
 
-/// All obstacles of a case: the walls of its domain, then its planes. Files number them -1, -2, ...
+/// All obstacles: the walls of the domain, then the planes. In files obstacle k is -1 - k.
 std::vector<Plane> obstacles_of(const Setting& setting);
 
 }  // namespace viscontact::particles

@@ -1,6 +1,8 @@
-// Time stepping of many particles, docs/physics.md (5.3): free motion, projection, new gamma, new
-// positions; and the division of steps with fast particles. Numbers are in the units of the case.
-// Errors are those of Simulation::step(). If a step throws, the state must be that before the step.
+// Computes the steps of many particles (simulation.hpp), docs/physics.md (5.3): motion without
+// contacts (free_motion.cpp), projection, new gamma, new positions; and divides steps with fast
+// particles. Numbers are in the units of the case; h [T] is the length of a step or of a part of
+// it. Errors are those of Simulation::step(). A change must keep that, if a step throws, the state
+// is that before the step. Used by run/, sweep/ and python/.
 #include "viscontact/particles/simulation.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +28,8 @@ namespace viscontact::particles {
 namespace {
 
 /// Length of the displacement of particle k [L]. Throws Error(kNotConverged) if a component of the
-/// displacement or of the position exceeds `largest` [L] in magnitude or is not a number.
+/// displacement or of the position exceeds `largest` [L] in magnitude or is not a number. `time` is
+/// the end of the step, for the message.
 double checked_length(const Particles& p, const std::vector<double>& displacements, std::size_t k,
                       double largest, double time) {
   const Vector x = p.position(k), w = point_of(displacements.data(), k, p.dimension);
@@ -44,8 +47,7 @@ std::array<std::int32_t, 3> key_of(const Pair& pair) {
   return {pair.first, pair.second, pair.image};
 }
 
-/// Calls `change` with each number of `memory` that is an impulse of the step, and the same number
-/// of `other`.
+/// Calls `change` with each number of `memory` that is an impulse, and that of `other`.
 template <class Change>
 void for_impulses(PairMemory& memory, const PairMemory& other, const Change& change) {
   for (std::size_t f = 0; f < kMemoryFields.size(); ++f)
@@ -68,8 +70,8 @@ Simulation::Simulation(Setting setting, State state, int threads)
   wrap_into_cell(state_);
   if (state_.steps > 0) check_shapes(setting_.links.membranes, state_.particles);
   if (setting_.sources.empty()) return;
-  // The arrays get room for all particles that sources will pour in, so that they stay where they
-  // are and callers may view them.
+  // Memory for all particles that sources will add is reserved now, so that the arrays never move,
+  // and callers may keep views of them.
   auto& p = state_.particles;
   auto most = p.count();
   for (const auto& source : setting_.sources) most += source.due(source.end);
@@ -84,7 +86,7 @@ Simulation::Simulation(Setting setting, State state, int threads)
   if (state_.steps == 0) pour();
 }
 
-/// Pours in the particles that are due now.
+/// Adds the particles of sources that are due now.
 void Simulation::pour() {
   if (setting_.sources.empty()) return;
   pouring_.pour(setting_, state_);
@@ -93,8 +95,7 @@ void Simulation::pour() {
   if (!setting_.added_torques.empty()) added_torques();
 }
 
-/// Multiplies the impulses of all pairs by `factor`. They serve as guesses for a part of a step of
-/// another length.
+/// Multiplies the impulses of all pairs, which are first guesses for a part of another length.
 void Simulation::scale_impulses(double factor) {
   for_pairs([&](Pair& pair) {
     pair.impulse *= factor;
@@ -104,7 +105,7 @@ void Simulation::scale_impulses(double factor) {
   });
 }
 
-/// Copies impulses of the step before, and what pairs remember, to restore them if the step throws.
+/// Copies the impulses of the step before and the memories, to restore them if this step throws.
 void Simulation::save_impulses() {
   if (!saved_impulses_.empty() || before_division_) return;
   for_pairs([&](const Pair& pair) {
@@ -122,7 +123,7 @@ void Simulation::take_impulses(const ProjectionResult& projected) {
   }
 }
 
-/// Updates what laws remember of each pair in the projection. Returns the number of glued pairs.
+/// Updates gamma and memories of each pair of the projection. Returns how many have gamma < 0.
 std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
   std::size_t glued = 0;
   for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
@@ -163,8 +164,8 @@ ProjectionResult Simulation::project(double h, double next) {
     for (std::size_t k = begin; k < end; ++k) longest.value = std::max(longest.value, length_of(k));
     return longest;
   };
-  // A particle further from a plane than twice the longest displacement cannot meet the plane. A
-  // quarter of the mean radius is the least margin.
+  // Only particles closer to an obstacle than the margin are listed. Both of its terms are free
+  // choices: the loop below repeats the step with a longer one if a particle moves further.
   const double longest =
       pool_->sum_of_blocks<MaximumOfBlocks>(state_.particles.count(), longest_of).value;
   double margin = std::max(2 * longest, mean_radius_ / 4);
@@ -197,10 +198,10 @@ ProjectionResult Simulation::project(double h, double next) {
       for (const auto body : impacts<D>()->touched())
         gone = std::max(gone, length_of(index_of(body)));
     if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) return projected;
-    // The impulses moved particles further than the lists cover, so the step is repeated with
-    // longer lists. The loop ends because skins and margin only grow. The new impulses are a good
-    // guess. With restitution they are not stored, because the blows need the impulses of the step
-    // before, which say which pairs bore a load in it.
+    // The impulses moved particles further than the lists allow for, so that pairs may be missing:
+    // the projection is repeated with longer lists. The loop ends because skins and margin only
+    // grow. The new impulses are its first guess. With restitution the impulses of the step before
+    // are kept instead, because they say which pairs bore a load, which the blows need to know.
     if (!setting_.laws.restitution.is_on()) {
       save_impulses();
       take_impulses(projected);
@@ -212,8 +213,8 @@ ProjectionResult Simulation::project(double h, double next) {
   }
 }
 
-/// Adds the works of the arms in a part of length h, whose displacements are known. Their impulses
-/// change the velocities, so that each does its work at the mean of the rates before and after.
+/// Adds the works of the arms in a part of length h, whose displacements are known. The work of an
+/// impulse is the impulse times the mean of the rates at which the arm grows before and after it.
 void Simulation::add_works_of_arms(double h) {
   const auto& p = state_.particles;
   const auto before = [&](std::int32_t particle) -> UnitMotion {
@@ -239,7 +240,8 @@ void Simulation::add_works_of_arms(double h) {
   }
 }
 
-/// Finds the blows of a part of a step, whose displacements are those without contacts.
+/// Finds the blows (impacts of solids with restitution) of a part. The displacements must be those
+/// without contacts.
 template <int D>
 void Simulation::find_impacts(double h, double next) {
   impacts<D>().reset();
@@ -260,7 +262,7 @@ void Simulation::find_impacts(double h, double next) {
   impacts<D>()->run();
 }
 
-/// Takes back what the blows changed in the state, before a part of a step is computed anew.
+/// Takes back what the blows changed in the state, before a part of a step is computed again.
 void Simulation::undo_impacts() {
   if (impacts_in_plane_) impacts_in_plane_->undo();
   if (impacts_in_space_) impacts_in_space_->undo();
@@ -304,7 +306,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
 void Simulation::examine(const ProjectionResult& projected, double next) const {
   const auto& residuals = projected.residuals;
   refuse_deep_overlap(residuals, state_.particles, setting_, mean_radius_, next, [&] {
-    // The obstacles that move in this step and push on a particle.
+    // Finds the obstacles that move in this step and push on a particle.
     std::vector<char> presses(obstacles_.size(), 0);
     for (std::size_t f = 0; f < projected.pairs.size(); ++f)
       if (projected.pairs[f]->first < 0 && projected.impulses[f] > 0)
@@ -357,7 +359,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     scale_impulses(0.5);
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
-    // The next part may have twice the length; its guess are these impulses times 2.
+    // The next part may have twice the length. Its first guess is twice these impulses.
     if (halvings > 0) scale_impulses(2);
     return;
   }
@@ -372,8 +374,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     });
 }
 
-/// Computes a step, divided if necessary. If a part throws, the state is again that before the
-/// step.
+/// Computes a step, perhaps in parts. If a part throws, the state becomes that before the step.
 template <int D>
 void Simulation::advance_whole(double h, double next, StepReport& report) {
   try {
@@ -383,7 +384,7 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
     rebounds_.clear();
     undo_impacts();
     if (before_division_) {
-      state_ = *before_division_;  // copied, so that the arrays stay where callers may view them
+      state_ = *before_division_;  // copied, so that the arrays keep their places in memory
     } else if (!saved_impulses_.empty()) {
       for_pairs([&](Pair& pair) {
         const auto saved = saved_impulses_.find(key_of(pair));

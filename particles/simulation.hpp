@@ -1,7 +1,8 @@
-// Simulates many rigid discs or spheres with viscous contact: problem (5.2) and scheme (5.3) of
-// docs/physics.md (Maury 2006; Lefebvre 2009). Lengths, masses and times are in any consistent
-// units. `particles` and its sweeps use it. A change must keep the results independent of the
-// number of threads, bit for bit.
+// Simulates many rigid discs or spheres with viscous contact, without a fluid around them: problem
+// (5.2) and scheme (5.3) of docs/physics.md (Maury 2006; Lefebvre 2009). Lengths, masses and times
+// are in any consistent units. run/, sweep/ and python/ use it. A change must keep that no bit of
+// the results depends on the number of threads, or on whether the run was continued from a restart
+// file.
 #pragma once
 
 #include <array>
@@ -35,69 +36,75 @@ class Impacts;
 ///     M d^2x/dt^2 = M f + sum lambda_ij G_ij^T,   dgamma_ij/dt = -lambda_ij,
 ///
 /// where velocities v are projected, in the norm of M, on G_ij v = 0 where gamma_ij < 0, and on
-/// G_ij v >= 0 where gamma_ij = 0 and D_ij = 0. x are the centres, D_ij is the gap of a pair, G_ij
-/// v its rate, gamma_ij minus the impulse that its film has absorbed and lambda_ij the force of its
-/// contact; M are the masses and M f the forces. Each step solves one convex projection, (5.3). The
-/// pull of a film is bounded by the impulse that the film has absorbed. A pair therefore separates
-/// within the step in which its gamma reaches 0, with the momentum that is left of the pull. At
-/// gamma_min (film_law.hpp) the solids carry the rest of the load.
+/// G_ij v >= 0 where gamma_ij = 0 and D_ij = 0. x are the centres, D_ij is the gap of the pair i,
+/// j, G_ij v the rate of this gap, gamma_ij minus the impulse that the film between both surfaces
+/// has absorbed, and lambda_ij the force of the contact, > 0 where it pushes; M are the masses and
+/// M f the forces. Each step solves one convex projection, (5.3). A pair with gamma_ij < 0 is
+/// called glued. Its film pulls with an impulse of at most -gamma_ij, so that the pair separates
+/// within the step in which gamma_ij reaches 0. gamma_ij falls no lower than gamma_min
+/// (film_law.hpp); there the solids carry the rest of the load.
 class Simulation {
  public:
-  /// `setting` has no fluid (FluidSimulation has one). `state` is what read_restart returned, or a
-  /// state of which only the particles are set; their dimension is 2 or 3. `threads` >= 1 is the
-  /// number of threads.
+  /// `setting` has no fluid (for a fluid there is FluidSimulation). `state` is what read_restart()
+  /// returned, or a state of which only the particles are set; their dimension is 2 or 3. `threads`
+  /// >= 1 is the number of threads. Throws Error(kBadInput) if membranes of a state that has done
+  /// steps do not fit the setting (check_shapes() in membrane.hpp).
   Simulation(Setting setting, State state, int threads);
   ~Simulation();
-  Simulation(Simulation&&) noexcept;  ///< the other simulation must not be used afterwards
+  Simulation(Simulation&&) noexcept;  ///< the moved simulation must not be used afterwards
 
-  /// Computes one step and pours in the particles of Setting::sources that are due at its end.
-  /// Those that are due at the time at which a new simulation begins are poured in at once. Arrays
+  /// Computes one step, and then adds the particles of Setting::sources that are due at the end of
+  /// the step. (The constructor adds those that are due when a new simulation begins.) The arrays
   /// of the particles keep their places in memory.
   ///
-  /// The step has the length h = Setting::time_step, but for steps at jumps (step_times.hpp).
-  /// If the time `end` [T] is earlier than the end of this step by more than a millionth of h, the
-  /// step ends at `end`. If less than a millionth of h is left until `end`, no step is made.
-  /// Without this millionth, rounding errors of the times would cause tiny steps.
+  /// The step has the length h = Setting::time_step, except near times at which a force or the
+  /// velocity of a plane jumps (step_times.hpp). If `end` [T] is earlier than the end of this step
+  /// by more than a millionth of h, the step ends at `end`. If less than a millionth of h is left
+  /// until `end`, no step is made: rounding errors of the times would cause tiny steps.
   ///
-  /// A step in which touching particles turn about each other by more than kLargestTurn is halved,
-  /// up to kMostHalvings times. The report then has contacts and glued pairs of the last part.
+  /// A step in which two touching particles pass each other by more than half the sum of their
+  /// radii (kLargestTurn in contact.hpp) is computed in two halves, and these again, up to
+  /// kMostHalvings times. StepReport::contacts and ::glued are those of the last part.
   ///
   /// Throws Error(kNotConverged) if a position or displacement exceeds largest_resolved_distance(),
-  /// if the projection has not converged and leaves an overlap of more than the mean radius (for
-  /// example because moving planes leave the particles too little room), or if links and contacts
-  /// contradict each other. The state is then that before the step. Other steps that have not
-  /// converged are accepted; StepReport::converged is then false.
+  /// or a displacement what a period allows (rebuild_neighbour_list()), if the projection has not
+  /// converged and leaves an overlap of more than the mean radius (for example because moving
+  /// planes leave the particles too little space), or if links and contacts contradict each other.
+  /// If it throws, the state is that before the step. Other steps that have not converged are
+  /// accepted, and StepReport::converged is false.
   StepReport step(double end);
 
-  /// The smallest part of a step is 2^-8 = 1/256 of the step. Such a part resolves the contact of
-  /// equal particles that move past each other by up to 256 radii in a step.
+  /// How often a step may be halved. The smallest part is 2^-8 = 1/256 of the step. In it equal
+  /// particles may pass each other by one radius, and in the step by 256 radii. A larger value
+  /// resolves faster particles, but multiplies the number of parts.
   static constexpr int kMostHalvings = 8;
 
-  /// Forces of the caller on the particles [M L/T^2], in addition to those of the setting: as many
-  /// numbers for each particle as there are dimensions, 0 at first. They act in each of the next
-  /// steps with the values that they have when the step begins. No step changes them, and the state
-  /// does not contain them. With kLeapfrog they act from the middle of the last step to the middle
-  /// of the next one, so that forces which depend on positions keep the second order.
+  /// Forces on the particles [M L/T^2] that the caller may set, in addition to those of the
+  /// setting: as many numbers for each particle as there are dimensions, 0 at first. They act in
+  /// each of the next steps with the values that they have when the step begins. No step changes
+  /// them, and the state does not contain them. With Scheme::kLeapfrog they act from the middle of
+  /// the last step to the middle of the next one, so that the scheme keeps its second order also
+  /// for forces that depend on positions.
   std::span<double> added_forces() { return added_forces_for(state_.particles, setting_); }
-  /// Torques of the caller [M L^2/T^2], likewise: one for each disc, three for each sphere; empty
-  /// if the particles do not turn.
+  /// Torques that the caller may set [M L^2/T^2], likewise: one for each disc, three for each
+  /// sphere; empty if the particles do not turn.
   std::span<double> added_torques() { return added_torques_for(state_.particles, setting_); }
 
   const State& state() const { return state_; }        ///< after the last step
   const Setting& setting() const { return setting_; }  ///< with the added forces and torques
 
-  /// The blows of solids in the last step, in order of time; empty without restitution.
+  /// The blows (impacts of solids) of the last step, in order of time; empty without restitution.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
 
-  /// The particles with their velocities at the present time. With kLeapfrog, velocities of the
-  /// state are those at an earlier time (State::velocity_lag); particles and bodies without links
-  /// and without an impulse of a contact in the last step get what forces, gravity and torques have
-  /// given them since then.
+  /// The particles with their velocities at the present time. With Scheme::kLeapfrog, velocities of
+  /// the state are those at an earlier time (State::velocity_lag). Here the velocity that forces,
+  /// gravity and torques have given since then is added, for particles and bodies without links and
+  /// without an impulse of a contact in the last step; others keep the velocities of the state.
   Particles reported_particles() const;
 
  private:
-  // In all members `h` is the length of a step or of a part of it, and `next` the time at its end
-  // [T]. Time for which forces act on the velocities in a part of length `h` [T].
+  // In all private members `h` is the length of a step or of a part of it, and `next` the time at
+  // its end [T]. kick_length() is the time for which forces act on the velocities in it [T].
   double kick_length(double h) const {
     return setting_.scheme == Scheme::kLeapfrog ? state_.velocity_lag + h / 2 : h;
   }
@@ -122,8 +129,7 @@ class Simulation {
       for (auto& pair : *pairs) visit(pair);
   }
   void examine(const ProjectionResult& projected, double next) const;
-  // Sets the displacements h u* [L] of the free motion, without contacts, in a part of length h
-  // that ends at time `next`.
+  // Sets the displacements h u* [L] of the motion without contacts and links.
   template <int D>
   void move_freely(double h, double next);
   void turn_freely(double h, double next);
@@ -134,11 +140,11 @@ class Simulation {
   std::vector<BodyLoad> loads_of_bodies(
       const std::function<Vector(const PiecewiseConstant&)>& mean) const;
   std::vector<char> free_particles() const;
-  // Solves the projection. The displacements h u* become h v.
+  // Solves the projection. Its velocities are v: the displacements h u* become h v.
   template <int D>
   ProjectionResult project(double h, double next);
   void move(double h);
-  // The blows of the part of a step that is being computed.
+  // The blows of the part of a step that is being computed; null without restitution.
   template <int D>
   std::unique_ptr<Impacts<D>>& impacts() {
     if constexpr (D == 2)
@@ -156,25 +162,25 @@ class Simulation {
   State state_;
   Pouring pouring_;
   double mean_radius_;
-  double first_time_;  // time of the state given to the constructor [T]
+  double first_time_;  // time of the state that the constructor was given [T]
   std::unique_ptr<ThreadPool> pool_;
-  std::vector<double> displacements_;  // h u*, later h v [L]
+  std::vector<double> displacements_;  // h u* without contacts, later h v with contacts [L]
   std::vector<double> mobilities_;     // h/m [T/M]
-  // If the particles turn: h w*, later h w [rad], and h/I [T/(M L^2)].
+  // If particles turn: h w*, later h w [rad], and h/I, I the moments of inertia [T/(M L^2)].
   std::vector<double> turns_, turn_mobilities_;
-  std::vector<BodyStep> body_steps_;  // of the rigid bodies
-  // Forces of the links in the present part of a step, and the integral of the forces over the
-  // parts that are done [M L/T, M L^2/T], with the sum of the times for which they act.
+  std::vector<BodyStep> body_steps_;  // displacements and turns of the rigid bodies in the part
+  // Forces and torques of the links in the present part [M L/T^2, M L^2/T^2]; the sums of their
+  // impulses over the parts that are done [M L/T, M L^2/T], and of the times for which they acted.
   std::vector<double> link_forces_, link_impulses_;
   double link_time_ = 0;
-  std::vector<double> arm_works_;  // of the arms in the parts of a step that are done [M L^2/T^2]
+  std::vector<double> arm_works_;  // work of each arm in the parts that are done [M L^2/T^2]
   std::vector<Plane> obstacles_;   // walls of the domain, then planes
   StepGrid grid_;
   std::unique_ptr<Impacts<2>> impacts_in_plane_;
   std::unique_ptr<Impacts<3>> impacts_in_space_;
   std::vector<Rebound> rebounds_;
-  // Impulses of pairs [M L/T], by the numbers of both particles and of the image. If a step is
-  // divided: the sums of the impulses of its parts, and the state before the step.
+  // Impulses of a pair [M L/T], in the maps below by Pair::first, second and image. If a step is
+  // divided: the sums of the impulses over its parts, and the state before the step.
   struct Impulses {
     double of_contact = 0;
     PairMemory memory{};
@@ -182,7 +188,7 @@ class Simulation {
   std::map<std::array<std::int32_t, 3>, Impulses> impulses_of_parts_;
   std::optional<State> before_division_;
   std::map<std::array<std::int32_t, 3>, Impulses>
-      saved_impulses_;  // before a step that is repeated
+      saved_impulses_;  // before a step whose projection is repeated
 };
 
 }  // namespace viscontact::particles

@@ -1,7 +1,8 @@
-// Vectors of the plane or of space, and access to flat arrays of them, of any dimension and in any
-// unit. All of particles/ uses them; nothing is checked or thrown. Eigen::Vector3d is not used,
-// because each source that includes this file would take a second longer to compile, and because a
-// default Eigen vector is not zero, as Vector{} is.
+// A vector of up to three components, its operations, and how vectors are read from a flat array.
+// Components may have any unit. All of particles/ uses this file; nothing is checked or thrown. A
+// change must keep Vector{} zero and the order of the terms in each sum, because the last bits of
+// all results depend on that order. Eigen::Vector3d is not used, because each source that includes
+// this file would take a second longer to compile, and because a default Eigen vector is not zero.
 #pragma once
 
 #include <array>
@@ -10,8 +11,8 @@
 
 namespace viscontact::particles {
 
-/// A vector with three components. In two dimensions the third component is 0; on an axis only the
-/// first, along the axis, is not 0.
+/// A vector with three components. In two dimensions the third component is 0. For particles on an
+/// axis the first component is along the axis, and the other two are 0.
 using Vector = std::array<double, 3>;
 
 /// Inner product.
@@ -32,10 +33,10 @@ inline Vector operator*(double s, const Vector& a) { return {s * a[0], s * a[1],
 inline Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-/// Length. It is infinite if its square overflows.
+/// Euclidean length; infinite if the square of the length overflows.
 inline double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
 
-/// Vector k of a flat array with `dimension` (1, 2 or 3) numbers for each vector.
+/// Vector k, from 0, of a flat array with `dimension` (1, 2 or 3) numbers for each vector.
 inline Vector point_of(const double* values, std::size_t k, int dimension) {
   const double* at = values + k * static_cast<std::size_t>(dimension);
   return {at[0], dimension > 1 ? at[1] : 0.0, dimension > 2 ? at[2] : 0.0};

@@ -1,7 +1,8 @@
-// Reads [arrangement] of a case of many particles, and the species of particles, which sources
-// have, too (particles_sections.hpp). Lengths, masses and times are in the units of the case. A
-// wrong value is an Error(kBadInput) with its line. A change must keep keys and defaults, which
-// users' cases rely on. Used by particle_tables.cpp and source_section.cpp.
+// Reads the section [arrangement] of a case of many particles, which places particles at random,
+// and the species (kinds) of particles that arrangements and sources have (particles_sections.hpp).
+// Lengths, masses and times are in the units of the case. A wrong value is an Error(kBadInput) with
+// its line. A change must keep keys and defaults, which users' cases rely on. Used by
+// particle_tables.cpp and source_section.cpp.
 #include <algorithm>
 #include <limits>
 #include <string_view>
@@ -15,8 +16,7 @@ constexpr std::string_view kRadiusWords =
     "a number, a list of numbers, `{ uniform = [a, b] }` or `{ lognormal = { median, sigma } }`";
 
 void lognormal_keys(case_file::Keys& keys, RadiusDistribution& radius) {
-  // With sigma = 1, four standard deviations are a factor of 55; only 6 in 1e5 radii are beyond
-  // them.
+  // A free choice: with sigma = 1, all but 6 in 1e5 radii are within a factor of 55 of the median.
   constexpr Allowed kSigma = {[](double v) { return v >= 1e-6 && v <= 1; }, "from 1e-6 to 1"};
   keys.required("median", case_file::number(radius.median, kModeratelyPositive), {"median radius"});
   keys.required("sigma", case_file::number(radius.sigma, kSigma),
@@ -58,7 +58,7 @@ void read_radius(const case_file::TomlSection& section, std::string_view key,
     radius.list = {section.number(key, kModeratelyPositive)};
 }
 
-/// The keys of a species, which are those of the whole section if it has one species.
+/// Declares the keys of a species, in a table of the list `species` or else in the section itself.
 void species_keys(case_file::Keys& keys, Species& species, bool has_fluid, bool is_listed) {
   keys.required_if(true, "radius", case_file::custom(kRadiusWords, read_radius, species.radius),
                    {"radius of each particle. The radii of a list are taken in turn",
@@ -88,11 +88,11 @@ void read_species(const case_file::TomlSection& section, std::string_view key,
     case_file::read_keys(table, species_keys, all.emplace_back(), has_fluid, true);
 }
 
-/// What [arrangement] says before the particles are placed.
+/// The values of the keys of [arrangement].
 struct ArrangementKeys {
   std::vector<Species> species;
-  std::size_t count = 0;  // 0: not given
-  double fraction = 0;    // of the area or volume of the domain
+  std::size_t count = 0;  // number of particles; 0: not given
+  double fraction = 0;    // fraction of the area or volume of the domain, < 1; 0: not given
   double smallest_gap = -1;
   std::uint64_t seed = 1;
 };
@@ -159,7 +159,7 @@ void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
                   kLargestCount, kLargestCount);
   Arrangement asked{.radii = {}, .smallest_gap = keys.smallest_gap, .seed = keys.seed};
   for (const auto& particle : particles) asked.radii.push_back(particle.radius);
-  constexpr double kGapOfRadius = 0.05;
+  constexpr double kGapOfRadius = 0.05;  // free; a change alters the arrangements of seeds
   if (asked.smallest_gap < 0) asked.smallest_gap = kGapOfRadius * std::ranges::min(asked.radii);
   require_ids(section, key, p, particles.size());
   const auto centres = case_file::at_key(section, key, [&] { return arrange(asked, domain, p); });

@@ -1,6 +1,8 @@
-// Reads and checks rigid bodies, hinges, springs and arms (particles_sections.hpp). Lengths, masses
-// and times are in the units of the case. A wrong value is an Error(kBadInput) with its line. A
-// change must keep keys and defaults, which users' cases rely on. Used by particles_case.cpp.
+// Reads and checks the tables [[body]], [[hinge]], [[spring]] and [[arm]] of a case of many
+// particles (particles_sections.hpp): rigid bodies, and links that hold particles and bodies.
+// Lengths, masses and times are in the units of the case. A wrong value is an Error(kBadInput) with
+// its line. A change must keep keys and defaults, which users' cases rely on. Used by
+// particles_case.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,7 +39,7 @@ void check_members(const case_file::TomlSection& section, const std::vector<std:
         !c.setting.given_motions.contains(*member), "particles",
         "contains particle {}, whose motion is given; a particle of a body must be free", id);
   }
-  // In a periodic domain the particles must determine the body, whatever their order.
+  // In a periodic domain the images that make the body must not depend on the order of the members.
   if (const auto ambiguous = ambiguous_images(c.particles, members))
     section.fail("particles",
                  fmt::format("do not determine which of their images make the body: along {} the "
@@ -46,7 +48,7 @@ void check_members(const case_file::TomlSection& section, const std::vector<std:
                              kAxes[ambiguous->axis], ambiguous->distance));
 }
 
-/// In a periodic domain a body must not touch itself across the period.
+/// Throws if a body is so large that it could touch its own periodic image.
 void check_fits(const case_file::TomlSection& section, const ParticlesCase& c) {
   const double diameter = particles::diameter(c.particles.bodies.bodies.back(), c.particles);
   for (const double period : c.particles.cell.lengths)
@@ -79,11 +81,11 @@ void body_keys(case_file::Keys& keys, RigidBodyRequest& body, const ParticlesCas
        "that of the particles at their places, scaled with `mass` if that is given", words});
 }
 
-/// A table [[hinge]].
+/// The values of a table [[hinge]]; members without a value are not given.
 struct HingeTable {
-  int body = -1;                                // number of the body; -1: none is named
-  std::vector<std::int32_t> held;               // the particles to choose from
-  Vector at{};                                  // [L]
+  int body = -1;                                // number of the body; -1: a particle is named
+  std::vector<std::int32_t> held;               // the particle, or the members of the body
+  Vector at{};                                  // place of the hinge [L]
   std::optional<double> stiffness, rest_angle;  // [M L^2/T^2], [rad]
   std::optional<double> lowest, highest;        // [rad]
 };
@@ -163,7 +165,7 @@ Hinge read_hinge(const case_file::TomlSection& section, const ParticlesCase& c,
   hinge.body = table.body;
   hinge.point.particle = *holder;
   const double angle = p.angles.empty() || is_body ? 0 : p.angles[index_of(*holder)];
-  // The body is at the image of its centre that is nearest to the hinge.
+  // In a periodic domain the hinge holds the image of the body that is nearest to it.
   const Vector arm = nearest_image(
       cell_of(c.setting.domain), hinge.at - (is_body ? p.bodies.bodies[index_of(hinge.body)].centre
                                                      : p.position(index_of(*holder))));
@@ -182,7 +184,7 @@ Hinge read_hinge(const case_file::TomlSection& section, const ParticlesCase& c,
   return hinge;
 }
 
-/// Reads `between` of a spring or arm.
+/// Reads the key `between` of a spring or arm, the ids of its two particles.
 void read_ends(const case_file::TomlSection& section, std::string_view key,
                std::array<std::int32_t, 2>& place, const ParticlesCase& c, const ParticleIds& ids) {
   std::vector<std::int32_t> ends;
@@ -200,7 +202,7 @@ void read_ends(const case_file::TomlSection& section, std::string_view key,
   place = {ends[0], ends[1]};
 }
 
-/// Distance of the centres of two particles at the start, across periods if that is shorter [L].
+/// Distance [L] of the centres of two particles, or their nearest images, at the start.
 double distance_at_start(const ParticlesCase& c, std::int32_t first, std::int32_t second) {
   return norm(nearest_image(cell_of(c.setting.domain), c.particles.position(index_of(second)) -
                                                            c.particles.position(index_of(first))));
@@ -247,7 +249,7 @@ void pieces_of_length_keys(case_file::Keys& keys, PiecewiseLinearLength& pieces)
                "is {}; it must be at least the last time of the pieces, {}", pieces.period,
                last[0]);
   if (last[0] != pieces.period) return;
-  // The end of the last piece is the beginning of the next period.
+  // The last point is the first point of the next period, and is dropped.
   keys.require(last[1] == pieces.points.front()[1], "pieces",
                "ends with the length {} at the end of the period; it must be {}, with which the "
                "next period begins",
@@ -301,7 +303,8 @@ std::string arm_in_words(const ParticlesCase& c, const Arm& arm) {
                      c.particles.id(index_of(arm.second)));
 }
 
-/// The decisive_times() of several arms together [T], at which conditions between them are checked.
+/// The times [T] at which conditions between several arms are checked: the decisive_times() of all
+/// of them (links.hpp), between which each length is nearly linear.
 std::vector<double> times_of(std::span<const Arm* const> arms, double end) {
   std::vector<double> times;
   for (const auto* arm : arms) {
@@ -313,7 +316,7 @@ std::vector<double> times_of(std::span<const Arm* const> arms, double end) {
 }
 
 void check_arm(const case_file::TomlSection& section, const Arm& arm, const ParticlesCase& c) {
-  // Distances of places that are given with six digits are accepted. The first step corrects them.
+  // Relative error of distances of places with six digits. The first step corrects the distance.
   constexpr double kRounded = 1e-6;
   const double length = length_at(arm.length, 0);
   const double distance = distance_at_start(c, arm.first, arm.second);
@@ -339,7 +342,7 @@ void check_triangle(std::span<const case_file::TomlSection> sections, const Part
                     std::array<std::size_t, 3> sides) {
   const auto& arms = c.setting.links.arms;
   const std::array of = {&arms[sides[0]], &arms[sides[1]], &arms[sides[2]]};
-  // The bound is exceeded by rounding errors if all three particles are on a line.
+  // If all three particles are on a line, rounding errors of about 1e-16 could exceed the bound.
   constexpr double kRounding = 1e-9;
   for (const double time : times_of(of, c.end_time)) {
     const auto length = [&](std::size_t side) { return length_at(of[side]->length, time); };
@@ -362,7 +365,7 @@ void check_arms(std::span<const case_file::TomlSection> sections, const Particle
                         arm_in_words(c, arms[k]));
     check_arm(sections[k], arms[k], c);
   }
-  // All triangles: for each arm, the particles that arms connect with both of its ends.
+  // All triangles of arms: each arm with each particle that arms connect with both of its ends.
   std::map<std::int32_t, std::vector<std::int32_t>> neighbours;
   for (const auto& arm : arms) {
     neighbours[arm.first].push_back(arm.second);

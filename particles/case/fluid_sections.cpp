@@ -1,6 +1,7 @@
-// Reads [domain] and [fluid] of a case of many particles (particles_sections.hpp). Lengths, masses
-// and times are in the units of the case. A wrong value is an Error(kBadInput) with its line. A
-// change must keep keys and defaults, which users' cases rely on. Used by particles_case.cpp.
+// Reads the sections [domain], [fluid] and [[probe]] of a case of many particles
+// (particles_sections.hpp). Lengths, masses and times are in the units of the case. A wrong value
+// is an Error(kBadInput) with its line. A change must keep keys and defaults, which users' cases
+// rely on. Used by particles_case.cpp.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -46,13 +47,13 @@ void cylinder_keys(case_file::Keys& keys, CylinderDomain& cylinder) {
                 {"height of the lid; the floor is at z = 0"});
 }
 
-/// Reads the table of a shape by its declaration.
+/// Reads the table of a shape whose keys the function `declaration` declares.
 template <class Shape, void (*declaration)(case_file::Keys&, Shape&)>
 void read_shape(const case_file::TomlSection& section, std::string_view key, Domain& domain) {
   case_file::read_keys(section.section(key), declaration, domain.emplace<Shape>());
 }
 
-/// Reads a box of a case with this dimension.
+/// Reads a box of a case with this dimension: 3 coordinates for 3, otherwise 2.
 void read_box(const case_file::TomlSection& section, std::string_view key, Domain& domain,
               int dimension) {
   case_file::read_keys(section.section(key), box_keys, domain.emplace<BoxDomain>(),
@@ -77,9 +78,9 @@ void domain_keys(case_file::Keys& keys, Domain& domain, int dimension) {
        "(floor) and -3 (lid)"});
 }
 
-/// Checks that the section has exactly one shape, and that it belongs to the dimension.
+/// Checks that the section has exactly one shape, and that the shape belongs to the dimension.
 void check_shape(const case_file::TomlSection& section, int dimension) {
-  // A box has the dimension of its case.
+  // The shapes with the dimensions of their cases; a box may have 2 or 3.
   const std::array kShapes = {std::pair("disc", 2),
                               std::pair("box", dimension == 1 ? 2 : dimension),
                               std::pair("cylinder", 1)};
@@ -110,15 +111,16 @@ constexpr Allowed kPenalty = {[](double v) { return v >= 1e-12 && v <= 1; }, "fr
 constexpr Allowed kGap = {[](double v) { return v >= 0 && v <= kLargestNumber; },
                           "from 0 to 1e100"};
 
-// Sides of a box in the order of SideVelocities.
+// Keys of the sides of a box, in the order of SideVelocities.
 constexpr std::array kSides = {"left", "right", "bottom", "top"};
 
 /// Axis of the normal of a side: 0 for left and right, 1 for bottom and top.
 std::size_t axis_of(std::size_t side) { return side / 2; }
 
-/// A side whose velocity is a parabola or depends on time.
+/// Declares the keys of a table for one side, whose velocity is a parabola or may depend on time.
 void side_keys(case_file::Keys& keys, WallVelocity& wall) {
-  // pieces() refers to these numbers. A velocity does not end before the case.
+  // pieces() keeps references to these numbers, so that they are static. kNoEnd: the pieces need
+  // not last until any time, because the last one is extended below.
   static const int kAlong = 1, kInPlane = 2;
   static const double kNoEnd = 0;
   const bool is_parabola =
@@ -163,7 +165,7 @@ void read_side(const case_file::TomlSection& section, std::string_view side, Wal
   }
 }
 
-/// Flux into the box through a side at time 0 [L^2/T]; 0 for an open side.
+/// Flux into the box through a side at time 0 [L^2/T]; 0 for an open side, whose flux is not given.
 double influx(const BoxDomain& box, std::size_t side, const WallVelocity& of_side) {
   WallVelocity wall = of_side;
   wall.value = of_side.at(0);
@@ -176,7 +178,7 @@ double influx(const BoxDomain& box, std::size_t side, const WallVelocity& of_sid
   return (is_first ? wall.value[axis] : -wall.value[axis]) * length;
 }
 
-/// True if fluid may flow through the side, whose normal is along `axis`.
+/// True if fluid may ever flow through the side, whose normal is along `axis` (0: x, 1: y).
 bool brings_fluid(const WallVelocity& wall, std::size_t axis) {
   if (wall.kind != WallVelocity::Kind::kConstant) return true;
   return wall.value[axis] != 0 || std::ranges::any_of(wall.pieces.pieces, [&](const auto& piece) {
@@ -184,7 +186,7 @@ bool brings_fluid(const WallVelocity& wall, std::size_t axis) {
          });
 }
 
-/// What `velocity` gives: a shear rate, a strain rate, or the velocities of single sides.
+/// Values of the table fluid.velocity: a shear rate, a strain rate, or velocities of single sides.
 struct VelocityKeys {
   std::optional<double> shear_rate, strain_rate;  // [1/T]
   SideVelocities sides;
@@ -206,7 +208,7 @@ void velocity_keys(case_file::Keys& keys, VelocityKeys& velocity) {
          "at rest"});
 }
 
-/// Checks the entries of single sides, of which at least one exists.
+/// Checks the velocities of single sides, of which at least one is given.
 void check_sides(const case_file::TomlSection& fluid, const case_file::TomlSection& section,
                  const VelocityKeys& velocity, const Domain& domain) {
   const auto* box = std::get_if<BoxDomain>(&domain);
@@ -231,7 +233,7 @@ void check_sides(const case_file::TomlSection& fluid, const case_file::TomlSecti
   fluid.require(any_open || !any_changes, "velocity",
                 "has a flux into the domain that depends on time; a side must be \"open\", because "
                 "the fluid is incompressible");
-  // Fluxes that users compute from rounded numbers balance to about as many digits as these have.
+  // Relative error of a net flux that users balance with rounded numbers; a free choice.
   constexpr double kRounding = 1e-9;
   fluid.require(any_open || std::abs(net) <= kRounding * sum, "velocity",
                 "gives a net flux of {:.6g} into the domain; it must be 0, because the fluid is "
@@ -239,9 +241,10 @@ void check_sides(const case_file::TomlSection& fluid, const case_file::TomlSecti
                 net);
 }
 
-/// Throws an error if the velocity that belongs to `key` is not the same on both sides of a period.
-/// Allowed are any gradient in a domain that is periodic both ways, where it is the mean gradient,
-/// and a shear u = shear_rate y with a period along x only, which is the same on both sides.
+/// Throws if the velocity that belongs to `key` is not the same on both sides of a period. In a
+/// domain that is periodic both ways any gradient is allowed, because there it is the mean
+/// gradient. With a period along x only, a shear is allowed, because its velocity (shear_rate y, 0)
+/// does not depend on x.
 void check_periods(const case_file::TomlSection& section, const char* key, bool is_shear,
                    const Domain& domain) {
   const auto* box = std::get_if<BoxDomain>(&domain);
@@ -302,7 +305,7 @@ void read_pressure_gradient(const case_file::TomlSection& section, std::string_v
   fluid.pressure_gradient = {vector[0], vector[1]};
 }
 
-/// The keys of a fluid with inertia.
+/// Declares the keys of a fluid with inertia.
 void inertia_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
   keys.optional("density", case_file::number(fluid.density, kModeratelyPositiveOr0),
                 {"rho_f of a fluid [with inertia](fluid.md#inertia-of-the-fluid); 0: Stokes flow"});
@@ -331,7 +334,8 @@ void inertia_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
                "pressure_gradient", "belongs to a box; it must be left out in a cylinder");
 }
 
-/// What a fluid with inertia cannot have.
+/// Checks velocities that depend on time, which need inertia, and what a fluid with inertia cannot
+/// have.
 void check_inertia(case_file::Keys& keys, const Fluid& fluid, const Domain& domain) {
   const auto* sides = std::get_if<SideVelocities>(&fluid.boundary);
   const bool depends_on_time =
@@ -435,7 +439,8 @@ void probe_keys(case_file::Keys& keys, Probe& probe, const Domain& domain) {
   probe.to = {to[0], to[1]};
   if (!keys.reads()) return;
   const auto* box = std::get_if<BoxDomain>(&domain);
-  // Which of the sides, that are no periods, a point is on; -1: none.
+  // Number of the side of the box that a point is on, 0 to 3 in the order of SideVelocities; -1 if
+  // it is on none. Periodic sides do not count.
   const auto side_of = [&](const std::array<double, 2>& x) {
     for (std::size_t d = 0; d < 2; ++d) {
       const double length = box->to[d] - box->from[d], other = box->to[1 - d] - box->from[1 - d];

@@ -1,6 +1,8 @@
-// Checks what a fluid needs of the particles at the start of a case, and chooses the default of the
-// threshold gap by them. Lengths are in the unit of the case. Each fault is an Error(kBadInput)
-// with the line of the particle or of the key. Used by particles_case.cpp.
+// Checks whether the flow around the particles at the start of a case can be computed, and chooses
+// the default of fluid.threshold_gap, the gap at which contact is made (particles_sections.hpp).
+// Lengths, masses and times are in the units of the case. Each fault is an Error(kBadInput) with
+// the line of the particle or of the key. A change must keep accepting users' cases. Used by
+// particles_case.cpp.
 #include <algorithm>
 #include <numbers>
 #include <numeric>
@@ -14,7 +16,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// Smallest gap that the fitted mesh resolves, divided by the radius of the smaller particle.
+/// Smallest gap that the fitted mesh (FluidMesh::kFitted) resolves, divided by the radius of the
+/// smaller particle. The narrower a gap, the more edges the mesh needs. docs/fluid.md repeats the
+/// value.
 constexpr double kLeastGapOfMesh = 1e-3;
 
 /// Gap at which the solids of rough particles touch [L]; 0 for smooth ones.
@@ -36,21 +40,20 @@ bool has_only_open_sides(const ParticlesCase& c) {
   return any_open;
 }
 
-/// True for an obstacle (`body` < 0) and for a particle whose motion is given, which no impulse
-/// moves.
+/// True if no impulse moves `body`: for an obstacle (< 0) and for a particle whose motion is given.
 bool is_driven(const ParticlesCase& c, std::int32_t body) {
   return body < 0 || c.setting.given_motions.contains(body);
 }
 
-/// Whether members k and `other` of a body, which overlap, may do so: false with a penalty or a
-/// fixed mesh, and for outlines that are no discs.
+/// Whether the members k and `other` of a body may overlap: not with a penalty or a fixed mesh, and
+/// only if both are discs.
 bool may_overlap(const ParticlesCase& c, std::size_t k, std::size_t other) {
   const auto& fluid = *c.setting.fluid;
   return fluid.constraint == RigidConstraint::kRigid && fluid.is_disc(k) && fluid.is_disc(other);
 }
 
-/// Checks that the mesh can follow disc k of a body, which overlaps the disc `other` of it. Returns
-/// whether their circles meet on the outline of the body.
+/// Checks that the mesh can follow disc k of a body where disc `other` of the body overlaps it.
+/// Returns whether their circles meet on the outline of the body.
 bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size_t k,
                    std::size_t other) {
   const auto fail = [&](std::string_view why) {
@@ -60,6 +63,7 @@ bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size
   if (!chord_of(c.particles, k, other))
     fail("one of them is inside the other one, where it must be left out");
   const auto chords = chords_of(*c.setting.fluid, c.particles, k);
+  // docs/fluid.md repeats this limit and kLeastWedge below, and so do the messages.
   constexpr double kDegree = std::numbers::pi / 180, kLeastArc = 1 * kDegree;
   for (std::size_t i = 0; i < chords.size(); ++i) {
     const auto &before = chords[i], &after = chords[(i + 1) % chords.size()];
@@ -88,7 +92,8 @@ bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size
   return true;
 }
 
-/// Checks rigid bodies and links in a fluid.
+/// Checks the gaps and overlaps of members of rigid bodies, the moments of inertia, and the lengths
+/// of arms.
 void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
                   const ParticleNames& names) {
   const auto& p = c.particles;
@@ -102,7 +107,8 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
     const auto& body = p.bodies.bodies[b];
     const auto masses = member_masses(body, p);
     double least = 0;
-    std::vector<std::size_t> union_of(masses.size());  // lowest member of its union
+    std::vector<std::size_t> union_of(masses.size());  // a member's number, the same for all that
+                                                       // overlap
     std::iota(union_of.begin(), union_of.end(), 0U);
     for (std::size_t m = 0; m < masses.size(); ++m) {
       least += masses[m] * dot(body.offsets[m], body.offsets[m]);
@@ -177,7 +183,8 @@ void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
                       "projected in the norm of the masses, but the mass of {} is 0; it must be "
                       "\"constrained\", or the particle must have a mass",
                       names(k)));
-  // With splitting, friction turns particles by their moments of inertia alone.
+  // With Coupling::kSplitting the turn of a particle by friction is computed from its moment of
+  // inertia, without the fluid.
   for (std::size_t k = 0; k < c.particles.count() && c.setting.laws.friction; ++k)
     if (c.particles.inertias[k] == 0 && !is_driven(c, static_cast<std::int32_t>(k)))
       root.section("fluid").fail(
@@ -189,7 +196,8 @@ void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
               names(k)));
 }
 
-/// If there are ellipses, checks that the case has nothing that can be computed for discs only.
+/// Throws if ellipses, plates or overlapping discs are in a case with a fluid solver of the user's
+/// own, or ellipses in a case with bodies or links.
 void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
                     const ParticleNames& names) {
   const auto& fluid = *c.setting.fluid;
@@ -215,8 +223,9 @@ void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
   }
 }
 
-/// Checks what a fluid with inertia needs of its particles. With a penalty the inertia of a
-/// particle is that of a very viscous fluid of uniform density.
+/// Checks masses, velocities and moments of inertia of particles in a fluid with inertia. With
+/// RigidConstraint::kPenalty a particle is computed as a fluid of uniform density, and its moment
+/// of inertia must be that of a uniform particle.
 void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
                    const ParticleNames& names) {
   const auto& fluid = *c.setting.fluid;
@@ -267,8 +276,8 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
   }
 }
 
-/// Throws an error if the fitted mesh cannot resolve the gap between a sphere on the axis and the
-/// side of its cylinder.
+/// Throws if the fitted mesh cannot resolve the gap between a sphere on the axis and the side of
+/// its cylinder.
 void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) {
   const auto* cylinder = std::get_if<CylinderDomain>(&c.setting.domain);
   if (cylinder == nullptr || c.setting.fluid->mesh != FluidMesh::kFitted) return;
@@ -283,8 +292,8 @@ void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) 
   }
 }
 
-/// Throws an error for a mean flow in a run of more than one step: the flow deforms the lattice of
-/// images, but the cell of this version keeps its shape.
+/// Throws for a mean velocity gradient in a run of more than one step. The gradient would deform
+/// the lattice of periodic images, but the mesh is that of a box that keeps its shape.
 void check_mean_flow(const case_file::TomlSection& root, const ParticlesCase& c) {
   const auto* box = std::get_if<BoxDomain>(&c.setting.domain);
   const auto* flow = std::get_if<LinearFlow>(&c.setting.fluid->boundary);
@@ -305,8 +314,8 @@ void check_mean_flow(const case_file::TomlSection& root, const ParticlesCase& c)
                c.end_time, c.setting.time_step);
 }
 
-/// Checks an arrangement in a fluid by the smallest gap that the case demands, and not by the gaps
-/// of its discs, so that it is accepted or refused whatever its seed is.
+/// Checks the smallest gap that [arrangement] demands. The actual gaps of its discs are not used,
+/// so that an arrangement is accepted or refused whatever its seed is.
 void check_arrangement(const case_file::TomlSection& root, const ParticlesCase& c) {
   if (!c.arrangement) return;
   const auto& fluid = *c.setting.fluid;
@@ -354,20 +363,21 @@ void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGa
                                                            : "viscous_contact.roughness"));
 }
 
-/// Largest limit up to `asked` [L] for which gaps_at_start() can find all gaps.
+/// The largest limit up to `asked` [L] that gaps_at_start() accepts.
 double limit_within_periods(const ParticlesCase& c, double asked) {
   const double diameter = 2 * std::ranges::max(c.particles.radii);
-  // close_pairs_in_period() needs sums of extents below the period; the factor leaves a margin.
+  // The limit must be less than the period minus the diameter; any factor slightly below 1 works.
   constexpr double kLess = 0.999;
   for (const double period : periods_of(c.setting.domain))
     if (period > 0) asked = std::min(asked, kLess * (period - diameter));
   return asked;
 }
 
-/// Bodies and links are held by forces that are found from velocities of the fluid, and these have
-/// rounding errors of about 1e-15/penalty (particles/fluid/fluid_motion.hpp). Seven touching discs
-/// of a body were held with penalties down to 3e-11; with 1e-11 the errors were taken for
-/// constraints that contradict each other.
+/// Throws if the penalty is too small for a case with bodies or links. The forces that hold them
+/// are computed from velocities of the fluid, which have rounding errors of about 1e-15/penalty
+/// (particles/fluid/fluid_motion.hpp). The limit is measured: a body of seven touching discs was
+/// held with penalties down to 3e-11; with 1e-11 the step failed with constraints that seemed to
+/// contradict each other.
 void check_penalty(const case_file::TomlSection& root, const ParticlesCase& c) {
   constexpr double kLeast = 1e-10;
   const auto& fluid = *c.setting.fluid;
@@ -386,7 +396,7 @@ void check_penalty(const case_file::TomlSection& root, const ParticlesCase& c) {
 }  // namespace
 
 void set_default_threshold_gap(ParticlesCase& c) {
-  constexpr double kOfRadius = 0.05;
+  constexpr double kOfRadius = 0.05;  // free; a change alters results of cases without the key
   double smallest = std::ranges::min(c.particles.radii);
   for (const auto& axes : c.setting.fluid->semi_axes)
     smallest = std::min(smallest, std::ranges::min(axes));

@@ -1,7 +1,7 @@
-// Reads the particles of a case: [particles], [[particle]] and [[force]]
-// (particles_sections.hpp). Lengths, masses and times are in the units of the case. A wrong value
-// is an Error(kBadInput) with its line. A change must keep keys and defaults, which users' cases
-// rely on. Used by particles_case.cpp.
+// Reads the particles of a case of many particles: the sections [particles] (a CSV file),
+// [[particle]] and [[force]] (particles_sections.hpp). Lengths, masses and times are in the units
+// of the case. A wrong value is an Error(kBadInput) with its line. A change must keep keys and
+// defaults, which users' cases rely on. Used by particles_case.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,8 @@ constexpr Allowed kMassWithoutFluid = {
     "from 1e-100 to 1e100 (0 is allowed only in a case with [fluid])"};
 constexpr std::array kKeysOfRotation = {"torque", "angle", "angular_velocity", "moment_of_inertia"};
 
-/// Throws an error for keys of a table [[particle]] that this case cannot have.
+/// Throws for keys of a table [[particle]] that do not belong to this dimension, to a case with or
+/// without a fluid, or beside each other.
 void check_keys(const case_file::TomlSection& section, int dimension, bool in_fluid) {
   section.require(
       !section.has("semi_axes") || (in_fluid && dimension == 2), "semi_axes",
@@ -51,28 +52,29 @@ void given_motion_keys(case_file::Keys& keys, GivenMotion& motion, int dimension
                 {"counter-clockwise", "0"});
 }
 
-/// A table [[particle]].
+/// The values of a table [[particle]], in the units of the case; angles in radians.
 struct ParticleTable {
   Vector centre{}, velocity{}, angular_velocity{};
   double radius = 0, mass = 0, angle = 0;
   std::optional<double> moment_of_inertia;
-  std::array<double, 2> semi_axes{};  // of an ellipse or plate; zeros: a disc or sphere
-  std::optional<double> length;       // of a plate
-  /// Area of the disc, ellipse or plate, volume of the sphere [L^2, L^3].
+  std::array<double, 2> semi_axes{};  // [L], of an ellipse or plate; zeros: a disc or sphere
+  std::optional<double> length;       // [L], of a plate with round ends
+  /// Area of the disc, ellipse or plate [L^2], or volume of the sphere [L^3].
   double size(int dimension) const {
     if (length) return size_of_plate(semi_axes);
     return semi_axes[0] > 0 ? size_of_ellipse(semi_axes) : size_of_particle(dimension, radius);
   }
-  /// About its centre, homogeneous if the moment is not given [M L^2].
+  /// Moment of inertia about the centre [M L^2]: the one that is given, or else that of a
+  /// homogeneous particle.
   double inertia_in_plane() const {
     if (moment_of_inertia) return *moment_of_inertia;
     if (length) return homogeneous_inertia_of_plate(mass, semi_axes);
     return semi_axes[0] > 0 ? homogeneous_inertia_of_ellipse(mass, semi_axes)
                             : homogeneous_inertia(2, mass, radius);
   }
-  PiecewiseConstant force, torque;  // without pieces if they are not given
+  PiecewiseConstant force, torque;  // empty if they are not given
   bool is_fixed = false;
-  std::optional<GivenMotion> given;  // also of a particle that is fixed
+  std::optional<GivenMotion> given;  // how it is driven; a fixed particle has velocities 0
 };
 
 void read_given_motion(const case_file::TomlSection& section, std::string_view key,
@@ -110,7 +112,7 @@ void read_semi_axes(const case_file::TomlSection& section, std::string_view key,
                   "contains {} numbers; it must contain the 2 semi-axes of an ellipse",
                   numbers.size());
   std::ranges::copy(numbers, axes.begin());
-  constexpr double kMostSlender = 100;  // meshes were tested up to it
+  constexpr double kMostSlender = 100;  // meshes were tested up to this ratio
   const double ratio = std::ranges::max(axes) / std::ranges::min(axes);
   section.require(ratio <= kMostSlender, key,
                   "has a larger semi-axis {:.6g} times the smaller one; at most {} is possible",
@@ -159,7 +161,8 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
        "length along `angle`, with round ends of the `radius`",
        "none"});
   if (p.length) {
-    // Meshes were tested up to the first ratio. A shorter plate is nearly a disc.
+    // Meshes were tested up to the first ratio. Plates below the second one are nearly discs; it is
+    // a free choice.
     constexpr double kMostSlender = 100, kLeast = 1.01;
     const double ratio = *p.length / (2 * p.radius);
     keys.require(ratio >= kLeast && ratio <= kMostSlender, "length",
@@ -177,8 +180,9 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
                  "from 1e-100 to 1e100, in a fluid also 0"});
 }
 
-/// Adds the rotation of the last particle of a case without a fluid. Particles begin to turn with
-/// the first table that has a key of rotation; the particles before it have the defaults.
+/// Sets angle, angular velocity and moment of inertia of the last particle of a case without a
+/// fluid. The first table with one of kKeysOfRotation makes all particles turn; those before it get
+/// the defaults of add_rotation().
 void add_rotation_of_last(const case_file::TomlSection& section, const ParticleTable& table,
                           Particles& p) {
   if (!p.turn() &&
@@ -195,12 +199,12 @@ void add_rotation_of_last(const case_file::TomlSection& section, const ParticleT
   if (table.moment_of_inertia) p.inertias[k] = *table.moment_of_inertia;
 }
 
-/// Value of a function at time 0.
+/// Value at time 0; 0 without pieces.
 Vector at_start(const PiecewiseConstant& function) {
   return function.pieces.empty() ? Vector{} : function.pieces.front().value;
 }
 
-/// Extends the semi-axes to the particles before particle `end`, which are discs.
+/// Adds semi-axes of discs for the particles before particle `end` that have none yet.
 void add_discs(std::vector<std::array<double, 2>>& axes, const Particles& p, std::size_t end) {
   for (auto k = axes.size(); k < end; ++k) axes.push_back({p.radii[k], p.radii[k]});
 }
@@ -267,7 +271,7 @@ void read_file_of_particles(const case_file::TomlSection& section, ParticlesCase
   if (!in_fluid && p.turn()) add_rotation(p);
 }
 
-/// A table [[force]].
+/// The values of a table [[force]].
 struct ForceTable {
   std::vector<std::int32_t> particles;
   PiecewiseConstant value;

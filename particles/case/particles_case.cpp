@@ -1,6 +1,8 @@
-// Reads the case file of many particles (particles_case.hpp). Numbers are in the units of the case.
-// A wrong value is an Error(kBadInput) with its line. A change must keep keys and defaults, which
-// users' cases rely on.
+// Reads the case file of many particles (particles_case.hpp), and its sections [space],
+// [viscous_contact], [friction], [solver], [output], [[plane]] and [sweep]; the other sections have
+// sources of their own. Numbers are in the units of the case. A wrong value is an Error(kBadInput)
+// with its line. A change must keep keys and defaults, which users' cases rely on. Used by run/,
+// sweep/ and python/.
 #include "viscontact/particles/case/particles_case.hpp"
 
 #include <algorithm>
@@ -44,7 +46,8 @@ void space_keys(case_file::Keys& keys, ParticlesCase& c) {
                 {"acceleration of all particles", "0"});
 }
 
-/// The contact law. In a fluid its viscosity is that of the fluid, unless it is given.
+/// Declares the keys of the film law. In a fluid the film has the viscosity of the fluid, unless
+/// the key is given.
 void film_keys(case_file::Keys& keys, FilmLaw& law, const std::optional<Fluid>& fluid) {
   keys.optional("gamma_min", case_file::number(law.gamma_min, kNotPositive),
                 {"for every pair, an impulse (of discs in a fluid an impulse per length); 0: no "
@@ -81,7 +84,8 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.required("time_step", case_file::number(step, kModeratelyPositive), {"at most `end_time`"});
   keys.require(step <= c.end_time, "time_step", "is {}; it must be at most end_time, {}", step,
                c.end_time);
-  constexpr double kMostSteps = 1e9;  // more probably come from a wrong unit of time
+  constexpr double kMostSteps = 1e9;  // a free choice: more steps probably come from a wrong unit
+                                      // of time
   keys.require(c.end_time / step <= kMostSteps, "time_step",
                "is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed", step,
                c.end_time / step, kMostSteps);
@@ -131,7 +135,7 @@ void read_friction(const case_file::TomlSection& section, int dimension, Setting
                   "\"fixed_point\", or the key must be left out");
 }
 
-/// Friction in a fluid is that of particles that do not rebound, and not of membranes.
+/// Throws if a case with friction in a fluid has restitution or membranes, too.
 void check_friction_in_fluid(const case_file::TomlSection& section, const Setting& setting) {
   if (!setting.fluid) return;
   section.require(
@@ -214,8 +218,8 @@ void plane_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
                  "`point`"});
 }
 
-/// Throws an error for a plane that is not parallel to the periods of the domain. Such a plane
-/// would bound the particles and not their images.
+/// Throws for a plane that is not parallel to the periods of the domain, because it would bound the
+/// particles but not their periodic images.
 void check_periods_of_plane(const case_file::TomlSection& section, const Plane& plane,
                             const Domain& domain) {
   const auto periods = periods_of(domain);
@@ -254,14 +258,14 @@ void read_domain_and_fluid(const case_file::TomlSection& root, ParticlesCase& c)
                     "section [fluid] belongs to a case without a section [domain]; the case must "
                     "have one, because walls or periods must hold the fluid");
   c.setting.fluid = read_fluid(section, c.setting.domain);
-  // Files that the command `solver` names are relative to the folder of the case file, as all files
-  // of a case are.
+  // Names of files in the command `solver` are relative to the folder of the case file, as all
+  // names of files in a case are.
   auto& command = c.setting.fluid->solver;
   command = with_absolute_files(std::move(command), fs::absolute(c.path).parent_path());
 }
 
-/// Reads the whole case from its parsed TOML `root` and checks it. `text` and `path` are those of
-/// the file.
+/// Reads the whole case from the root table `root` of its TOML and checks it. `text` and `path` are
+/// those of the file.
 ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string text,
                                 const fs::path& path) {
   auto c = case_file::titled_case<ParticlesCase>(root, std::move(text), path, true);

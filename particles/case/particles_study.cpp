@@ -1,7 +1,8 @@
-// Cases, rows and means of a sweep of particles (particles_study.hpp). A wrong key is an
-// Error(kWrongUsage). Everything that determines the results of a row must go into identity(), so
-// that results of another row are not kept. The draws of a point follow each other in the file, so
-// that means need only one point in memory at a time.
+// Makes the cases, rows and means of a sweep of particles (particles_study.hpp). Results are in the
+// units of the case. A key that cannot be varied is an Error(kWrongUsage). A change must keep that
+// everything that determines the results of a row is in identity(), because results with the same
+// identity are not computed again, and that the draws of a point follow each other in the file,
+// because means are computed point by point. Used by sweep/ and app/.
 #include "viscontact/particles/case/particles_study.hpp"
 
 #include <fmt/format.h>
@@ -50,7 +51,8 @@ std::vector<std::string> columns_of(const ParticlesCase& c) {
   return columns;
 }
 
-/// "MEAN,STANDARD_ERROR" of some values; fields that the values do not give are empty.
+/// "MEAN,STANDARD_ERROR" of `values`. Both fields are empty without values and if a value is not
+/// finite; the second one is empty for one value.
 std::string mean_fields(const std::vector<double>& values) {
   if (values.empty()) return ",";
   const auto n = static_cast<double>(values.size());
@@ -98,8 +100,8 @@ ParticlesSweep::ParticlesSweep(const std::filesystem::path& case_path, sweep::Po
                 "random samples need a varied key, which gives their range");
   check_varied_keys(points_);
   sweep::refuse_doubles(points_.keys(), "the key");
-  // The limit of the points of a grid (sweep/variation.cpp), a free choice. Without it the product
-  // of points and draws could exceed 64 bits.
+  // A free choice, the same as for the points of a grid in sweep/variation.cpp. Without a limit the
+  // product of points and draws could exceed 64 bits.
   constexpr std::uint64_t kMostRows = 1000000000000;
   if (points_.draws > kMostRows / points_.count())
     throw Error(ErrorKind::kWrongUsage, fmt::format("{} points with {} draws are more than {} rows",
@@ -136,8 +138,8 @@ std::string ParticlesSweep::identity(std::uint64_t index, const std::string& ver
 }
 
 sweep::Study ParticlesSweep::study(const std::string& version, ParticlesRunner run) const {
-  // The identities of the first and the last row stand for all rows: the other rows differ from
-  // them only in the varied numbers, which are in the file.
+  // The identities of the first and the last row are enough, because other rows differ from them
+  // only in the varied numbers, which are in the file.
   return {points_, result_columns_,
           sweep::head_of("sweep of particles", read_file(case_path()), points_,
                          identity(0, version) + identity(points_.rows() - 1, version), version),

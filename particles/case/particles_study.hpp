@@ -1,7 +1,8 @@
-// A sweep over a case of many particles: the case is run at each point of a grid, at each point
-// with several random arrangements if draws are asked for, and each run gives a row of results
-// (docs/file-formats.md). Lengths, masses and times are in the units of the case. A change of the
-// columns must keep their names, because scripts of users read them.
+// A sweep over a case of many particles: which runs it has, and the tables of their results. A
+// point of the sweep is a set of values of the varied keys of the case. At each point the case is
+// run once, or with several random arrangements of its particles (draws), and each run gives a row
+// of results (docs/file-formats.md). Lengths, masses and times are in the units of the case. sweep/
+// and app/ use it. A change must keep the names of the columns, because scripts of users read them.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,7 @@
 
 namespace viscontact::particles {
 
-/// Name of the column of a sweep with the part of the domain that the particles of [arrangement]
-/// cover.
+/// Name of the column with the fraction of the domain that the particles of [arrangement] cover.
 inline const char* fraction_column(const ParticlesCase& c) {
   return c.particles.dimension == 3 ? "volume_fraction" : "area_fraction";
 }
@@ -26,12 +26,12 @@ inline const char* fraction_column(const ParticlesCase& c) {
 /// wrong or a range in [sweep] is not valid.
 sweep::Points planned_particles(const std::filesystem::path& case_path);
 
-/// Runs the case of a row. It is called by several threads at once. Results of a run that failed
-/// have a `failure`; an error that ends the whole sweep is thrown.
+/// Runs the case of row `index`, from 0. It is called by several threads at once. If only this run
+/// fails, the results have a `failure`; an Error that it throws ends the whole sweep.
 using ParticlesRunner =
     std::function<sweep::RowResults(std::uint64_t index, const StopToken& stop)>;
 
-/// The points of a sweep of particles, and their cases.
+/// The points of a sweep of particles, and the cases of its rows. Row `index` < points().rows().
 class ParticlesSweep {
  public:
   /// Reads the case. Throws Error(kBadInput) if the first or the last row gives no valid case, and
@@ -40,32 +40,33 @@ class ParticlesSweep {
   /// arrangement.seed of the case.
   ParticlesSweep(const std::filesystem::path& case_path, sweep::Points points);
 
-  /// The points, with the seed of the first draw.
+  /// The points, with the number of draws at each and the seed of the first draw.
   const sweep::Points& points() const { return points_; }
   /// The case file, as the constructor was given it.
   const std::filesystem::path& case_path() const { return cases_.path(); }
 
-  /// Names of the columns with results. A case without a fluid lacks those of the fluid.
+  /// Names of the columns with results. Those of the fluid are missing if the case has no fluid.
   const std::vector<std::string>& result_columns() const { return result_columns_; }
 
   /// The case of row `index`. Throws Error(kBadInput) if it is not valid.
   ParticlesCase case_of(std::uint64_t index) const { return cases_.with(points_.numbers(index)); }
 
-  /// The text of a case file for row `index`, which may be in any folder. Rows whose case is the
-  /// same have the same text.
+  /// The text of a case file for row `index`. The file may be in any folder, because paths in it
+  /// are absolute. Rows with equal cases have equal texts.
   std::string case_text(std::uint64_t index) const;
 
-  /// The text of the case with no number changed, which may be in any folder.
+  /// The text of a case file without changed values. The file may be in any folder, too.
   std::string base_text() const;
 
   /// The CSV file of particles that the case names; empty if there is none.
   const std::filesystem::path& particles_file() const { return particles_file_; }
 
-  /// Hash of everything that determines the results of row `index`, with this version of
-  /// Viscontact.
+  /// Hash (SHA-256) of everything that determines the results of row `index`: `version`, that of
+  /// Viscontact, the case, and the CSV file of particles.
   std::string identity(std::uint64_t index, const std::string& version) const;
 
-  /// The study whose rows have the results of `run`. `version` is that of Viscontact.
+  /// The sweep in the form that sweep/study.hpp computes and writes; `run` computes its rows.
+  /// `version` is that of Viscontact.
   sweep::Study study(const std::string& version, ParticlesRunner run) const;
 
  private:

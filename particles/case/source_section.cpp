@@ -1,7 +1,7 @@
-// Reads [[source]] of a case of many particles, and checks the radii that sources draw
-// (particles_sections.hpp). Lengths, masses and times are in the units of the case. A wrong value
-// is an Error(kBadInput) with its line. A change must keep keys and defaults, which users' cases
-// rely on. Used by particle_tables.cpp.
+// Reads the tables [[source]] of a case of many particles (particles_sections.hpp). A source adds
+// particles with random radii at random places during the run. Lengths, masses and times are in the
+// units of the case. A wrong value is an Error(kBadInput) with its line. A change must keep keys
+// and defaults, which users' cases rely on. Used by particle_tables.cpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +15,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// A table [[source]].
+/// The values of a table [[source]]; members without a value are not given.
 struct SourceKeys {
   Source source;
   std::optional<std::size_t> number;
@@ -62,7 +62,7 @@ void source_keys(case_file::Keys& keys, SourceKeys& asked, int dimension) {
                 {"of radii and places: the same seed gives the same particles on every machine"});
 }
 
-/// Throws an error if a corner of the region is outside the domain or behind an obstacle.
+/// Throws if a corner of the region is outside the domain or behind an obstacle.
 void check_region(const case_file::TomlSection& section, const Source& source,
                   const ParticlesCase& c) {
   const auto* box = std::get_if<BoxDomain>(&c.setting.domain);
@@ -93,7 +93,7 @@ Source read_source(const case_file::TomlSection& section, const ParticlesCase& c
   source.largest_count = keys.number.value_or(kLargestCount + 1);
   source.rate = keys.rate ? *keys.rate
                           : static_cast<double>(source.largest_count) / (source.end - source.begin);
-  // Sources with one seed pour different particles.
+  // Two sources with the same seed in the case must not add the same particles.
   source.seed = splitmix_hash(source.seed) + c.setting.sources.size();
   check_region(section, source, c);
   section.require(source.due(source.end) <= kLargestCount, "rate",
@@ -102,7 +102,7 @@ Source read_source(const case_file::TomlSection& section, const ParticlesCase& c
   return source;
 }
 
-/// The radii that a source draws until it ends.
+/// The radii of all particles that a source adds until it ends.
 struct RadiiOfSource {
   double smallest = std::numeric_limits<double>::infinity(), largest = 0, sum = 0;  // [L]
   std::size_t count = 0;
@@ -120,7 +120,7 @@ RadiiOfSource radii_of(const Source& source, int dimension) {
     radii.sum += particle.radius;
     ++radii.count;
   }
-  // Bounds of a uniform distribution are accepted or refused whatever the seed is.
+  // Bounds of a uniform distribution count, so that acceptance does not depend on the seed.
   for (const auto& species : source.species) {
     if (species.radius.kind != RadiusDistribution::Kind::kUniform) continue;
     widen(species.radius.from);
@@ -129,13 +129,13 @@ RadiiOfSource radii_of(const Source& source, int dimension) {
   return radii;
 }
 
-/// Largest radius with which a particle has a place in the region of the source between the walls
-/// and the planes at rest, each taken alone and opposite walls together [L].
+/// An upper bound of the radius [L] with which a particle has a place in the region of the source.
+/// Each wall and plane at rest bounds it, and the distance of opposite sides of a box does, too.
 double largest_radius_between_walls(const Source& source, const Setting& setting) {
   double radius = std::numeric_limits<double>::infinity();
   for (const auto& obstacle : obstacles_of(setting)) {
     if (!obstacle.velocity.pieces.empty() || norm(obstacle.angular_velocity) > 0) continue;
-    Vector farthest{};  // place of the region that is farthest from the obstacle
+    Vector farthest{};  // point of the region that is farthest from the obstacle
     for (std::size_t d = 0; d < 3; ++d)
       farthest[d] = obstacle.start.is_curved()
                         ? std::clamp(obstacle.start.point[d], source.from[d], source.to[d])
@@ -148,8 +148,9 @@ double largest_radius_between_walls(const Source& source, const Setting& setting
   return radius;
 }
 
-/// Throws an error if a particle of a source can have no place, or is too small or too far away for
-/// solver.tolerance. `mean_radii` are the least and the largest mean radius of all particles [L].
+/// Throws if a particle of a source can have no place, or is too small or too far from the origin
+/// for solver.tolerance. `mean_radii` are the least and the largest mean radius of all particles
+/// during the run [L].
 void check_radii(const case_file::TomlSection& section, const Source& source,
                  const RadiiOfSource& radii, const std::array<double, 2>& mean_radii,
                  const ParticlesCase& c) {
@@ -202,7 +203,7 @@ void read_sources(const case_file::TomlSection& root, ParticlesCase& c) {
     count += radii.back().count;
     require_ids(section, section.has("number") ? "number" : "rate", p, count);
   }
-  // The mean radius changes while particles are poured in.
+  // The mean radius changes while sources add particles.
   const double at_end = sum / static_cast<double>(p.count() + count);
   const double at_start = p.count() > 0 ? mean_radius(p) : at_end;
   for (std::size_t s = 0; s < sections.size(); ++s)

@@ -1,6 +1,7 @@
-// Checks the state at the start of a case of many particles. Lengths are in the unit of the case.
-// Each fault is an Error(kBadInput). Messages must name the line of the CSV file, because the file
-// can be long. Used by particles_case.cpp and fluid_start_checks.cpp.
+// Checks the places and radii of the particles at the start of a case of many particles
+// (particles_sections.hpp). Lengths are in the unit of the case. Each fault is an Error(kBadInput).
+// A change must keep accepting users' cases, and messages must name the line of the CSV file,
+// because the file can be long. Used by particles_case.cpp and fluid_start_checks.cpp.
 #include <algorithm>
 #include <variant>
 
@@ -73,7 +74,7 @@ std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
   for (std::size_t w = on_axis ? 1 : 0; w < obstacles.size(); ++w) {
     const auto place = obstacles[w].at(0);
     for (std::size_t k = 0; k < p.count(); ++k)
-      // The gap of the circle around an ellipse is at most that of the ellipse.
+      // The circle around an ellipse or plate contains it: the gap of the circle is not larger.
       if (const double least = gap(place, p.position(k), p.radii[k]); least < limit)
         gaps.push_back({-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k),
                         has_ellipses ? gap(place, outline(k)) : least});
@@ -106,7 +107,8 @@ void check_radii_and_distances(const ParticlesCase& c, const ParticleNames& name
                                     names(k), farthest));
 }
 
-/// Says what is wrong with the place of a particle in the domain: a part of a sentence, or nothing.
+/// Says what is wrong with the place of a particle with the centre x and this radius [L] in a
+/// domain: a part of a sentence, or an empty text.
 struct PlaceInDomain {
   Vector x;
   double radius;
@@ -137,8 +139,8 @@ struct PlaceInDomain {
 void check_domain(const ParticlesCase& c, const ParticleNames& names) {
   const auto& p = c.particles;
   const auto periods = periods_of(c.setting.domain);
-  // The gap to an image of the particle itself never changes. Therefore it must be at least the
-  // threshold gap in a fluid, and wide enough for a mesh.
+  // The gap between a particle and its own image never changes. In a fluid it must be at least the
+  // threshold gap, because particles have no contact with themselves.
   for (std::size_t k = 0; k < p.count(); ++k) {
     const auto wrong = std::visit(PlaceInDomain{p.position(k), p.radii[k]}, c.setting.domain);
     if (!wrong.empty())
@@ -158,7 +160,7 @@ void check_domain(const ParticlesCase& c, const ParticleNames& names) {
 }  // namespace
 
 void check_start(const ParticlesCase& c, const ParticleLines& lines) {
-  if (c.particles.count() == 0) return;  // all are poured in
+  if (c.particles.count() == 0) return;  // all particles come from sources
   const ParticleNames names(c, lines);
   check_radii_and_distances(c, names);
   check_domain(c, names);

@@ -1,6 +1,7 @@
-// Reads vectors and piecewise constant vectors (particles_sections.hpp). Vectors have the unit that
-// the key says; times [T] are in the unit of the case. A wrong value is an Error(kBadInput) with
-// its line. A change must keep accepting users' cases.
+// Reads vectors and piecewise constant vectors from the keys of a case of many particles
+// (particles_sections.hpp). Vectors have the unit that the key says; times [T] are in the unit of
+// the case. A wrong value is an Error(kBadInput) with its line. The sources in particles/case/ use
+// it. A change must keep accepting users' cases.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace {
 using ReadVector = void (*)(const case_file::TomlSection&, std::string_view, Vector&,
                             int dimension);
 
-/// Reads a constant, or a list of tables { until, value }; `read` reads each value.
+/// Reads a constant, or a list of tables { until, value }, which must last until `end_time` [T];
+/// `read` reads each value.
 void read_constant_or_pieces(const case_file::TomlSection& section, std::string_view key,
                              PiecewiseConstant& place, int dimension, double end_time,
                              ReadVector read) {
@@ -38,8 +40,8 @@ void read_constant_or_pieces(const case_file::TomlSection& section, std::string_
   }
   section.require(before >= end_time * (1 - 1e-9), key,
                   "ends at {}; it must reach viscous_contact.end_time, {}", before, end_time);
-  // The last piece is extended beyond end_time, because rounding errors could put the end of the
-  // last time step after the end of this piece.
+  // The last piece is extended a little beyond end_time, because rounding errors could let the last
+  // step end after end_time, where the value would be 0.
   place.pieces.back().until =
       std::max(before, std::nextafter(end_time * (1 + 1e-6), kLargestNumber));
 }

@@ -1,5 +1,6 @@
-// Writes contacts and their forces as CSV tables (docs/file-formats.md), in the units of the case.
-// Nothing is thrown. A change must keep the names and the order of the columns.
+// Writes contacts and their forces as CSV tables (contact_file.hpp), in the units of the case.
+// Nothing is checked or thrown. A change must keep the names and the order of the columns, which
+// docs/file-formats.md states and users' scripts read. Used by case/ and run/.
 #include "viscontact/particles/io/contact_file.hpp"
 
 #include <fmt/format.h>
@@ -15,13 +16,13 @@
 namespace viscontact::particles {
 namespace {
 
-/// The names of the axes: z alone on an axis.
+/// One letter for each axis; for particles on an axis only z.
 std::string_view axes_of(int dimension) {
   return dimension == 1 ? "z"
                         : std::string_view("xyz").substr(0, static_cast<std::size_t>(dimension));
 }
 
-/// `begin` with each axis, each after a comma: ",force_x,force_y".
+/// Names of columns of a vector: `begin` and an axis, after a comma each, as ",force_x,force_y".
 std::string components(std::string_view begin, int dimension) {
   std::string text;
   for (const char axis : axes_of(dimension)) text += fmt::format(",{}{}", begin, axis);
@@ -34,7 +35,7 @@ void add(std::string& text, const Vector& x, int dimension) {
     (text += ',') += format_number(x[d]);
 }
 
-/// The columns after gamma and its error.
+/// Names of the columns with forces and memories, which follow those of gamma.
 std::string force_columns(int dimension) {
   auto text = ",normal_force" + (dimension == 1 ? "" : components("tangential_force_", dimension));
   for (const auto& field : kMemoryFields)

@@ -1,6 +1,7 @@
 // Writes bodies.csv, hinges.csv, springs.csv and arms.csv, and links as VTK PolyData
-// (link_file.hpp). Numbers are in the units of the case. Nothing is thrown. A change must keep the
-// columns, which users' scripts read.
+// (link_file.hpp). Numbers are in the units of the case. Nothing is checked or thrown. A change
+// must keep the names and the order of the columns and arrays, which users' scripts read. Used by
+// run/.
 #include "viscontact/particles/io/link_file.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// A row: time, id, values, and further fields with a comma before each.
+/// A row: time, id, `values`, and the text `further` with more fields, each after a comma.
 std::string row(double time, std::size_t id, const std::vector<double>& values,
                 const std::string& further = "") {
   std::string text = fmt::format("{},{}", format_number(time), id);
@@ -25,8 +26,9 @@ std::string row(double time, std::size_t id, const std::vector<double>& values,
   return text + further + "\n";
 }
 
-/// In a fluid, a comma and the field of the error of the force at `place` in State::link_forces, or
-/// of the vector of the `count` forces from there; the field is empty if no error is known.
+/// In a fluid, a comma and a field with the error of the force at `place` in State::link_forces. If
+/// `count` is 2, it is the error of the vector of the two forces from there. The field is empty if
+/// no error is known. Without a fluid the text is empty.
 std::string error_field(const Setting& setting, std::span<const double> errors, std::size_t place,
                         std::size_t count = 1) {
   if (!setting.fluid) return "";
@@ -149,7 +151,7 @@ namespace {
 
 enum class Kind : std::int32_t { kHinge, kSpring, kArm, kMembrane };
 
-/// The arrays of the file.
+/// The arrays of the VTK file. Points and forces have three numbers each.
 struct DrawnCells {
   std::vector<double> points, forces;
   std::vector<std::int32_t> kinds, ids;
@@ -166,10 +168,11 @@ struct DrawnCells {
   }
 };
 
-/// A place in space; on an axis the first number is along z.
+/// The components in space of a vector, which on an axis has only one, along z.
 Vector in_space(const Vector& x, int dimension) { return dimension == 1 ? Vector{0, 0, x[0]} : x; }
 
-/// Adds the line of a spring or arm, or between beads, that pushes its ends apart with `force`.
+/// Adds the line of a spring or arm, or between beads. A `force` > 0 [M L/T^2] pushes its ends
+/// apart.
 void add_line(DrawnCells& drawn, const Particles& p, Kind kind, std::size_t id, std::int32_t first,
               std::int32_t second, double force) {
   const Vector from = p.position(index_of(first));

@@ -1,6 +1,8 @@
-// The motion of rigid bodies, and the forces of links, as CSV tables over time, and the links at
-// one time as a VTK file. Lengths, masses and times are in the units of the case. run/run_log.hpp
-// writes them. A change must keep the names of the columns, which users' scripts read.
+// Writes the motion of rigid bodies and the forces of links (hinges, springs, arms and membranes)
+// as CSV tables over time, and the links at one time as a VTK file. Lengths, masses and times are
+// in the units of the case; forces of discs in a fluid are per length. Nothing is checked or
+// thrown. run/run_log.cpp writes the files. A change must keep the names of the columns and arrays,
+// which users' scripts read.
 #pragma once
 
 #include <span>
@@ -11,17 +13,17 @@
 
 namespace viscontact::particles {
 
-/// A table that gets rows at each output time.
+/// A table with rows for each output time.
 struct TimeTable {
-  std::string name;    ///< of its file
+  std::string name;    ///< name of its file
   std::string header;  ///< line with the names of its columns
-  /// The rows of a state. `force_errors` are estimates of the errors of State::link_forces, as many
-  /// and in the same units; empty: not known.
+  /// Makes the rows of a state. `force_errors` are estimates >= 0 of the errors of
+  /// State::link_forces, in the same order and units; empty: not known.
   std::string (*rows)(const Setting& setting, const State& state,
                       std::span<const double> force_errors);
 };
 
-/// The tables that a run has, each only if the case has what it lists:
+/// The tables of a run. A table is left out if the case has nothing for it:
 ///
 /// - bodies.csv: time,id,x,y,angle,vx,vy,angular_velocity; in space
 ///   time,id,x,y,z,vx,vy,vz,orientation_w,...,angular_velocity_x,...
@@ -33,17 +35,17 @@ struct TimeTable {
 ///
 /// In a fluid springs.csv and arms.csv end with the column force_error_estimate, and hinges.csv has
 /// force_error_estimate,torque_error_estimate before angle: estimates of the errors that the mesh
-/// causes, in the units of the results, and empty where they are not known.
+/// of the fluid causes, in the units of force and torque, and empty where they are not known.
 ///
 /// Ids are numbers from 0 in the order of the case. The force of a hinge is that on its body, and
-/// its torque that of its torsion spring and its stops. Forces of springs and arms are positive
-/// where they push the ends apart. Forces are those of the step that ended at the time, 0 before
-/// the first one. The power is the work of an arm in this step over the length of the step.
+/// its torque that of its torsion spring and its stops. Forces of springs and arms are > 0 where
+/// they push the ends apart. Forces and powers are means over the step that ended at `time`, and 0
+/// before the first step. The power of an arm is > 0 where the arm does work on the particles.
 std::vector<TimeTable> time_tables(const Setting& setting, const Particles& particles);
 
 /// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; appended raw data)
-/// with a vertex for each hinge, at its place, and a line for each spring and each arm, and between
-/// neighbouring beads of a membrane without a fluid, between the centres of the two particles. In a
+/// with a vertex at the place of each hinge, and a line between the centres of two particles for
+/// each spring, for each arm, and for neighbouring beads of a membrane without a fluid. In a
 /// periodic domain the line goes to the nearest image of the second particle. Each cell has
 ///
 /// - kind: 0 hinge, 1 spring, 2 arm, 3 line of a membrane;

@@ -1,6 +1,6 @@
-// Reads and writes particles and contacts as CSV (docs/file-formats.md). Numbers are in the units
-// of the case. A fault of a file is an Error(kBadInput) with its line. A change must keep the names
-// of the columns, which users' files contain.
+// Reads and writes particles as CSV (particle_file.hpp). Numbers are in the units of the case. A
+// fault of a file is an Error(kBadInput) with its line. A change must keep the names of the
+// columns, which docs/file-formats.md states and users' files contain. Used by case/, io/ and run/.
 #include "viscontact/particles/io/particle_file.hpp"
 
 #include <fmt/format.h>
@@ -28,8 +28,8 @@ using Row = CsvRow<kColumns>;
 using Names = std::array<std::string, kColumns>;
 
 // Columns for discs, for spheres, and for spheres on an axis. The required columns come first, as
-// read_csv expects: position, radius, mass. The velocity, columns of other dimensions, the id and
-// the rotation follow.
+// read_csv() expects: position, radius, mass. The velocity, columns that belong to other
+// dimensions, the id and the rotation follow. kId, kAngle, ... are indices in all three lists.
 // clang-format off
 const Names kDiscs = {"x", "y", "radius", "mass", "vx", "vy", "z", "vz", "id", "angle",
   "angular_velocity", "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
@@ -73,7 +73,7 @@ enum class Sign { kAny, kNotNegative, kPositive };
 double allowed(const Row& row, const Names& names, std::size_t column, Sign sign,
                const std::string& file) {
   const double value = required_field(row, names, column, file);
-  // Squares and cubes of this number and of its inverse are finite and not 0.
+  // Squares and cubes of numbers up to this one and of their inverses are finite and not 0.
   constexpr double kLargest = 1e100;
   if (sign == Sign::kNotNegative && !(value == 0 || value >= 1 / kLargest))
     throw_bad_input({file, row.line},
@@ -87,10 +87,10 @@ double allowed(const Row& row, const Names& names, std::size_t column, Sign sign
   return value;
 }
 
-/// Throws Error(kBadInput) for unknown columns, which would otherwise be ignored (a misspelt
+/// Throws Error(kBadInput) for unknown columns, because read_csv() would ignore them (a misspelt
 /// velocity, for example), and for incomplete velocities.
 void check_header(const std::filesystem::path& path, int dimension, bool in_fluid) {
-  // The first columns of kDiscs are those that each file may have, whatever its dimension.
+  // The columns of kDiscs up to `id` are those that each file may have, whatever its dimension.
   const std::span known(kDiscs.begin(), kId + 1);
   const auto of_fluid = in_fluid ? fluid_columns(dimension) : turning_columns(dimension);
   std::ifstream file(path);
@@ -123,8 +123,8 @@ void check_header(const std::filesystem::path& path, int dimension, bool in_flui
         "them or none");
 }
 
-/// The ids of the rows. Empty if the file has no column `id`, if all its fields are empty, or if
-/// the ids are 0, 1, ..., as they are without the column.
+/// The ids of the rows. Empty if the file has no column `id`, if all fields of this column are
+/// empty, or if the ids are 0, 1, ..., as they are without the column.
 std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::string& file) {
   const auto has_id = [](const Row& row) { return row.fields[kId].has_value(); };
   if (std::ranges::none_of(rows, has_id)) return {};

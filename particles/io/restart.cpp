@@ -1,6 +1,6 @@
 // Writes and reads the binary restart file (restart.hpp). Numbers are in the units of the case; a
 // damaged file is an Error(kBadInput). Files of versions 1 to 11 must stay readable; a change of
-// the fields of State or Pair needs a new version.
+// the fields of State or Pair (state.hpp) needs a new version. Used by run/.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <algorithm>
@@ -20,11 +20,9 @@
 namespace viscontact::particles {
 namespace {
 
-// Version 7 differs from version 6 by memories that version 6 has no array for. It is written only
-// where a pair has such a memory. Version 8 has the flow of a fluid with inertia, and is written
-// only where there is one. Version 9 has the positions before the last step, and is written only
-// with membranes. Version 10 has Pair::place, and is written only where one is not 0.
-// Version 11 has State::sources, and is written only in cases with sources.
+// The largest version. A file has the lowest version that holds its state. Version 7 adds the
+// memories of contact laws that have no array in version 6; 8 the flow of a fluid with inertia; 9
+// the positions before the last step, for membranes; 10 Pair::place; and 11 State::sources.
 constexpr int kVersion = 11;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
@@ -32,28 +30,28 @@ constexpr std::string_view kOrder =
     std::endian::native == std::endian::little ? "little-endian" : "big-endian";
 
 /// A pair as versions from 2 on store it. The images (from version 3 on), the impulses of friction
-/// (from version 4 on) and what the solids carried (from version 5 on) are arrays of their own.
+/// (4) and the parts of the impulses that the solids carried (5) are stored in arrays of their own.
 struct StoredPair {
   std::int32_t first, second;
   double gamma, impulse, gamma_error;
 };
 
-/// The motion of a rigid body, from version 5 on.
+/// The motion of a rigid body (RigidBody), as versions from 5 on store it.
 struct StoredBody {
   Vector centre, velocity, angle;
   std::array<double, 4> orientation;
   Vector angular_momentum, angular_velocity;
 };
 
-/// What a file stores in another form than the state.
+/// What a file stores in another form than State does.
 struct StoredArrays {
   std::vector<std::int32_t> images;  ///< of state.pairs; empty if all are 0
   std::vector<std::int32_t> places;  ///< of state.pairs, then of state.walls; empty if all are 0
   std::vector<Vector> frictions;     ///< of pairs and walls; empty if all are 0
-  std::vector<double> carried;       ///< as `frictions`
+  std::vector<double> carried;       ///< Remembered::kCarried, as `frictions`
   std::vector<StoredBody> bodies;
-  /// The further memories of pairs and walls that are not 0: their names, each with a line break,
-  /// and their numbers one after the other. Each has a number for each pair and wall.
+  /// The other memories (kMemoryFields), if not all of their numbers are 0: `names` has the name of
+  /// each with a line break, `memories` for each name one number for each pair and wall.
   std::vector<char> names;
   std::vector<double> memories;
 };
@@ -108,10 +106,10 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   field(state.sources);
 }
 
-/// The first of kMemoryFields that has no array of its own in version 6.
+/// Index of the first of kMemoryFields that has no array of its own in version 6.
 constexpr std::size_t kFirstNamed = 4;
 
-/// Moves the memories of the state into the arrays of a file.
+/// Copies the memories of the state into the arrays of a file.
 void store_memories(const State& state, StoredArrays& arrays) {
   const auto all = [&](const auto& visit) {
     for (const auto* pairs : {&state.pairs, &state.walls})
@@ -132,7 +130,8 @@ void store_memories(const State& state, StoredArrays& arrays) {
   }
 }
 
-/// Sets the memories of the state. Returns false if the arrays do not fit its pairs.
+/// Sets the memories of the state from the arrays. Returns false if the arrays do not fit the pairs
+/// of the state, or have a name or value that is not allowed.
 bool take_memories(const StoredArrays& arrays, State& state) {
   const auto count = state.pairs.size() + state.walls.size();
   const auto fits = [&](std::size_t size) { return size == 0 || size == count; };
@@ -240,8 +239,8 @@ class Reader {
   int version_;
 };
 
-/// Removes the line that begins with `begin` from the front of `rest` and returns the remainder of
-/// that line. Throws Error(kBadInput) if `rest` does not begin with it.
+/// Removes the first line of `rest`, which must begin with `begin`, and returns what follows
+/// `begin` in it. Throws Error(kBadInput) if the line begins otherwise.
 std::string_view line_of(std::string_view& rest, std::string_view begin, const std::string& file) {
   const auto end = rest.find('\n');
   if (!rest.starts_with(begin) || end == std::string_view::npos)
@@ -251,7 +250,8 @@ std::string_view line_of(std::string_view& rest, std::string_view begin, const s
   return value;
 }
 
-/// Reads the version and checks the byte order in the first line of `rest`, and removes this line.
+/// Returns the version in the first line of `rest`, and removes this line. Throws Error(kBadInput)
+/// if the version is not known or the byte order is another one.
 int read_version(std::string_view& rest, const std::string& file) {
   const auto line = line_of(rest, kWhat, file);
   int version = 0;
@@ -274,7 +274,7 @@ bool is_consistent(const State& state) {
   const auto is_empty_or = [](const std::vector<double>& values, std::size_t size) {
     return values.empty() || values.size() == size;
   };
-  auto others = static_cast<std::int64_t>(p.count());  // particles of no source
+  auto others = static_cast<std::int64_t>(p.count());  // particles of no source counted so far
   for (const auto& source : state.sources) {
     if (source.poured < 0 || source.poured > others || !std::isfinite(source.begin)) return false;
     others -= source.poured;
@@ -342,7 +342,7 @@ State read_restart(const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string text = read_file(path);
   std::string_view rest = text;
-  // The program writes lines with its provenance and its record before those of write_restart.
+  // run/ writes lines with provenance and record before the lines of write_restart().
   while (rest.starts_with("# provenance") || rest.starts_with("# record"))
     rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
   const int version = read_version(rest, file);

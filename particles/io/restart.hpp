@@ -1,6 +1,6 @@
 // Writes and reads the state of a simulation, bit for bit, so that a run can be continued. Numbers
-// are stored without conversion, in the units of the case. The stage of particles uses it. A change
-// must keep files of all earlier versions readable.
+// are stored without conversion, in the units of the case. run/ uses it. A change must keep files
+// of all earlier versions readable, and a continued run equal to an uninterrupted one, bit for bit.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@ namespace viscontact::particles {
 
 /// Content of a restart file: a line of text that names the format and the byte order, a line with
 /// the SHA-256 of the rest, and the rest in binary, in the byte order of this machine. The ids of
-/// the particles, and which particles form rigid bodies, come from the case.
+/// the particles, and which particles form rigid bodies, are not stored, because the case has them.
 std::string write_restart(const State& state);
 
-/// Reads a restart file of version 1 to 11. Of rigid bodies only the motion is set. Throws
-/// Error(kBadInput), which names the file, if it is not a restart file, is damaged, or was written
-/// with another byte order.
+/// Reads a restart file of version 1 to 11, also one that begins with lines of provenance. Of rigid
+/// bodies only the motion is set. Throws Error(kBadInput), which names the file, if the file cannot
+/// be read, is not a restart file, is damaged, or was written with another byte order.
 State read_restart(const std::filesystem::path& path);
 
 }  // namespace viscontact::particles

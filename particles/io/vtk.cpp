@@ -1,8 +1,8 @@
 // Writes the frames of a simulation as VTK files (vtk.hpp): particles are points, contacts are
 // cells. Numbers are in the units of the case: radius and gap [L], velocity [L/T], angle [rad],
 // angular velocity [1/T], mass [M], gamma [M L/T], forces [M L/T^2]. Nothing is checked or thrown.
-// A change must agree with vtk_reader.cpp, which reads these files, and keep the names of the
-// arrays, by which users find them in ParaView.
+// A change must be made in vtk_reader.cpp, too, which reads these files, and must keep the names of
+// the arrays, by which users find them in ParaView. Used by run/.
 #include "viscontact/particles/io/vtk.hpp"
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ struct ContactCells {
   PolyCells cells;
 
   ContactCells(const Particles& particles, std::span<const CurrentContact> contacts) {
-    // VTK numbers vertices before lines, so contacts with planes come first.
+    // VTK numbers vertices before lines, so that contacts with obstacles come first.
     for (const bool wall : {true, false})
       for (const auto& contact : contacts)
         if ((contact.first < 0) == wall) add(particles, contact);

@@ -1,6 +1,7 @@
-// Reads the files that vtk.cpp writes, so that pages can be made from them. Lengths, masses and
-// times are in the units of the case. The reader understands only that layout, not VTK's formats in
-// general; another file is an Error(kBadInput). Frames of earlier versions must stay readable.
+// Reads the VTK files that vtk.cpp writes (vtk.hpp), so that pages can be made from them. Lengths,
+// masses and times are in the units of the case. The reader understands only the layout that
+// vtk.cpp writes, not VTK's formats in general; another file is an Error(kBadInput). Frames of
+// earlier versions, which lack some arrays, must stay readable. Used by run/.
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -18,7 +19,7 @@ namespace viscontact::particles {
 
 namespace {
 
-/// An array of the contacts, or zeros if the frame has none of this name.
+/// The array `name` of the contacts with `count` numbers, or zeros if the frame has no such array.
 template <class Number>
 std::vector<Number> numbers_or_zeros(const AppendedReader& reader, const char* name,
                                      std::size_t count) {
@@ -28,7 +29,8 @@ std::vector<Number> numbers_or_zeros(const AppendedReader& reader, const char* n
   return numbers;
 }
 
-/// The shown memories of the contacts. Those that the frame does not have are zeros.
+/// The numbers that contact laws remember of each contact and files show (pair_memory.hpp). Those
+/// that the frame does not have are zeros.
 std::vector<ShownMemory> read_memories(const AppendedReader& reader, std::size_t count) {
   std::vector<ShownMemory> memories(count);
   std::size_t place = 0;
@@ -57,8 +59,8 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
   const auto tangential_forces =
       numbers_or_zeros<double>(reader, "tangential_force", 3 * gaps.size());
   const auto memories = read_memories(reader, gaps.size());
-  // Entries are places in the list of points, the numbers of particles in State, and not their ids.
-  // A contact with a plane has one vertex; one of two particles has a line with two entries.
+  // Entries are indices of points, which are the numbers of particles and not their ids. A contact
+  // with an obstacle is a vertex with one entry, a contact of two particles a line with two.
   const auto vertices = reader.array<std::int64_t>("Verts", "connectivity");
   const auto lines = reader.array<std::int64_t>("Lines", "connectivity");
   const auto walls = vertices.size(), pairs = lines.size() / 2;
@@ -78,7 +80,7 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
     return static_cast<ContactFriction>(number);
   };
   std::vector<CurrentContact> contacts;
-  // A frame does not store the errors of gamma and the normals, because no picture shows them.
+  // A frame has no errors of gamma, normals and branches, because no picture shows them.
   const auto add = [&](std::size_t i, std::int32_t first, std::int64_t second) {
     contacts.push_back({.first = first,
                         .second = particle(second),

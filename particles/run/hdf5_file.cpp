@@ -1,7 +1,8 @@
-// Copies the arrays of the frames into an HDF5 file (particles_pages.hpp). Numbers are in the units
-// of the case and are copied without conversion. Rows are counted in 64 bits. Each call of the C
-// library whose failure can lose data is checked in one place (checked), and a change must keep
-// this.
+// Copies the arrays of all frames of a run into one HDF5 file, particles.h5 (write_hdf5() in
+// particles_pages.hpp). Numbers are in the units of the case and are copied without conversion. A
+// failure is an Error(kBadInput). A change must keep the names of groups and data sets, which
+// users' scripts read, and that checked() checks each call of the C library whose failure can lose
+// data. Used by run/particles_stage.cpp.
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/run/particles_pages.hpp"
 
@@ -27,9 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// While an object of this class exists, the C library prints no errors, because they are thrown.
-/// Afterwards the library prints errors as it did before: other code of the process, such as h5py
-/// beside the Python module, may rely on it.
+/// While an object of this class exists, the C library prints no errors, because this file throws
+/// them. Afterwards the library prints errors as it did before: other code of the process, such as
+/// h5py beside the Python module, may rely on it.
 class SilentErrors {
  public:
   SilentErrors() {
@@ -48,7 +49,7 @@ class SilentErrors {
 /// The cause of the last error of the C library: the message of the operating system, such as "No
 /// space left on device", or otherwise the message of the library.
 std::string cause_of_error() {
-  std::string cause;  // the innermost function that failed says it first
+  std::string cause;  // the walk begins at the innermost function that failed
   H5Ewalk2(
       H5E_DEFAULT, H5E_WALK_UPWARD,
       [](unsigned, const H5E_error2_t* error, void* text) -> herr_t {
@@ -68,11 +69,12 @@ Result checked(Result result, const fs::path& file) {
   return result;
 }
 
-/// An object of the C library, which is closed at the end. Its data must have been flushed before,
-/// because an error of closing is then not seen.
+/// An object of the C library, which the destructor closes. Its data must have been flushed before,
+/// because the destructor ignores errors.
 class Handle {
  public:
-  /// `closing` is the function of the C library that closes it.
+  /// `closing` is the function of the C library that closes it. Throws Error(kBadInput), which
+  /// names `file`, if `id` is an error.
   Handle(hid_t id, herr_t (*closing)(hid_t), const fs::path& file)
       : id_(checked(id, file)), close_(closing) {}
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
@@ -101,7 +103,7 @@ hid_t type_of() {
     return H5T_NATIVE_INT64;
 }
 
-/// A data set with rows of `columns` numbers, which grows.
+/// A data set with rows of `columns` numbers each, to which rows are appended.
 template <class Number>
 class Rows {
  public:
@@ -128,7 +130,8 @@ class Rows {
     const std::array<hsize_t, 2> none = {0, columns_}, most = {H5S_UNLIMITED, columns_};
     const Handle space(H5Screate_simple(rank(), none.data(), most.data()), H5Sclose, file_);
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file_);
-    // Chunks of 64 kB (32 kB of whole numbers) are read fast, and small files stay small.
+    // Chunks of 64 kB (32 kB of whole numbers) are read fast, and small files stay small. The level
+    // 4 of compression is a free choice.
     const std::array<hsize_t, 2> chunk = {8192 / columns_, columns_};
     checked(H5Pset_chunk(properties, rank(), chunk.data()), file_);
     checked(H5Pset_shuffle(properties), file_);
@@ -155,15 +158,15 @@ void add_text(hid_t object, const char* name, const std::string& text, const fs:
   checked(H5Awrite(attribute, type, &begin), file);
 }
 
-/// An array of the frames: its section and name there, and its name and columns in the file.
+/// An array: its section and name in a frame, and its name and number of columns in the HDF5 file.
 struct Array {
   std::string_view section, name;
   std::string target;
   std::size_t columns;
 };
 
-/// The arrays of one kind of number that the first frame has, each with its rows. All frames have
-/// the same arrays, because a run has particles from its start on.
+/// Those arrays of `all`, with numbers of one type, that the first frame has, and their rows in the
+/// file. All frames of a run have the same arrays.
 template <class Number>
 class Arrays {
  public:
@@ -173,7 +176,7 @@ class Arrays {
       if (first.has_array(array.section, array.name))
         arrays_.emplace_back(array, Rows<Number>(group, array.target, array.columns, file));
   }
-  /// Appends the arrays of a frame, each of which must have `count` rows.
+  /// Appends the arrays of a frame. Throws Error(kBadInput) if one has not `count` rows.
   void append(const AppendedReader& frame, std::size_t count) {
     for (auto& [array, rows] : arrays_) {
       const auto numbers = frame.array<Number>(array.section, array.name);
@@ -186,7 +189,8 @@ class Arrays {
   std::vector<std::pair<Array, Rows<Number>>> arrays_;
 };
 
-/// The rows of particles or contacts of all frames, with the number of the first row of each.
+/// A group of the file with the rows of the particles, or of the contacts, of all frames. Its data
+/// set `begin` has the number of the first row of each frame, and last the number of all rows.
 class Table {
  public:
   Table(hid_t file_id, const char* name, const std::vector<Array>& decimal,
@@ -228,7 +232,7 @@ void copy_frames(const ParticlesCase& c, const fs::path& folder, hid_t id, const
   if (frames.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");
   const auto first_text = read_file(folder / frames.front().second);
   const AppendedReader first(first_text, (folder / frames.front().second).string(), "frame");
-  const bool is_flat = c.particles.dimension < 3;  // the angular velocity is one number
+  const bool is_flat = c.particles.dimension < 3;  // then the angular velocity is one number
   Rows<double> times(id, "time", 1, file);
   Table particles(id, "particles",
                   {{"Points>", "Points", "position", 3},
@@ -261,8 +265,8 @@ void require_hdf5() {}
 
 void write_hdf5(const ParticlesCase& c, const fs::path& folder,
                 const results::Provenance& provenance) {
-  // After an error of writing, version 1.10 crashes when it closes the file once more at the end of
-  // the process. A file that was closed without an error needs nothing at the end.
+  // After an error of writing, version 1.10 of the library crashes when it closes the file again at
+  // the end of the process. A file that was closed without an error needs nothing at the end.
   H5dont_atexit();
   const SilentErrors silent;
   const fs::path file = folder / "particles.h5";

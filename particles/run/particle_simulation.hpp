@@ -1,6 +1,7 @@
-// One interface to the simulations of many particles with and without a fluid, for runs and sweeps.
-// Lengths, masses and times are in the units of the case. A change must keep that both simulations
-// answer each function in the same way. Used by particles_stage.cpp and sweep/.
+// One interface to the three simulations of many particles: without a fluid, in a fluid, and in a
+// fluid with membranes. Lengths, masses and times are in the units of the case. Used by
+// particles_stage.cpp, sweep/ and python/. A change must keep that a function means the same for
+// all three.
 #pragma once
 
 #include <memory>
@@ -14,52 +15,62 @@
 
 namespace viscontact::particles {
 
-/// A particles::MembraneSimulation if the setting has a fluid with membranes, a
-/// particles::FluidSimulation if it has another fluid, else a particles::Simulation.
+/// Holds a MembraneSimulation if the setting has a fluid with membranes, a FluidSimulation if it
+/// has another fluid, else a Simulation.
 class ParticleSimulation {
  public:
-  /// `threads` >= 1 is the number of threads without a fluid. With a fluid, `start_solver` is
-  /// called and its errors are thrown.
+  /// `threads` >= 1 is the number of threads; it is used without a fluid only. With a fluid,
+  /// `start_solver` starts the fluid solver, which ends if `stop` requests a stop; its errors are
+  /// thrown, and those of the constructors of the three simulations.
   ParticleSimulation(const Setting& setting, State state, int threads,
                      const StartFluidSolver& start_solver, const StopToken& stop);
 
-  /// Computes a step that ends at the time `end` [T] at the latest; see Simulation::step and
-  /// FluidSimulation::step, which say what is thrown.
+  /// Computes a step that ends at the time `end` [T] at the latest. Throws Error(kNotConverged) if
+  /// the step cannot be computed, and the errors of the fluid solver; see Simulation::step() and
+  /// FluidSimulation::step().
   StepReport step(double end);
-  const State& state() const;  ///< after the last step
-  /// Forces and torques of the caller; see Simulation::added_forces. Throws Error(kWrongUsage) if
-  /// there is a fluid with membranes.
+  const State& state() const;  ///< the state after the last step
+  /// Forces on the particles [M L/T^2] that the caller may set; see Simulation::added_forces().
+  /// Throws Error(kWrongUsage) if there is a fluid with membranes.
   std::span<double> added_forces();
-  std::span<double> added_torques();  ///< likewise
-  /// The particles with their velocities at the present time; see Simulation::reported_particles
-  /// and FluidSimulation::reported_particles.
+  std::span<double> added_torques();  ///< torques [M L^2/T^2], likewise
+  /// The particles with their velocities at the present time; see Simulation::reported_particles()
+  /// and FluidSimulation::reported_particles().
   Particles reported_particles() const {
     return in_fluid_ ? in_fluid_->reported_particles()
                      : (dry_ ? dry_->reported_particles() : state().particles);
   }
 
-  /// The blows of the last step; see Simulation::rebounds and FluidSimulation::rebounds.
+  /// The blows of solids with restitution in the last step, in order of time.
   std::span<const Rebound> rebounds() const {
     if (membranes_) return {};
     return in_fluid_ ? in_fluid_->rebounds() : dry_->rebounds();
   }
 
-  /// True if there is a fluid. The functions below need one; see FluidSimulation.
+  /// True if there is a fluid, which the functions below need.
   bool has_fluid() const { return dry_ == nullptr; }
+  /// The flow around the particles where they were at the beginning of the last step.
   FlowField flow() { return membranes_ ? membranes_->flow() : in_fluid_->flow(); }
+  /// The flow around the particles where they are now. Throws the errors of the fluid solver.
   FlowField flow_at_present() {
     return membranes_ ? membranes_->flow_at_present() : in_fluid_->flow_at_present();
   }
+  /// Forces and torques of the fluid on each particle in the last step [M L/T^2, M L^2/T^2]: x, y
+  /// and torque, on an axis z alone; empty before the first step.
   std::vector<double> fluid_forces() const {
     return membranes_ ? membranes_->fluid_forces() : in_fluid_->fluid_forces();
   }
+  /// Estimates of the errors of the forces in the last step; empty if they were not made.
   ForceErrors force_errors() const {
     return membranes_ ? ForceErrors{} : in_fluid_->force_errors();
   }
+  /// The state, with the flow of a fluid with inertia, for the restart file.
   State state_to_save() { return membranes_ ? state() : in_fluid_->state_to_save(); }
+  /// Number of unknowns on the last mesh; 0 if the solver does not say.
   std::size_t unknowns() const {
     return membranes_ ? membranes_->unknowns() : in_fluid_->unknowns();
   }
+  /// Largest memory of the fluid solver so far [MiB]; 0 if it runs in this process.
   double solver_peak_memory_mebibytes() const {
     return membranes_ ? membranes_->solver_peak_memory_mebibytes()
                       : in_fluid_->solver_peak_memory_mebibytes();

@@ -1,8 +1,9 @@
-// Decides whether the run in a folder can be continued, and reads its state and record. It can if
-// restart.bin records the same inputs and the same version of Viscontact as this call has. Times
-// [T] are in the unit of the case, angles in [rad]. If the run cannot be continued, a message says
-// so, and the run starts anew; if a restart file that the user names does not fit the case, it is
-// an Error(kBadInput). A change must keep that a run with other inputs is never continued.
+// Decides whether the run in a folder can be continued, and reads its state and record. It can be
+// continued if restart.bin records the same inputs and the same version of Viscontact as this call
+// has (particles_earlier_run.hpp). Times [T] are in the unit of the case, angles in [rad]. If the
+// run cannot be continued, a message says so, and a new run begins at the start; if a restart file
+// that the user names does not fit the case, it is an Error(kBadInput). A change must keep that a
+// run with other inputs is never continued. Used by run/, sweep/ and python/.
 #include "viscontact/particles/run/particles_earlier_run.hpp"
 
 #include <fmt/format.h>
@@ -28,8 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Says in words how the inputs or the version of the run `before` differ from those of `now`;
-/// empty if they are the same.
+/// Says how inputs or version of the earlier run differ from this call's; empty if they are equal.
 std::string difference(const results::Provenance& before, const results::Provenance& now) {
   const auto version = [](const results::Provenance& provenance) {
     const auto found = provenance.versions.find("Viscontact");
@@ -45,8 +45,8 @@ std::string difference(const results::Provenance& before, const results::Provena
   return "";
 }
 
-/// Says how a source of the case differs from that of the earlier run; empty if the particles that
-/// it pours in, and their times, are the same.
+/// Says in words how a source of the case differs from that of the earlier run; empty if it adds
+/// the same particles at the same times.
 std::string difference(const SourceProgress& before, const Source& now) {
   if (before.begin_of_case != now.begin)
     return fmt::format("begins at {}, not {}", before.begin_of_case, now.begin);
@@ -58,8 +58,8 @@ std::string difference(const SourceProgress& before, const Source& now) {
   return "";
 }
 
-/// Throws Error(kBadInput) that names `restart` if the state has other particles or sources than
-/// the case, or contacts with planes that the case does not have.
+/// Throws Error(kBadInput), which names `restart`, if the state has other particles or sources than
+/// the case, or contacts with obstacles that the case does not have.
 void check_same_particles(const State& state, const ParticlesCase& c, const fs::path& restart) {
   const auto& p = state.particles;
   const auto differs = [&](const std::string& what) {
@@ -71,7 +71,7 @@ void check_same_particles(const State& state, const ParticlesCase& c, const fs::
   };
   if (p.dimension != c.particles.dimension)
     differs(fmt::format("{} dimensions, not {}", p.dimension, c.particles.dimension));
-  // The particles that sources have poured in come after those of the case.
+  // Particles that sources have added follow those of the case.
   const auto& sources = c.setting.sources;
   if (state.sources.size() > sources.size())
     differs(fmt::format("{} sources, not {}", state.sources.size(), sources.size()));
@@ -100,15 +100,15 @@ void check_same_particles(const State& state, const ParticlesCase& c, const fs::
       differs(fmt::format("a contact with plane {}, which the case does not have", -film.first));
 }
 
-/// Gives the state the ids of the case, which the restart file does not store, and those of
-/// particles that were poured in.
+/// Gives the state the ids of the case, which the restart file does not store, and ids for the
+/// particles that sources have added.
 void take_over_ids(State& state, const ParticlesCase& c) {
   state.particles.ids = c.particles.ids;
   add_missing_ids(state.particles);
 }
 
-/// Gives the state the rigid bodies of the case, which the restart file does not store, with their
-/// motion, which it does. Throws Error(kBadInput) if it has the motion of other bodies.
+/// Gives the state the rigid bodies of the case, of which the restart file stores the motion only.
+/// Throws Error(kBadInput) if the file has another number of bodies or of forces of links.
 void take_over_bodies(State& state, const ParticlesCase& c, const fs::path& restart) {
   const auto moving = std::move(state.particles.bodies.bodies);
   state.particles.bodies = c.particles.bodies;
@@ -136,11 +136,11 @@ void take_over_bodies(State& state, const ParticlesCase& c, const fs::path& rest
 }
 
 /// Throws Error(kBadInput) if a hinge of the state is turned beyond its stop. The earlier run then
-/// had another stop, and the first step would turn the hinge back to the new one in an instant.
+/// had another stop, and the first step would turn the hinge back to the present stop at once.
 void check_stops(const State& state, const ParticlesCase& c, const fs::path& restart) {
-  // A step may leave a hinge beyond its stop by solver.tolerance, which is relative to the mean
-  // radius, so that it is also an angle at this distance from the hinge. Ten times it, and 1e-3,
-  // are free choices.
+  // A step may leave a hinge beyond its stop by solver.tolerance mean radii at the distance of one
+  // mean radius, which is the angle solver.tolerance. Ten times this angle, and 1e-3, are free
+  // choices.
   constexpr double kBeyond = 1e-3;  // [rad]
   const double allowed = std::max(kBeyond, 10 * c.setting.solver.tolerance);
   for (const auto& stop : stop_equations(c.setting.links, state.particles))
@@ -178,8 +178,8 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
         {restart},
         fmt::format("is at time {}, but {} ends at {}, so there is no time left to simulate",
                     state.time, c.path.string(), c.end_time));
-  // If the time step differs from that of the earlier run, the times of the steps are counted from
-  // this state on.
+  // If the time step is not that of the earlier run, the ends of steps are multiples of the time
+  // step after this state (State::grid_time).
   const double on_grid =
       state.grid_time + static_cast<double>(state.steps - state.grid_step) * c.setting.time_step;
   if (std::abs(on_grid - state.time) > 1e-6 * c.setting.time_step) {

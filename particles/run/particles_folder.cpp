@@ -1,9 +1,9 @@
 // Recognises the files of frames by their names, and files that Viscontact wrote by their
 // provenance; writes the rows of steps.csv, the record of restart.bin as JSON, and run.json
 // (particles_folder.hpp). Numbers of frames count from 0, times are in the unit of the case,
-// computing times in seconds. A file of the user in the way and a damaged record are an
-// Error(kBadInput). A change must keep that only files of Viscontact are removed, and columns and
-// keys, which users' scripts read.
+// computing times in seconds. A file of the user that has the name of a result, and a damaged
+// record, are an Error(kBadInput). A change must keep that only files that Viscontact wrote are
+// removed, and the columns and keys, which users' scripts read. Used by run/.
 #include "viscontact/particles/run/particles_folder.hpp"
 
 #include <fmt/format.h>
@@ -182,7 +182,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The number of the frame whose file of this kind has that name; nothing if no frame has it.
+/// The number of the frame in the name of a file of this kind; nothing if it is another name.
 std::optional<std::uint64_t> number_of_frame(const FrameKind& kind, std::string_view name) {
   const std::string_view begin(kind.begin);
   if (!name.starts_with(begin) || name.size() <= begin.size()) return {};

@@ -1,8 +1,8 @@
-// The files in the folder of a run of many particles: their names, which of them a run may replace,
-// removing those of an earlier run, and what they record of it: sums over its steps, for run.json,
-// and where its files end, for restart.bin (docs/file-formats.md). Times [T] are in the unit of the
-// case, computing times in seconds. Runs, logs and pages use it. A change must keep names, columns
-// and keys, which scripts of users and interrupted runs rely on.
+// The files in the folder of a run of many particles (docs/file-formats.md): their names; which of
+// them a run may replace; how those of an earlier run are removed; the sums over the steps, for
+// run.json; and the record in restart.bin, which says where each file ends. Times [T] are in the
+// unit of the case, computing times in seconds. The files in run/ use it. A change must keep names,
+// columns and keys, because scripts of users and interrupted runs rely on them.
 #pragma once
 
 #include <array>
@@ -22,8 +22,7 @@
 namespace viscontact::particles {
 
 /// The names of all files that a run may have, except those of its frames, in the order in which
-/// they are removed. restart.bin is the first, because a run cannot continue from the others
-/// without it.
+/// they are removed. restart.bin is the first, because no run continues without it.
 inline constexpr auto kParticleResults = std::to_array<const char*>(
     {"restart.bin", "particles.pvd", "particles.html",      "particles.svg",
      "run.json",    "steps.csv",     "final_particles.csv", "final_contacts.csv",
@@ -32,28 +31,28 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
      "arms.csv",    "membranes.csv", "links.pvd",           "rebounds.csv",
      "probes.csv",  "particles.h5"});
 
-/// A kind of file with one file for each frame: what stands in its names before and after the
-/// number.
+/// A kind of file of which each frame (output time) has one, named `begin`, "_", number, `end`.
 struct FrameKind {
-  const char* begin;  ///< also the name of the list of these files, without ".pvd"
-  const char* end;    ///< with the dot
+  const char* begin;  ///< with ".pvd" it is also the name of the list of these files
+  const char* end;    ///< extension, with the dot
 };
+/// The particles and contacts of a frame, the flow around them, and the links.
 inline constexpr FrameKind kFrameFile{"particles", ".vtp"}, kFlowFile{"flow", ".vtu"},
     kLinksFile{"links", ".vtp"};
 
-/// The name of the file of frame `number`, from 0: particles_NNNNN.vtp.
+/// The name of the file of frame `number`, from 0, such as particles_00000.vtp.
 std::string frame_name(const FrameKind& kind, std::uint64_t number);
 
-/// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame but
+/// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame, but
 /// Viscontact did not write it.
 void check_results(const std::filesystem::path& folder);
 
 /// Throws Error(kBadInput) if a run into `folder` would overwrite one of its inputs: the case, its
-/// file of particles, or `restart`, the file of another run (empty: none).
+/// file of particles, or the restart file of another run at the path `restart`, if it is not empty.
 void check_inputs_stay(const ParticlesCase& c, const std::filesystem::path& restart,
                        const std::filesystem::path& folder);
 
-/// Removes all results and frames, so that the folder never contains files of two runs.
+/// Removes all results and frames from the folder, so that it never contains files of two runs.
 void remove_results(const std::filesystem::path& folder);
 
 /// Removes the files of all frames but the first `frames`, all flows but the first `flows`, and
@@ -61,58 +60,60 @@ void remove_results(const std::filesystem::path& folder);
 void remove_later_frames(const std::filesystem::path& folder, std::uint64_t frames,
                          std::uint64_t flows);
 
-/// The largest StepReport::excess of a step that did not converge and still is a result: such steps
-/// cause a warning, and others end the command with an error.
+/// The largest factor, StepReport::excess, by which a step may miss the tolerances and still count
+/// as a result; a free choice. Steps that miss them by less cause a warning, others make the
+/// command end with an error.
 inline constexpr double kStillAResult = 10;
 
-/// Sums and largest values over the steps of a run: those of this call and those of the interrupted
-/// calls before it in the same folder.
+/// Sums and largest values over the steps of a run, also over those of interrupted calls of the
+/// command that this call continues.
 struct StepTotals {
-  /// Number of steps, of steps that did not converge, and of the iterations of all steps.
+  /// Number of steps, number of steps that did not converge, and number of iterations of all steps.
   std::int64_t steps = 0, unconverged = 0, iterations = 0;
   /// Number of steps among `unconverged` whose StepReport::excess is above kStillAResult.
   std::int64_t failed = 0;
   int most_iterations = 0;                           ///< largest number of iterations in one step
   double first_time = 0, last_time = 0;              ///< at the start and after the last step [T]
-  double largest_residual = 0, largest_overlap = 0;  ///< divided by the mean radius
-  double largest_impulse_residual = 0;               ///< divided by the impulses at work
-  std::int64_t divided = 0;                          ///< steps that were divided into parts
+  double largest_residual = 0, largest_overlap = 0;  ///< in mean radii
+  double largest_impulse_residual = 0;               ///< StepReport::impulse_residual
+  std::int64_t divided = 0;                          ///< number of divided steps
   std::int64_t unresolved = 0;                       ///< sum of StepReport::unresolved
-  double seconds = 0;                                ///< computing time of earlier calls [s]
-  double peak_memory_mebibytes = 0;                  ///< of earlier calls [MiB]
+  double seconds = 0;                                ///< of earlier calls; a saved record includes
+                                                     ///< this call [s]
+  double peak_memory_mebibytes = 0;                  ///< largest memory, likewise [MiB]
   // With a fluid only.
   double fluid_seconds = 0;    ///< sum of FluidStepReport::seconds [s]
-  std::uint64_t unknowns = 0;  ///< of the fluid solver, in the last step
-  /// Estimates of the relative errors of velocities and forces at the first and at the last step.
+  std::uint64_t unknowns = 0;  ///< number of unknowns of the fluid solver in the last step
+  /// Estimates of the relative errors of velocities and forces, at the first and at the last step
+  /// at which they were estimated.
   RelativeErrors first_velocity_errors, last_velocity_errors;
   RelativeErrors first_force_errors, last_force_errors;
 
-  double averaged_time = 0;  ///< time over which the two means are taken [T]
-  /// Means over time of FluidStepReport::dissipation and ::apparent_viscosity; those of a step hold
-  /// from the end of the step before.
+  double averaged_time = 0;  ///< time over which the next two means are taken [T]
+  /// Means over time of FluidStepReport::dissipation and FluidStepReport::apparent_viscosity, whose
+  /// values are taken as constant over their step.
   double mean_dissipation = 0, mean_apparent_viscosity = 0;
 
-  /// Adds a step; means are taken from the time `average_from` on [T].
+  /// Adds a step. The means begin at the time `average_from` [T].
   void add(const StepReport& report, double average_from);
 };
 
-/// What a run has done when a state was reached. A file that a run needs to continue, beside the
-/// state, has an entry in `files`.
+/// What a run has done until a state. Each file that grows during the run has an entry in `files`.
 struct RunRecord {
-  StepTotals totals;
-  std::uint64_t frames = 0, flows = 0;   ///< number of frames, and of those whose flow is written
+  StepTotals totals;                     ///< sums over the steps
+  std::uint64_t frames = 0, flows = 0;   ///< numbers of frames, and of frames whose flow is written
   double last_frame = 0;                 ///< time of the last frame [T]
   std::uint64_t rebounds = 0;            ///< number of rows of rebounds.csv
-  std::map<std::string, FileEnd> files;  ///< ends of the files that grow, by name
+  std::map<std::string, FileEnd> files;  ///< where these files end, by name
 };
 
 /// The line with the names of the columns of steps.csv of a run with or without a fluid.
 std::string steps_header(const std::optional<Fluid>& fluid);
 /// The line with the names of the columns of probes.csv.
 inline constexpr std::string_view kProbesHeader = "time,name,flow,pressure\n";
-/// The rows of probes.csv of a step: one for each probe.
+/// The rows of probes.csv of a step, one for each probe; flow [L^2/T], pressure [M/(L T^2)].
 std::string probe_rows(const FluidStepReport& report, std::span<const Probe> probes);
-/// The row of steps.csv of the step with the number `step`.
+/// The row of steps.csv of the step with the number `step`, from 1: numbers of the report.
 std::string step_row(std::int64_t step, const StepReport& report,
                      const std::optional<Fluid>& fluid);
 
@@ -122,7 +123,7 @@ std::string record_comment(const RunRecord& record, std::int64_t step);
 /// which names the file, if it has no such line.
 RunRecord read_record(const std::string& head, const std::filesystem::path& restart);
 
-/// The text of run.json at the end of a run with these sums.
+/// The text of run.json at the end of a run with these sums and this last state.
 std::string run_json(const ParticlesCase& c, const StepTotals& totals, const State& state);
 
 }  // namespace viscontact::particles

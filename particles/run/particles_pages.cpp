@@ -1,6 +1,6 @@
 // Reads the frames of a run and draws them (particles_pages.hpp). Numbers are in the units of the
 // case. A frame that is missing or damaged is an Error(kBadInput). A change must keep the memory
-// bounded, however long the run is.
+// bounded, however long the run is. Used by app/ and run/.
 #include "viscontact/particles/run/particles_pages.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What all frames of the case have in common.
+/// The members of Playback that are the same for all frames of the case.
 Playback without_frames(const ParticlesCase& c) {
   Playback playback;
   playback.dimension = c.particles.dimension;
@@ -51,7 +51,8 @@ Playback without_frames(const ParticlesCase& c) {
   return playback;
 }
 
-/// The frame at `time` [T] in the file at `path`.
+/// The frame at `time` [T] in the file at `path`, without the flow. Throws Error(kBadInput) if the
+/// file has other particles than the case.
 Frame read_frame(double time, const fs::path& path, const ParticlesCase& c) {
   auto content = read_vtp(path, c.particles.dimension);
   if (content.positions.size() < c.particles.positions.size() ||
@@ -68,15 +69,15 @@ Frame read_frame(double time, const fs::path& path, const ParticlesCase& c) {
   return frame;
 }
 
-/// Reads the frames of a run. If they would take more than kMostBytes, every second one is left
-/// out, repeatedly if necessary; the last one is always kept.
+/// Reads the frames of a run. Whenever those in memory take more than kMostBytes, every second one
+/// is left out; the last frame is always kept.
 Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
   auto playback = without_frames(c);
   auto& frames = playback.frames;
   const auto files = read_pvd(folder / "particles.pvd");
   if (files.empty()) throw_bad_input({(folder / "particles.pvd").string()}, "has no frame");
   if (!c.setting.sources.empty()) {
-    // The last frame has all particles that were poured in.
+    // The last frame has all particles that sources have added.
     const auto last = read_vtp(folder / files.back().second, c.particles.dimension);
     playback.radii.assign(last.radii.begin(), last.radii.end());
     playback.masses.assign(last.masses.begin(), last.masses.end());
@@ -97,7 +98,7 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
     kept_bytes += (frames.back().positions.size() + frames.back().speeds.size()) * sizeof(float) +
                   frames.back().contacts.size() * sizeof(CurrentContact);
   }
-  // Particles that are not there yet have no position.
+  // Particles that a source has not added yet get positions that are no numbers, and are not drawn.
   for (auto& frame : frames) {
     const auto count = playback.radii.size();
     frame.positions.resize(count * static_cast<std::size_t>(playback.dimension),
@@ -118,7 +119,7 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
 
 void write_pages(const ParticlesCase& c, const fs::path& folder,
                  const results::Provenance& provenance) {
-  constexpr int kPanels = 4;  // states in the still picture
+  constexpr int kPanels = 4;  // number of times that the still picture shows; free choice
   const auto playback = read_playback(c, folder);
   results::write_output(folder / "particles.html", TextKind::kHtml,
                         particles_page(playback, c.title), provenance);

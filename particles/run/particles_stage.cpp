@@ -1,7 +1,8 @@
-// A run of many particles: checks, continues an earlier run, computes time steps, saves and writes
-// the results. Numbers are in the units of the case; errors are those of particles_stage.hpp.
-// restart.bin must be written after all files that a run needs to continue (Run::save), so that a
-// run that is killed at any time can be continued.
+// Runs a case of many particles (particles_stage.hpp): checks the inputs, continues an earlier run,
+// computes time steps, saves the state and writes the results. Numbers are in the units of the
+// case; errors are those of run_particles(). A change must keep that restart.bin is written after
+// all files that a run needs to continue (Run::save()), so that a run that is killed at any time
+// can be continued. Used by app/ and sweep/.
 #include "viscontact/particles/run/particles_stage.hpp"
 
 #include <fmt/format.h>
@@ -40,13 +41,15 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// Two times of a run that differ by less than this [T] differ by rounding errors only.
+/// Times of a run that differ by less than this [T] count as equal. Rounding errors are smaller,
+/// and steps longer, because Simulation::step() makes no shorter ones.
 double tiny_time(const ParticlesCase& c) { return 1e-6 * c.setting.time_step; }
 
-/// A run with its state and its files, which can be saved after any step.
+/// A run with its simulation and its files. It can be saved after any step.
 class Run {
  public:
-  /// `log`, of a new run or of the interrupted one that this continues, must outlive this object.
+  /// All arguments that are references must outlive this object. `log` is that of a new run, or of
+  /// the interrupted run that this one continues.
   Run(const ParticlesCase& c, ParticleSimulation& simulation, fs::path folder,
       const results::Provenance& provenance, RunLog& log, const StopToken& stop)
       : case_(c),
@@ -57,7 +60,8 @@ class Run {
         stop_(stop) {}
 
   /// Computes steps until the end time, until a stop is requested, or until a step cannot be
-  /// computed. Returns the error of that step, if there is one; the state is then that before it.
+  /// computed. In the last case returns the error of this step, and the state is that before it;
+  /// otherwise returns null.
   std::exception_ptr simulate() {
     if (log_.record().frames == 0) add_frame();
     save(with_costs(log_.record()));
@@ -79,7 +83,8 @@ class Run {
         next_frame = frame_after(report.time);
       }
       tell(report);
-      // If a signal ends the solver of a fluid with inertia, the flow since the last call is lost.
+      // Time between two savings [s], a free choice. It is shorter in a fluid with inertia, because
+      // a signal can end the solver, and the flow is then lost.
       const auto& fluid = case_.setting.fluid;
       const double save_every = fluid && fluid->has_inertia() ? 10 : 60;  // [s]
       if (!is_at_end() && seconds_since(last_saved_) > save_every) save(with_costs(log_.record()));
@@ -90,8 +95,8 @@ class Run {
   /// Writes all files of the run. Returns the text of run.json.
   std::string write_results() {
     terminal::clear_progress();
-    // A run that continues from here removes what only its end adds: a frame of its last state,
-    // unless the last frame shows it, and the flow around it.
+    // The record is taken before the last frame and its flow are added. A run that continues from
+    // here removes them, because an uninterrupted run has no such frame.
     auto record = log_.record();
     const auto& state = simulation_.state();
     if (record.last_frame < state.time) add_frame();
@@ -119,16 +124,16 @@ class Run {
     results::write_output(folder_ / name, kind, text, provenance_);
   }
 
-  /// The time of the frame after the one at `time` [T]: a frame is written after the first step
-  /// that reaches a multiple of the interval since the first time.
+  /// The time at which the frame after that at `time` is due [T]: the next multiple of the interval
+  /// after the first time. The first step that reaches it writes the frame.
   double frame_after(double time) const {
     const double first = log_.totals().first_time;
     const double interval = std::max(case_.frame_interval, case_.setting.time_step);
     return first + (std::floor((time + tiny_time(case_) - first) / interval) + 1) * interval;
   }
 
-  /// Adds the flow around the particles where they are at the end, which no step computes. A run
-  /// that was interrupted computes it in its next step, when it continues.
+  /// Adds the flow around the particles at the end of the run, which no step computes. An
+  /// interrupted run adds nothing, because the next step computes this flow when the run continues.
   void add_last_flow() {
     if (!is_at_end() || stop_.stop_requested() || !log_.lacks_flow()) return;
     try {
@@ -154,7 +159,7 @@ class Run {
     return write_particles(reported, FluidForces{forces, errors, case_.setting.fluid->semi_axes});
   }
 
-  /// The record, with computing time and memory of this call and the calls before it.
+  /// `record`, to whose computing time and memory those of this call are added.
   RunRecord with_costs(RunRecord record) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -166,12 +171,12 @@ class Run {
     return record;
   }
 
-  /// Writes restart.bin with the present state and a record of what was written until it, after
-  /// everything else is on disk: whenever the process is killed, the files contain what the record
-  /// says, and the run continues from there.
+  /// Writes restart.bin with the present state and the record, after everything else is on disk.
+  /// Whenever the process is killed, the files then contain what the record says, and the run can
+  /// continue from it.
   void save(const RunRecord& record) {
     log_.sync();
-    // In a fluid with inertia the solver has a part of the state.
+    // In a fluid with inertia the solver has a part of the state, the flow.
     const auto state = simulation_.has_fluid() ? simulation_.state_to_save() : simulation_.state();
     write("restart.bin", TextKind::kHashComment,
           record_comment(record, state.steps) + write_restart(state));
@@ -193,13 +198,14 @@ class Run {
   const results::Provenance& provenance_;
   RunLog& log_;
   StopToken stop_;
-  double first_time_ = simulation_.state().time;  // of this call [T]
+  double first_time_ = simulation_.state().time;  // time at which this call began [T]
   Clock::time_point begin_ = Clock::now(), last_saved_ = begin_;
   terminal::ProgressTimer progress_;
 };
 
-/// Says how the run ended, after its files are written. Throws Error(kInterrupted) if the run was
-/// interrupted, Error(kNotConverged) if a step missed the tolerances by more than kStillAResult.
+/// Says on the terminal how the run ended, after its files are written. Throws Error(kInterrupted)
+/// if the run was interrupted, Error(kNotConverged) if a step missed the tolerances by more than
+/// kStillAResult.
 void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State& state,
                   const fs::path& folder, const StopToken& stop) {
   terminal::say(fmt::format(
@@ -277,7 +283,7 @@ void run_particles(const ParticlesRequest& request) {
       return;
     }
     log.resume(earlier->record);
-    remove_file(folder / "particles.h5");  // it would lack the frames of this run
+    remove_file(folder / "particles.h5");  // it would lack the frames that are added now
     terminal::say(fmt::format("particles: the run in {} continues from t = {:.6g}, after step {}",
                               folder.string(), earlier->state.time, earlier->state.steps));
     state = earlier->state;
@@ -288,7 +294,7 @@ void run_particles(const ParticlesRequest& request) {
   ParticleSimulation simulation(c.setting, std::move(state), request.threads, request.start_solver,
                                 request.stop);
   Run run(c, simulation, folder, provenance, log, request.stop);
-  // After an error of writing, restart.bin stays as it is: the same command continues from there.
+  // If a file cannot be written, simulate() throws; the same command continues from restart.bin.
   const auto failure = run.simulate();
   std::string json;
   try {

@@ -1,6 +1,6 @@
 // The command `particles`: simulates many particles from a case and writes the files of the run, in
-// the units of the case. Sweeps of particles call run_particles(), too. A change must keep that a
-// run that is killed at any time continues to the same files.
+// the units of the case. app/ and sweep/ use it. A change must keep that a run that was killed at
+// any time, when it is continued, ends with the same files as an uninterrupted one.
 #pragma once
 
 #include <filesystem>
@@ -13,12 +13,13 @@ namespace viscontact::particles {
 
 /// The options of the command `particles`.
 struct ParticlesRequest {
-  /// Paths; `restart` is empty if the run starts from the particles of the case.
+  /// Paths of the case, of the folder for the results, and of a restart file, which is empty if the
+  /// run starts from the particles of the case.
   std::string case_file, folder, restart;
   int threads = 1;                ///< number of threads, >= 1; results do not depend on it
-  StartFluidSolver start_solver;  ///< used if the case has a fluid
-  bool json = false;              ///< true: print run.json to standard output
-  bool hdf5 = false;              ///< true: write particles.h5, also for a run that is finished
+  StartFluidSolver start_solver;  ///< starts the fluid solver; used if the case has a fluid
+  bool json = false;              ///< whether to print run.json to standard output
+  bool hdf5 = false;              ///< whether to write particles.h5, also for a finished run
   StopToken stop{};               ///< a stop ends the run after its state is saved
 };
 
@@ -26,11 +27,12 @@ struct ParticlesRequest {
 /// folder has an interrupted run of the same inputs, this run continues; a finished run of the same
 /// inputs is left as it is; the files of any other run are removed at the beginning. Throws
 /// Error(kBadInput) before anything is written if the case or the restart file is wrong or a file
-/// must not be replaced, and after it if a file cannot be written; the same request then continues
-/// from the last restart.bin. Throws after everything is written: Error(kNotConverged) if a step
-/// missed the tolerances by more than the factor kStillAResult (particles_folder.hpp) or cannot be
-/// computed, Error(kInterrupted) if `stop` requested a stop. Throws Error(kWrongUsage) at the
-/// beginning if `hdf5` is asked for in a program without it.
+/// must not be replaced. Throws Error(kBadInput) later if a file cannot be written; the same
+/// request then continues from the last restart.bin. Throws after everything is written:
+/// Error(kNotConverged) if a step missed the tolerances by more than the factor kStillAResult
+/// (particles_folder.hpp) or cannot be computed, Error(kInterrupted) if `stop` requested a stop.
+/// Throws Error(kWrongUsage) at the beginning if `hdf5` is true and the program was built without
+/// libhdf5.
 void run_particles(const ParticlesRequest& request);
 
 }  // namespace viscontact::particles

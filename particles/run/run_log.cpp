@@ -1,6 +1,7 @@
-// Writes frames (VTK), their lists (PVD) and tables (CSV), and continues them. Numbers are in the
-// units of the case. A file that cannot be written, or was changed, is an Error(kBadInput). A
-// change must keep that files only grow.
+// Writes frames (VTK), their lists (PVD) and tables (CSV), and continues them (run_log.hpp).
+// Numbers are in the units of the case. A file that cannot be written, or was changed, is an
+// Error(kBadInput). A change must keep that lists and tables only grow, because a run is continued
+// at the ends that its record states. Used by run/.
 #include "viscontact/particles/run/run_log.hpp"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Throws Error(kBadInput) if the first `count` files of a kind are not all there with their ends.
+/// Throws Error(kBadInput) if one of the first `count` files of a kind, or its end, is missing.
 void check_frames(const fs::path& folder, const FrameKind& kind, std::uint64_t count) {
   constexpr std::string_view kEnd = "</VTKFile>\n";
   for (std::uint64_t number = 0; number < count; ++number) {
@@ -82,7 +83,6 @@ void RunLog::resume(const RunRecord& record) {
 
 void RunLog::add_step(const StepReport& report, const State& state,
                       std::span<const Rebound> rebounds) {
-  // A million rows of steps.csv are 50 MB.
   constexpr std::int64_t kMostRows = 1000000, kThen = 1000;
   constexpr std::uint64_t kMostRebounds = 1000000;
   record_.totals.add(report, case_.average_from);

@@ -1,6 +1,7 @@
-// Runs the case of a row and keeps its results (particles_run.hpp). result.json is written last and
-// records of which case and version it is, so that a process may be killed at any time; a change
-// must keep that. A run that fails is no error here: its row says why. Units are those of the case.
+// Runs the case of a row and keeps its results (particles_run.hpp), in the units of the case. A run
+// that fails is no error here: its row says why. A change must keep that result.json is written
+// after the run and records the case and the version, so that a process may be killed at any time
+// and no result of another case is taken. Used by particles_sweep_stage.cpp.
 #include "viscontact/particles/sweep/particles_run.hpp"
 
 #include <fmt/format.h>
@@ -30,8 +31,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Values = std::map<std::string, double>;
 
-/// The number in `json`, or the largest number if it has several (errors at the first and last
-/// step).
+/// The number in `json`, or the largest one if it has several, such as the errors at the first and
+/// at the last step; nothing if it has none.
 std::optional<double> number_of(const Json& json) {
   if (json.is_number() && std::isfinite(json.get<double>())) return json.get<double>();
   std::optional<double> largest;
@@ -42,7 +43,7 @@ std::optional<double> number_of(const Json& json) {
   return largest;
 }
 
-/// Adds the values of the last row of steps.csv.
+/// Adds the values of those `columns` that the last row of the file steps.csv at `path` has.
 void add_last_step(const fs::path& path, const std::vector<std::string>& columns, Values& values) {
   std::istringstream text(read_file(path));
   std::vector<std::string> names, last;
@@ -54,7 +55,7 @@ void add_last_step(const fs::path& path, const std::vector<std::string>& columns
       values[names[i]] = *value;
 }
 
-/// The values of the columns of a run, from the files in its folder.
+/// The values of the columns of a row, from the files in the folder `run` of its run.
 Values values_of(const ParticlesCase& c, const std::vector<std::string>& columns,
                  const fs::path& run) {
   Values values;
@@ -71,14 +72,14 @@ Values values_of(const ParticlesCase& c, const std::vector<std::string>& columns
   return values;
 }
 
-/// The text without any `part`, such as the path of a folder, so that rows do not depend on it.
+/// The text without each occurrence of `part`.
 std::string without(std::string text, const std::string& part) {
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at))
     text.erase(at, part.size());
   return text;
 }
 
-/// Removes the files of a run that its row does not need.
+/// Removes the files that Viscontact wrote into the folder of a run, except run.json and steps.csv.
 void remove_the_rest(const fs::path& run) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(run))
@@ -118,7 +119,7 @@ std::optional<sweep::RowResults> ParticlesRuns::ended(std::uint64_t index) const
     return sweep::RowResults{
         json.at("values").get<Values>(), {}, json.at("failure").get<std::string>()};
   } catch (const Json::exception&) {
-    return {};  // damaged: the row is computed again
+    return {};  // the file is damaged, and the row is computed again
   }
 }
 
@@ -144,7 +145,7 @@ sweep::RowResults ParticlesRuns::compute(std::uint64_t index, const StopToken& s
   const auto folder = folder_of(index), run = folder / "run", file = folder / "case.toml";
   const LockedFolder lock(
       folder, "is being computed by another process; wait until it has ended, or write elsewhere");
-  // Another process may have ended the run since the first look.
+  // Another process may have ended the run since the first call of ended().
   if (auto results = ended(index); results && results->failure.empty()) return *results;
   const auto text = sweep_.case_text(index);
   if (!fs::is_regular_file(file) || read_file(file) != text) write_file(file, text);

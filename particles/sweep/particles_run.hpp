@@ -1,6 +1,7 @@
-// A run of a sweep of particles, in a folder of its own: the case of the row, the run itself and
-// its results, in the units of the case. particles_sweep_stage.cpp uses it. A change must keep that
-// a row that is finished is not computed again.
+// Computes the rows of a sweep of particles. Each row is a run of one case in a folder of its own,
+// and its results are kept there, in the units of the case. particles_sweep_stage.cpp uses it. A
+// change must keep that a finished row is not computed again, and that results of another case or
+// version are not taken.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +14,12 @@
 
 namespace viscontact::particles {
 
-/// The folder OUTPUT.runs, which has a folder for each row of a sweep into the file OUTPUT.
+/// The folder OUTPUT.runs, which has a folder for each row of a sweep whose file of rows is OUTPUT.
 std::filesystem::path runs_folder(const std::filesystem::path& output);
 
 /// Runs the cases of the rows of a sweep of particles in folders below runs_folder(). The folder of
-/// a row is POINT, or POINT-DRAW if there are draws, so that it stays the same if draws are added:
+/// a row is POINT, the number of its point, or with several random arrangements (draws) POINT-DRAW,
+/// so that it stays the same if draws are added. It has
 ///
 ///     case.toml     the case of the row
 ///     result.json   what the row needs, once the run has ended
@@ -25,15 +27,15 @@ std::filesystem::path runs_folder(const std::filesystem::path& output);
 class ParticlesRuns {
  public:
   /// The sweep must outlive this object. `output` is the file of the rows, `version` that of
-  /// Viscontact. `threads` >= 1 is the number of threads of each run. `keep_all`: all files of
-  /// finished runs are kept.
+  /// Viscontact. `threads` >= 1 is the number of threads of each run. With `keep_all` all files of
+  /// finished runs are kept. `start_solver` starts the fluid solver; used if the case has a fluid.
   ParticlesRuns(const ParticlesSweep& sweep, const std::filesystem::path& output,
                 std::string version, int threads, bool keep_all, StartFluidSolver start_solver);
 
-  /// The results of row `index`, if its run has ended. Other threads may call this function, too.
+  /// The results of row `index`, from 0, if its run has ended; else nothing. It is thread-safe.
   std::optional<sweep::RowResults> ended(std::uint64_t index) const;
 
-  /// True if the run of row `index` has succeeded, so that compute() would not run it again.
+  /// True if the run of row `index` has ended without a failure. compute() then does not repeat it.
   bool has_succeeded(std::uint64_t index) const;
 
   /// Runs the case of row `index`, continues the run if it was interrupted, or takes the results of

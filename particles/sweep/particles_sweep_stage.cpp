@@ -1,6 +1,7 @@
-// The stages of sweeps of particles. Computing times are in [s], others in the unit of the case.
-// Runs that all fail, or are missing, are an Error(kNotConverged). A change must keep runs in their
-// folders until the user deletes them, so that adding draws runs the new ones only.
+// The stages of sweeps of particles (particles_sweep_stage.hpp). Computing times are in [s], others
+// in the unit of the case. If all runs fail, or some are missing, an Error(kNotConverged) is
+// thrown. A change must keep runs in their folders until the user deletes them, so that a sweep to
+// which draws are added computes the new ones only. Used by app/.
 #include "viscontact/particles/sweep/particles_sweep_stage.hpp"
 
 #include <fmt/format.h>
@@ -28,8 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The runs of a sweep. If there are fewer rows than jobs, each run has several threads; the
-/// results do not depend on their number.
+/// The runs of a sweep. If there are fewer rows than jobs, each run has several threads; results do
+/// not depend on the number of threads.
 ParticlesRuns runs_of(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
                       std::uint64_t rows) {
   const auto runs_at_once =
@@ -52,7 +53,7 @@ results::Inputs inputs_of(const ParticlesSweep& sweep) {
   return inputs;
 }
 
-/// Writes the table of means, unless it exists with this content.
+/// If there are draws, writes the table of means, unless a file with this content exists.
 void write_means(const ParticlesSweep& sweep, const std::string& output) {
   if (sweep.points().draws == 0) return;
   const auto path = path_of_means(output);
@@ -96,7 +97,7 @@ std::vector<std::uint64_t> missing_rows(const ParticlesSweep& sweep, const Parti
   return missing;
 }
 
-/// Estimates the computing time of a row from the first steps of the first row.
+/// Sets the computing time of a row in `run` [s], extrapolated from first steps of the first row.
 void measure_first_steps(const ParticlesSweep& sweep, const StartFluidSolver& start_solver,
                          const StopToken& stop, pipeline::DryRun& run) {
   using Clock = std::chrono::steady_clock;
@@ -111,7 +112,7 @@ void measure_first_steps(const ParticlesSweep& sweep, const StartFluidSolver& st
   const double first = seconds_since(start);
   const auto after_first = Clock::now();
   const double tiny = 1e-6 * c.setting.time_step;
-  constexpr double kEnough = 2;  // [s]
+  constexpr double kEnough = 2;  // [s], a free choice
   while (simulation.state().time < c.end_time - tiny && seconds_since(start) < kEnough)
     simulation.step(c.end_time);
   const auto further = simulation.state().steps - 1;
@@ -138,7 +139,7 @@ void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& re
   const std::uint64_t size = (sweep.points().rows() - share.number + share.count - 1) / share.count;
   const auto runs = runs_of(sweep, request, size);
   std::atomic<std::uint64_t> failed = 0;
-  // Nothing is written here: results are kept in the folders of the runs.
+  // The rows are not written into a table: compute() keeps the results in the folders of the runs.
   const auto run = [&](std::uint64_t index, const StopToken& stop) {
     if (!runs.compute(share.number + index * share.count, stop).failure.empty()) ++failed;
     return std::string();

@@ -1,9 +1,9 @@
 // The stages of sweeps of particles: simulations of one case with varied numbers. Each row of the
-// table is the result of one simulation, which has a folder of its own. Either this process
-// computes all rows, or each task of a job on a cluster computes some of them and gather_sweep()
-// writes the tables. The command `sweep` calls these functions. Numbers are in the units of the
-// case. A change must not delete the result of a finished simulation, because a later call reads it
-// instead of computing the row again.
+// table is the result of one simulation, which has a folder of its own (particles_run.hpp). Either
+// this process computes all rows, or each task of a job on a cluster (Slurm) computes some of them
+// and gather_sweep() writes the tables. The command `sweep` of app/ calls these functions. Numbers
+// are in the units of the case. A change must not delete the result of a finished simulation,
+// because a later call reads it instead of computing the row again.
 #pragma once
 
 #include <cstddef>
@@ -21,39 +21,41 @@ namespace viscontact::particles {
 
 /// The options of a sweep of particles.
 struct ParticlesSweepRequest {
-  std::string output;  ///< file of the rows (CSV); the folders are in OUTPUT.runs/
+  std::string output;  ///< file of the rows (CSV); OUTPUT.runs/ has the folders
   int jobs = 1;        ///< number of rows that are computed at once, >= 1
-  /// False: of the files of a simulation that has not failed only the case, the result, run.json
-  /// and steps.csv are kept; true: all.
+  /// Whether all files of a finished simulation are kept. If not, only the case, the result,
+  /// run.json and steps.csv are; a simulation that failed keeps all.
   bool keep_all = false;
-  StartFluidSolver start_solver;  ///< used if the case has a fluid
-  StopToken stop{};
+  StartFluidSolver start_solver;  ///< starts the fluid solver; used if the case has a fluid
+  StopToken stop{};               ///< ends the sweep; finished simulations are kept
 };
 
 /// Computes the missing rows, and writes the file of the rows and, if there are draws, the table of
-/// means. A row that fails stops no other rows; column `failure` says why. Throws
-/// Error(kNotConverged) after all is written if every run failed, and Error(kInterrupted) if `stop`
-/// requests a stop; finished runs are kept.
+/// means. A row that fails does not stop the others; the column `failure` says why it failed.
+/// Throws Error(kNotConverged) after all is written if every run failed, and Error(kInterrupted) if
+/// `stop` requests a stop; finished runs are kept.
 void sweep_particles(const ParticlesSweep& sweep, const ParticlesSweepRequest& request);
 
-/// Computes the rows of a task, those whose number modulo `share.count` is `share.number`, into
-/// their folders, and writes no table. Throws the errors of sweep_particles().
+/// Computes the rows of one task, those whose number modulo `share.count` is `share.number`, into
+/// their folders, and writes no table. Throws the errors of sweep_particles(), for the rows of this
+/// task.
 void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
                     const pipeline::Share& share);
 
-/// Writes the tables from the runs that have ended, and runs nothing. Throws Error(kNotConverged),
-/// which names rows, if some are missing.
+/// Writes the tables from the runs that have ended, and runs nothing. Throws Error(kNotConverged)
+/// if rows are missing, with their number and the first one, or if every run failed.
 void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request);
 
-/// Submits the tasks that have rows to compute (array_job.hpp). `options` are the words of the
-/// command line that determine the rows, such as --draws and its number.
+/// Submits a Slurm job with the tasks that have rows to compute (array_job.hpp, which says what is
+/// thrown). `options` are the words of the command line that determine the rows, such as --draws
+/// and its number.
 void submit_sweep(const ParticlesSweep& sweep, const pipeline::ArrayRequest& request,
                   const std::vector<std::string>& options);
 
-/// The estimate for --dry-run. The time of a row is that of the runs that have ended. If there are
-/// none, the first steps of the first row are computed, for two seconds or until `stop` requests a
-/// stop, and the time of all of its steps is extrapolated from them; nothing is written. Throws the
-/// errors of these steps.
+/// The estimate for --dry-run: how many rows are finished, and the computing time of a row [s].
+/// This is the mean of the runs that have succeeded. If there are none, the first steps of the
+/// first row are computed for two seconds, and the time of all of its steps is extrapolated from
+/// them; nothing is written. Throws the errors of these steps.
 pipeline::DryRun dry_run(const ParticlesSweep& sweep, const std::string& output,
                          const StartFluidSolver& start_solver, const StopToken& stop);
 
