@@ -1,7 +1,6 @@
 // Reads and writes the CSV file of a trajectory (docs/file-formats.md), and selects rows for it.
-// Numbers are in the units of the case. A fault of a file is an Error(kBadInput) with file and
-// line. A change must keep the columns, which users' scripts read, and the rows that a comparison
-// looks for.
+// Numbers are in the units of the case. Errors are those of trajectory.hpp. A change must keep the
+// columns, which users' scripts read, and the rows that a comparison looks for.
 #include "viscontact/reduced_model/trajectory.hpp"
 
 #include <fmt/format.h>
@@ -35,7 +34,7 @@ long steps_of(const CsvComments& comments, const std::string& file) {
   return static_cast<long>(steps);
 }
 
-/// Numbers of a rebound, separated by blanks, and rebounds separated by "; ".
+/// The rebounds as text: the five numbers of each are separated by blanks, and rebounds by "; ".
 std::string write_rebounds(const std::vector<Rebound>& rebounds) {
   std::string text;
   for (const auto& of : rebounds)
@@ -153,7 +152,7 @@ namespace {
 bool in_contact(const TrajectoryRow& row) { return row.gamma && *row.gamma < 0; }
 bool on_solid(const TrajectoryRow& row) { return row.solid_force && *row.solid_force > 0; }
 
-/// The rows that differ from the row before in contact or in solid contact.
+/// The indices of the rows that differ from the row before in contact or in solid contact.
 std::vector<std::size_t> changes_of_contact(const std::vector<TrajectoryRow>& rows) {
   std::vector<std::size_t> changes;
   for (std::size_t i = 1; i < rows.size(); ++i)
@@ -163,7 +162,7 @@ std::vector<std::size_t> changes_of_contact(const std::vector<TrajectoryRow>& ro
   return changes;
 }
 
-/// The first row with the smallest `value`.
+/// The index of the first row with the smallest `value`.
 template <class Value>
 std::size_t first_of_least(const std::vector<TrajectoryRow>& rows, const Value& value) {
   return static_cast<std::size_t>(std::ranges::min_element(rows, {}, value) - rows.begin());
