@@ -12,8 +12,9 @@
 //   V = sum_k A_k(x) dx_k/dt,   power = sum_kl Phi_kl(x) dx_k/dt dx_l/dt.
 //
 // B_ik is 1 if arm k is between the middle sphere and a sphere i with a larger number, -1 if it is
-// between the middle sphere and a sphere i with a smaller number, else 0. The displacement of a closed stroke is the
-// integral of A along its loop, and does not depend on the velocity at which the loop is run.
+// between the middle sphere and a sphere i with a smaller number, else 0. The displacement of a
+// closed stroke is the integral of A along its loop, and does not depend on the velocity at which
+// the loop is run.
 #pragma once
 
 #include <Eigen/Core>
