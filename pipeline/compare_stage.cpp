@@ -2,7 +2,7 @@
 // compares them, and writes the comparison. Numbers are in the units of the trajectories. A folder
 // without trajectories is an Error(kBadInput). A change must keep the order of the files, because
 // the comparison lists models in this order, and because the first file becomes the reference if
-// the model that is the reference by default has failed. Errors and callers: see compare_stage.hpp.
+// the model that is the reference by default has failed. Used by `run` and `compare`.
 #include "viscontact/pipeline/compare_stage.hpp"
 
 #include <fmt/format.h>
@@ -59,7 +59,7 @@ std::vector<fs::path> trajectory_files(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(place))
     if (entry.path().extension() == ".csv" && entry.path().filename() != "table.csv")
       files.push_back(entry.path());
-  // First the models in the order of the registry, then the user's files by name.
+  // First the models in the order of all_models(), then the user's files by name.
   std::ranges::sort(files, {},
                     [&](const fs::path& file) { return std::pair(rank_of(file), file); });
   return files;

@@ -1,6 +1,7 @@
 // Estimates computing times [s] from finished rows, from a few rows that are computed now, or from
-// measured constants. A change must keep the keys of the JSON, which users' scripts read
-// (docs/command-line.md). Callers and errors: see dry_run.hpp.
+// measured constants. An Error of a row that is computed ends the estimate. Used by app/ and
+// particles/sweep. A change must keep the keys of the JSON, which users' scripts read
+// (docs/command-line.md).
 #include "viscontact/pipeline/dry_run.hpp"
 
 #include <fmt/format.h>

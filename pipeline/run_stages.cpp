@@ -1,8 +1,8 @@
 // Decides which stages of `viscontact run` must run: those whose outputs are missing or were made
 // from other inputs. Failures of rows and models are thrown last, when all other results are
-// written. A change must keep that the outputs made from old trajectories are removed before new
-// trajectories are written, so that a run that is killed never leaves outputs that do not belong
-// together.
+// written. Used by the command `run`. A change must keep that the outputs made from old
+// trajectories are removed before new trajectories are written, so that a run that is killed never
+// leaves outputs that do not belong together.
 #include "viscontact/pipeline/run_stages.hpp"
 
 #include <algorithm>
@@ -68,8 +68,8 @@ bool uncertainty_is_lost(const results::RunFolder& run) {
 /// Throws Error(kBadInput) if a run would replace or delete a file that Viscontact did not write.
 /// Must be called before any work is done, because the tabulation can take hours.
 void check_outputs_of_run(const results::RunFolder& run, bool writes_fit) {
-  // Such a fit has no record that Viscontact wrote it, if an earlier run copied it from a file of
-  // the user; as a copy it may be replaced.
+  // An earlier run may have copied a fit that the user wrote by hand. This copy may be replaced,
+  // although it has no record that Viscontact wrote it.
   const bool is_copy = holds_a_run(run) && is_fit(run.fit());
   if (writes_fit && !is_copy) results::refuse_other_kind(run.fit(), "\"gap_interval\"", "fit");
   results::refuse_other_kind(run.comparison(), "\"reference_model\"", "comparison");
@@ -81,8 +81,8 @@ void check_outputs_of_run(const results::RunFolder& run, bool writes_fit) {
 }
 
 /// Makes or finds the fit that the case asks for, and returns its path. `given` are the case and
-/// its force files. `failure` is set to the error that names the rows of the table that failed, if
-/// any did.
+/// the files of forces that it names. `failure` is set to the error that names the rows of the
+/// table that failed, if any did.
 fs::path provide_fit(const case_file::Case& c, const results::RunFolder& run,
                      const std::vector<fs::path>& given, int jobs, RowFailure& failure,
                      const StopToken& stop) {

@@ -1,6 +1,6 @@
 // Computes the rows of a sweep (sweep_stage.hpp), shows its progress, and says at its end how many
-// rows failed. Times are in seconds. A change must keep that finished rows are never computed
-// again.
+// rows failed. Times are in seconds. If all rows failed, that is an Error(kNotConverged). Used by
+// app/ and particles/sweep. A change must keep that finished rows are never computed again.
 #include "viscontact/pipeline/sweep_stage.hpp"
 
 #include <fmt/format.h>

@@ -15,7 +15,7 @@ namespace viscontact::pipeline {
 
 /// The options of a sweep.
 struct SweepStageRequest {
-  std::string output;  ///< file of the rows
+  std::string output;  ///< path of the file of rows (CSV)
   int jobs = 1;        ///< number of rows at once, >= 1
   StopToken stop{};    ///< a stop ends the sweep
 };

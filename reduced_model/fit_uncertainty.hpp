@@ -49,7 +49,7 @@ inline constexpr std::size_t kDraws = 10000;
 /// Propagates the errors of a fit to the motion without inertia, Gamma(q(t)) = Gamma(q0) + int
 /// f_ext (model reference_exact), in two ways:
 ///   random  draws coefficients from the normal distribution with the covariance of the fit, which
-///           treats the misfit as independent noise;
+///           treats the residuals of the fit as independent noise;
 ///   misfit  uses |R_fit/R - 1| <= misfit, so that Gamma_fit(q(t)) is between Gamma_fit(q0) +
 ///           (1 - misfit) int f_ext and Gamma_fit(q0) + (1 + misfit) int f_ext. This bound is valid
 ///           for every shape of the misfit, as far as the misfit is known at the gaps of the table.

@@ -1,7 +1,7 @@
 // What the models of motion share: the values of their parameters, reports of their progress, the
-// number of their steps, and the times [T] of the rows of their trajectories. Errors are those of
-// motion.hpp. A change of step_count() or row_times() changes trajectories and must raise
-// kModelsRevision.
+// number of their steps, and the times [T] of the rows of their trajectories. A missing parameter
+// and too many steps are an Error(kBadInput). Used by all models, rolling/ and case_file/. A change
+// of step_count() or row_times() changes trajectories and must raise kModelsRevision.
 #include "viscontact/reduced_model/motion.hpp"
 
 #include <fmt/format.h>

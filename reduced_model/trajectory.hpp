@@ -25,7 +25,7 @@ namespace viscontact::reduced_model {
 /// that include this file must not be compiled with -ffast-math, which ignores NaN.
 class OptionalDouble {
  public:
-  constexpr OptionalDouble() = default;
+  constexpr OptionalDouble() = default;  ///< a missing value
   /// `value` must not be NaN, because NaN stands for a missing value.
   // The conversion is implicit, as in std::optional.
   // NOLINTNEXTLINE(google-explicit-constructor)
@@ -62,11 +62,12 @@ class OptionalDouble {
 /// Contact models add up the impulses and works of each step. In the other models the film stands
 /// for the whole drag. Its impulse is the change of momentum minus the impulses of the other
 /// forces. Its work is a sum over the rows, with an error of second order in their spacing, and
-/// external_work is set so that the works are balanced; in inertial_rough it is the other way
-/// round.
+/// external_work is set so that the works are balanced. In inertial_rough external_work is such a
+/// sum, and film_work is set.
 struct MomentumEnergyBudget {
   double external_impulse = 0;  ///< of the external force [M L/T]
-  /// of the film: minus the change of gamma in contact models, else that of the drag [M L/T]
+  /// Of the film: minus the change of gamma in contact models, else the impulse of the drag [M
+  /// L/T].
   double film_impulse = 0;
   double drag_impulse = 0;   ///< of the resolved drag, contact models only [M L/T]
   double solid_impulse = 0;  ///< of the solid contact [M L/T], >= 0
@@ -112,7 +113,7 @@ struct Rebound {
   double time = 0;  ///< [T]
   /// Velocity before the film acts, in inertial_rough that at the initial gap [L/T], < 0.
   double approach_velocity = 0;
-  /// impulse that the solids took up before they gave a part back [M L/T], > 0
+  /// Impulse that the solids took up before they gave a part back [M L/T], > 0.
   double solid_impulse = 0;
   double velocity = 0;  ///< velocity at which the sphere leaves the film [L/T], >= 0; 0: it stays
   double coefficient = 0;  ///< coefficient of restitution, velocity/|approach_velocity| [1]

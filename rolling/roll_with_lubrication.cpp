@@ -5,8 +5,9 @@
 // rotation; u and V are the velocities of sphere and plane along x, and w is the angular velocity.
 // s is ln(q/r) with the gap q and the radius r. Slip is the velocity of the lowest point relative
 // to the plane, u - V - r w. m is the mass and I the moment of inertia. Numbers are in any
-// consistent units. Errors are those of rolling_motion.hpp. rolling/case/ and rolling/job/ use the
-// models. A change must keep the slip exactly 0 while the sphere rolls.
+// consistent units. A gap above those of the fit is an Error(kBadInput), a step that CVODE cannot
+// make an Error(kNotConverged). rolling/case/ and rolling/job/ use the models. A change must keep
+// the slip exactly 0 while the sphere rolls.
 #include <algorithm>
 #include <array>
 #include <cmath>

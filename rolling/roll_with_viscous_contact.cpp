@@ -1,8 +1,9 @@
 // The model `viscous_contact` of a sphere that moves along a plane and turns, by the time steps of
 // physics.md (4.5) and (4.10); also end_of() and the list of all models of rolling_motion.hpp.
 // gamma is minus the impulse that the film of fluid has absorbed, gamma_min its value at which the
-// solids touch, q0 the initial gap. Lengths, masses and times are in any consistent units. Errors
-// are those of rolling_motion.hpp. A change must keep the balance of contact_step.hpp.
+// solids touch, q0 the initial gap. Lengths, masses and times are in any consistent units. A fit
+// that lacks a resistance is an Error(kBadInput). Used by rolling/case, rolling/job and app/. A
+// change must keep the balance of contact_step.hpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -45,8 +46,8 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
                                             const motions::PairFit& fit) {
   const RollingFluid fluid(fit);
   const double radius = fit.radius;
-  // k is the coefficient of 1/q in the resistance of a plane. The film thickness is q0
-  // exp(gamma/k).
+  // k is the coefficient of 1/q in the resistance of a sphere near a plane. The film thickness is
+  // q0 exp(gamma/k).
   const double k = 6 * std::numbers::pi * fit.viscosity * radius * radius, q0 = motion.initial_gap;
   const double gamma_min = motion.roughness > 0 ? std::min(0.0, k * std::log(motion.roughness / q0))
                                                 : -std::numeric_limits<double>::infinity();

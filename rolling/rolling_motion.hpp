@@ -16,21 +16,21 @@ namespace viscontact::rolling {
 /// The sphere, its start, the forces that do not depend on its motion, and the surfaces. The fluid
 /// is at rest where the plane is at rest; a plane with a constant velocity carries it along.
 struct RollingMotion {
-  double mass = 0;                   ///< m [M], > 0
-  double moment_of_inertia = 0;      ///< I [M L^2], > 0
-  double initial_gap = 0;            ///< q0 [L], > 0
-  double normal_velocity = 0;        ///< dq/dt at the start [L/T]
-  double velocity = 0;               ///< dx/dt at the start [L/T]
-  double angular_velocity = 0;       ///< w at the start [1/T]; > 0 rolls along +x
-  double force = 0;                  ///< constant force along x [M L/T^2]
-  double normal_force = 0;           ///< constant force along z [M L/T^2]; < 0 towards the plane
-  double torque = 0;                 ///< constant torque about y [M L^2/T^2]
-  double plane_velocity = 0;         ///< V of the plane along x [L/T]
-  double roughness = 0;              ///< gap at which solids touch [L], >= 0
-  double friction = 0;               ///< Coulomb's coefficient mu_s of the solids [1], >= 0
-  double end_time = 0;               ///< [T], > 0
-  double time_step = 0;              ///< of viscous_contact, and spacing of all rows [T], > 0
-  double relative_tolerance = 1e-9;  ///< of CVODE, in (0, 1)
+  double mass = 0;               ///< m [M], > 0
+  double moment_of_inertia = 0;  ///< I [M L^2], > 0
+  double initial_gap = 0;        ///< q0 [L], > 0
+  double normal_velocity = 0;    ///< dq/dt at the start [L/T]
+  double velocity = 0;           ///< dx/dt at the start [L/T]
+  double angular_velocity = 0;   ///< w at the start [1/T]; > 0 rolls along +x
+  double force = 0;              ///< constant force along x [M L/T^2]
+  double normal_force = 0;       ///< constant force along z [M L/T^2]; < 0 towards the plane
+  double torque = 0;             ///< constant torque about y [M L^2/T^2]
+  double plane_velocity = 0;     ///< V of the plane along x [L/T]
+  double roughness = 0;          ///< gap at which solids touch [L], >= 0
+  double friction = 0;           ///< Coulomb's coefficient mu_s of the solids [1], >= 0
+  double end_time = 0;           ///< [T], > 0
+  double time_step = 0;  ///< step of the model viscous_contact, and spacing of all rows [T], > 0
+  double relative_tolerance = 1e-9;  ///< relative tolerance of the integrator CVODE [1], in (0, 1)
   /// A stop makes the models throw Error(kInterrupted).
   StopToken stop{};
 };

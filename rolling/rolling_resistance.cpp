@@ -1,6 +1,7 @@
 // Sums the terms of the fits of the resistances, and decides between rolling and sliding. Numbers
-// are in the units of the fit. Errors are those of rolling_resistance.hpp. A change must keep the
-// matrix of the resistances symmetric.
+// are in the units of the fit. A missing resistance, and a gap above those of the fit, are an
+// Error(kBadInput). Used by the models of rolling/. A change must keep the matrix of the
+// resistances symmetric.
 #include "viscontact/rolling/rolling_resistance.hpp"
 
 #include <fmt/format.h>

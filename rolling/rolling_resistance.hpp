@@ -25,8 +25,8 @@ struct RollingForce {
 
 /// The symmetric matrix that maps a RollingVelocity to the force and torque against it.
 struct RollingResistance {
-  double slide = 0;       ///< [M/T]
-  double roll = 0;        ///< [M L^2/T]
+  double slide = 0;       ///< force per velocity [M/T]
+  double roll = 0;        ///< torque per angular velocity [M L^2/T]
   double slide_roll = 0;  ///< [M L/T]; the entries off the diagonal are -slide_roll
 };
 

@@ -1,7 +1,7 @@
 // Plans, checks and computes the rows of a sweep of one sphere, in the units of the case. A model
-// that fails leaves its columns empty; other errors are those of sphere_study.hpp. A change must
-// put everything that determines the rows into identity_of(), so that rows of another sweep are not
-// kept.
+// that fails leaves its columns empty. A key that cannot be varied is an Error(kWrongUsage). Used
+// by the command `sweep`. A change must put everything that determines the rows into identity_of(),
+// so that rows of another sweep are not kept.
 #include "viscontact/sweep/sphere_study.hpp"
 
 #include <fmt/format.h>

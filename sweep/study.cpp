@@ -1,6 +1,7 @@
 // Computes the rows of a sweep, and writes, continues and reads its file (study.hpp). Numbers are
-// in the units of the case. Errors are those of study.hpp. A change must keep that rows of an
-// earlier call are kept only if its file has the same head.
+// in the units of the case. A file that cannot be read or written is an Error(kBadInput). Used by
+// app/, pipeline/ and the sweeps of all kinds of cases. A change must keep that rows of an earlier
+// call are kept only if its file has the same head.
 #include "viscontact/sweep/study.hpp"
 
 #include <fmt/format.h>

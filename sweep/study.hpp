@@ -26,7 +26,7 @@ namespace viscontact::sweep {
 struct RowResults {
   std::map<std::string, double> values;  ///< a value that is not finite gives an empty field
   std::map<std::string, std::uint64_t> numbers;  ///< results that are whole numbers
-  std::string failure;                           ///< why results are missing; empty: none is
+  std::string failure;                           ///< why results are missing; empty if none is
 };
 
 /// Calls `part`, which computes some results of a row. If it fails, the reason is added to the

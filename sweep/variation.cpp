@@ -1,6 +1,7 @@
 // Reads ranges, and computes the points of grids and random points. Values have the units of their
-// keys. Errors are those of variation.hpp. A change must keep the values bit for bit, because a
-// sweep that continues compares them with its finished rows.
+// keys. A range that is not valid is an Error(kBadInput). Used by the sweeps of all kinds of cases.
+// A change must keep the values bit for bit, because a sweep that continues compares them with its
+// finished rows.
 #include "viscontact/sweep/variation.hpp"
 
 #include <fmt/format.h>
@@ -16,8 +17,8 @@ namespace viscontact::sweep {
 namespace {
 
 // Free choices: computing so many rows takes too long anyway, 12 days for 1e12 rows at a
-// microsecond each. The product of the counts is a double, which is exact up to 2^53 = 9e15 and so
-// can be compared with them.
+// microsecond each. The product of the counts is a double, which is exact up to 2^53 = 9e15, so
+// that it can be compared with kMostPoints.
 constexpr double kMostValues = 1e9;
 constexpr double kMostPoints = 1e12;
 

@@ -1,7 +1,8 @@
 // Newton's method for the stroke of least energy (optimal_stroke.hpp), whose loop in the space of
 // arms has polynomials as coordinates (polynomial_loop.hpp). Numbers are in the units of the fit;
-// energies are those in a period of 1. Errors are those of optimal_stroke.hpp. A change must keep
-// energies to the digits of docs/swimmer.md.
+// energies are those in a period of 1. Loops that leave the table are an Error(kBadInput), and a
+// failure of Newton's method with all polynomials an Error(kNotConverged). Used by swimmer/case and
+// swimmer/job. A change must keep energies to the digits of docs/swimmer.md.
 #include "viscontact/swimmer/optimal_stroke.hpp"
 
 #include <fmt/format.h>
@@ -221,6 +222,8 @@ PolynomialLoop small_loop(const BestPlane& plane, const VectorXd& through, doubl
 std::optional<Extremal> follow(const Swimmer& swimmer, const OptimalStrokeRequest& request,
                                double angle, const StopToken& stop) {
   constexpr Index kPolynomials = 8;  // enough on the way; more are added at the end
+  // The displacement begins at kFirstShare of the wanted one and grows by a factor, which is
+  // reduced when a search fails, but not below kSmallestFactor.
   constexpr double kFirstShare = 1. / 64, kSmallestFactor = 1.02;
   const LoopOptimizer optimizer(swimmer, request.through, kPolynomials);
   const auto plane = best_plane(swimmer, request.through);

@@ -18,7 +18,7 @@ namespace viscontact::swimmer {
 struct OptimalStrokeRequest {
   double displacement = 0;  ///< displacement in a period [L], not 0; > 0 towards the last sphere
   Eigen::VectorXd through;  ///< the shape at which the stroke begins and ends [L]
-  /// number for each arm (PolynomialLoop), at least kFewestPolynomials
+  /// Number of polynomials of each arm (PolynomialLoop), at least kFewestPolynomials.
   Eigen::Index polynomials = 20;
 };
 

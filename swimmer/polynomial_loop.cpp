@@ -1,7 +1,7 @@
 // Polynomial loops of a swimmer's arms, their energy and displacement, and the gradients
 // (polynomial_loop.hpp). Numbers are in the units of the swimmer's fit. A loop outside the table is
-// an Error(kBadInput). A change must keep that gradients are the derivatives of the sums to
-// round-off.
+// an Error(kBadInput). Used by optimal_stroke.cpp. A change must keep that gradients are the
+// derivatives of the sums to round-off.
 #include "viscontact/swimmer/polynomial_loop.hpp"
 
 #include <Eigen/QR>
@@ -51,8 +51,9 @@ PolynomialLoop with_more_polynomials(const PolynomialLoop& loop, Index count) {
 }
 
 LoopFunctional::LoopFunctional(const Swimmer& swimmer, Index polynomials) : swimmer_(swimmer) {
-  // Exact for polynomials of a degree below twice this number of points. The integrands are
-  // analytic functions of loops of degree polynomials + 1, for which the 24 additional points are.
+  // Exact for polynomials of a degree below twice this number of points. The integrands are no
+  // polynomials, but analytic functions of loops of degree polynomials + 1; the 24 additional
+  // points are for them.
   const auto rule = gauss_rule(static_cast<int>(2 * polynomials + 24));
   points_ = rule.points;
   weights_ = rule.weights;

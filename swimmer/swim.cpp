@@ -1,5 +1,7 @@
 // Integrates displacement and power along a stroke (swim.hpp). Numbers are in the units of the fit.
-// Errors are those of swim.hpp. A change may alter sums by rounding errors only.
+// A stroke outside the table is an Error(kBadInput); sums that do not converge are an
+// Error(kNotConverged). Used by swimmer/case, swimmer/job and python/. A change may alter sums by
+// rounding errors only.
 #include "viscontact/swimmer/swim.hpp"
 
 #include <fmt/format.h>
@@ -99,7 +101,7 @@ std::vector<SwimRow> swim_rows(const Swimmer& swimmer, const Stroke& stroke, int
     for (int i = 0; i < parts; ++i) {
       const double from = std::lerp(leg.start, leg.end, static_cast<double>(i) / parts);
       const double to = std::lerp(leg.start, leg.end, static_cast<double>(i + 1) / parts);
-      // A corner has two rows at the same time, because forces jump there.
+      // At a corner of the stroke two rows have the same time, because forces jump there.
       add_row(leg, from);
       position += integrate(swimmer, leg, from, to, rule).displacement;
       if (i + 1 == parts) add_row(leg, to);

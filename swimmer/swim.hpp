@@ -18,7 +18,7 @@ struct SwimRow {
   double time = 0;       ///< [T]
   Eigen::VectorXd arms;  ///< x [L]
   double position = 0;   ///< position of the middle sphere [L], 0 at the beginning
-  /// force of each sphere on the fluid [M L/T^2], > 0 towards the last sphere
+  /// Force of each sphere on the fluid [M L/T^2], > 0 towards the last sphere.
   Eigen::VectorXd forces;
   double power = 0;  ///< power of the swimmer [M L^2/T^3], >= 0
 };

@@ -1,6 +1,6 @@
 // Checks of a case that need no table of forces: number of gaps, parameters of models, gaps [L] of
-// the motion. Errors and callers: see run_checks.hpp. The checks must be quick, because `run` makes
-// them before each tabulation.
+// the motion. Faults are an Error(kBadInput), and gaps outside those of the table a warning. Used
+// by pipeline/. The checks must be quick, because `run` makes them before each tabulation.
 #include "viscontact/pipeline/simulate/run_checks.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
-// The inputs of a run: their copies in its folder (case, force files, fit), so that the folder
-// alone repeats the run, and the comments of a trajectory that say from which inputs it was made,
-// by which `run` decides whether it is up to date. Numbers are in the units of the case. The other
-// files of pipeline/ call it. A change must keep that a copy never replaces a file of the user, and
-// that the comments identify everything that alters a trajectory. A file that cannot be read is an
-// Error(kBadInput), except in is_simulated().
+// The inputs of a run: their copies in its folder (case, files of sampled external forces, fit of
+// the drag), so that the folder alone repeats the run, and the comments of a trajectory that say
+// from which inputs it was made, by which `run` decides whether it is up to date. Numbers are in
+// the units of the case. The other files of pipeline/ call it. A change must keep that a copy never
+// replaces a file of the user, and that the comments identify everything that alters a trajectory.
+// A file that cannot be read is an Error(kBadInput), except in is_simulated().
 #pragma once
 
 #include <string>

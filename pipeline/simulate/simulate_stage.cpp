@@ -1,6 +1,7 @@
 // Chooses the fit, runs the models of a case and writes their results. Numbers are in the units of
-// the case; errors are those of simulate_stage.hpp. A change must keep the order of writing in
-// write_simulated().
+// the case. A drag that is not given is an Error(kWrongUsage); if models fail, the error of the
+// first is thrown after the results of the others are written. Used by pipeline/, app/ and python/.
+// A change must keep the order of writing in write_simulated().
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
 
 #include <fmt/format.h>
@@ -31,7 +32,7 @@ namespace fs = std::filesystem;
 /// exact. Empty also if this motion cannot be computed; then a warning says why.
 std::string uncertainty_of(const reduced_model::Motion& motion, const lubrication::Fit& fit,
                            const lubrication::OutsideInterval& outside) {
-  // Instants at which the report draws the intervals of the gap; any number >= 2 works.
+  // Number of times at which the report shows how uncertain the gap is; any number >= 2 works.
   constexpr std::size_t kTimes = 81;
   if (lubrication::is_exact_plane(fit)) return "";
   try {
@@ -82,8 +83,8 @@ results::FailedModel failure_of(const reduced_model::ModelChoice& choice, const 
   return {choice.name, reason, error.kind(), {}};
 }
 
-/// Reads the fit and scales it to radius and viscosity of the case. Tells the user if it was made
-/// for others.
+/// Reads the fit and scales it to radius and viscosity of the case. Tells the user if its own
+/// differ from these.
 lubrication::Fit fit_of_text(const case_file::Case& c, const FitFile& file) {
   auto fit = lubrication::parse_fit(file.text, file.path.string());
   if (!equal_up_to_rounding(fit.viscosity, c.viscosity) ||
@@ -229,8 +230,8 @@ void simulate_stage(const case_file::Case& c, const SimulateRequest& request) {
   auto inputs = files_of_motion(c);
   if (!exact) inputs.push_back(path);
   auto provenance = results::provenance_of({inputs, {}});
-  // The recorded command must name this fit, because `rerun` may repeat the command with another
-  // output folder, in which there is no fit.
+  // The recorded command must name the fit that the folder has, because `rerun` may repeat the
+  // command with another output folder, which has none.
   if (of_folder) provenance.command.insert(provenance.command.end(), {"--fit", path.string()});
   if (request.fit.empty())
     terminal::say(fmt::format("simulate: the drag is {}",

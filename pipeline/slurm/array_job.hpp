@@ -15,7 +15,7 @@
 
 namespace viscontact::pipeline {
 
-/// The rows that one task computes: those whose number modulo `count` is `number`.
+/// The rows that one task computes: those whose number, from 0, modulo `count` is `number`.
 struct Share {
   std::size_t number = 0,  ///< number of the task, from 0, < count
       count = 1;           ///< number of tasks, >= 1; 1: all rows

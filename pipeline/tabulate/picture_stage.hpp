@@ -28,8 +28,9 @@ std::filesystem::path picture_folder(const std::filesystem::path& table_path);
 void check_pictures(const std::vector<double>& gaps, const std::filesystem::path& folder);
 
 /// Solves the flow again for each of these gaps at the first reference velocity of the tabulation,
-/// and writes gap_GAP_mesh.svg, gap_GAP_flow.svg, gap_GAP_film.svg and gap_GAP.vtu into `folder`.
-/// `motion` is that of the sphere in the table, and `case_file` contains the tabulation. Throws
+/// and writes into `folder` pictures of the mesh, of the flow and of the flow in the gap
+/// (gap_GAP_mesh.svg, gap_GAP_flow.svg, gap_GAP_film.svg), and the flow as gap_GAP.vtu. `motion` is
+/// that of the sphere in the table, and `case_file` contains the tabulation. Throws
 /// Error(kExternalProgram) if FreeFEM or gnuplot fails, Error(kInterrupted) if `stop` requests a
 /// stop.
 void picture_stage(const freefem_axi::Tabulation& tabulation, lubrication::MotionKind motion,

@@ -1,7 +1,8 @@
 // Tabulates several cases in one process, computes the rows of one task of a cluster, or gathers
 // the rows of all tasks. Rows that fail do not stop the others; the error that names them comes
-// last. A change must keep that the journals, files beside a table to which each row is added when
-// it is finished, are removed only after the table is written.
+// last. Used by app/, pipeline/, python/, rolling/ and swimmer/. A change must keep that the
+// journals, files beside a table to which each row is added when it is finished, are removed only
+// after the table is written.
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 
 #include <fmt/format.h>
@@ -278,7 +279,7 @@ void submit_to_slurm(const std::vector<CaseTable>& tables, const ArrayRequest& r
   for (const auto& one : tables) {
     check_output_file(one.table);
     rows += one.plan.points.size();
-    // A case of several motions has several tables.
+    // A case of several motions has several tables, but is named once.
     if (std::ranges::find(job.cases, one.case_path.string()) != job.cases.end()) continue;
     job.cases.push_back(one.case_path.string());
     job.copies.emplace_back(one.case_path.filename().string(), one.case_text);

@@ -1,7 +1,8 @@
 // Sums of piecewise polynomials (polynomial.hpp) and sinusoids, and the search for the times at
-// which they change their sign. Numbers are in any consistent units; errors are those of
-// external_force.hpp. A change must keep the formulas of the means and integrals, which lose no
-// digits by cancellation for short intervals and small arguments.
+// which they change their sign. Numbers are in any consistent units. A force that is not defined is
+// an Error(kBadInput), and one with too many periods an Error(kNotConverged). Used by all models of
+// one sphere. A change must keep the formulas of the means and integrals, which lose no digits by
+// cancellation for short intervals and small arguments.
 #include "viscontact/reduced_model/external_force/external_force.hpp"
 
 #include <fmt/format.h>

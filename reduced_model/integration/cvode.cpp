@@ -1,6 +1,7 @@
 // Calls the integrator CVODE of SUNDIALS 6 or 7 and checks all return codes (cvode.hpp). Times are
-// in [T]. A code that is an error becomes Error(kNotConverged). A change must keep that CVODE
-// prints nothing, and that the file compiles with both versions of SUNDIALS.
+// in [T]. A code that is an error becomes Error(kNotConverged). Used by reduced_model/models and
+// rolling/. A change must keep that CVODE prints nothing, and that the file compiles with both
+// versions of SUNDIALS.
 #include "viscontact/reduced_model/integration/cvode.hpp"
 
 #include <cvode/cvode.h>
@@ -132,8 +133,8 @@ void Cvode::step() {
   if (code >= 0 && (!(time_ > before) || ++steps_since_restart_ > kMostSteps))
     code = CV_TOO_MUCH_WORK;
   if (code < 0 && system_error_) {
-    // CVODE reports its own last failure. If CVODE got less far than the fraction kNoWay beyond the
-    // time at which the system threw an Error, that Error is the cause.
+    // CVODE reports its own last failure. If the time that it reached exceeds the time at which the
+    // system threw an Error by at most the fraction kNoWay, that Error is the cause.
     constexpr double kNoWay = 1e-9;
     double reached = 0;
     check(CVodeGetCurrentTime(sundials_->memory, &reached), "CVodeGetCurrentTime");

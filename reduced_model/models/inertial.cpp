@@ -1,8 +1,8 @@
 // Integrates the equation of inertial_equation.hpp with CVODE: restarts it where the force jumps,
 // and makes rows at the required times and where the velocity changes its sign. q is the gap, Gamma
 // the primitive of the resistance R, m the mass, P = m dq/dt + Gamma(q); lengths, masses and times
-// are in any one system of units. Errors are those of inertial.hpp. A change of results must raise
-// kModelsRevision.
+// are in any one system of units. A CVODE that gives up is an Error(kNotConverged), a gap outside
+// the fit an Error(kBadInput). Used by models.cpp. A change of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/inertial.hpp"
 
 #include <fmt/format.h>
@@ -133,7 +133,7 @@ class InertialRun {
     return (equation_.momentum(now_) - force_.impulse(solid_gap_)) / motion_.mass;
   }
 
-  /// True if the force pulls the sphere off the solids. Until the next stop it has one sign.
+  /// True if the force, which has one sign until the next stop, pulls the sphere off the solids.
   bool leaves_solids() {
     if (!(motion_.external_force.mean(now_, stop_) > 0)) return false;
     rests_ = false;
@@ -177,9 +177,8 @@ class InertialRun {
       cvode_.step();
       return true;
     } catch (const Error&) {
-      // If the state is not the one in which drag and force are balanced, CVODE must resolve its
-      // return to this balance, at the rate R/m, which can be too fast. Then CVODE restarts from
-      // the balanced state, once at each time.
+      // CVODE can fail if it must resolve how a state returns to the balance of drag and force, at
+      // the rate R/m. Then it is restarted from the balanced state, once at each time.
       if (now_ <= given_up_at_) throw;
       given_up_at_ = now_;
       const double q = gap();
@@ -200,7 +199,7 @@ class InertialRun {
   /// Adds the rows of the last step of CVODE that are at most at the time `end` [T]; `now` is the
   /// state at this time.
   void add_rows_of_step(double end, const InertialInstant& now) {
-    // For so many rows or more in the step, the expansion of s in powers of the time is cheaper
+    // If more rows than this are in the step, the expansion of s in powers of the time is cheaper
     // than at().
     constexpr std::ptrdiff_t kManyRows = 8;
     const bool many = times_.end() - next_row_ > kManyRows && *(next_row_ + kManyRows) < end;

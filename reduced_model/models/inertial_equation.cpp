@@ -1,7 +1,7 @@
 // The equation (S) of inertial_equation.hpp for s = ln(q/r) (q the gap, r the radius), the
 // tolerances of its integration, and the velocity that belongs to a state. Numbers are in any
-// consistent units. A gap outside the fit is an Error(kBadInput) of LubricationForce. A change of
-// results must raise kModelsRevision.
+// consistent units. A gap outside the fit is an Error(kBadInput) of LubricationForce. Used by
+// inertial.cpp and rolling/. A change of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/inertial_equation.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
                                           std::span<double> derivative) {
     const double q = gap_of(y[0]);
     // CVODE chooses the first step after a restart from this slope. slope() can be a rounding error
-    // divided by a small mass, instant() avoids it.
+    // divided by a small mass; instant() avoids this error.
     derivative[0] = t == step_begin ? instant(t, q, t).velocity / q : slope(t, q);
   };
   system.jacobian = [this](double t, std::span<const double> y, std::span<double> jacobian) {
@@ -48,8 +48,8 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
   // s is a logarithm, so its absolute error is the relative error of the gap. Only a tenth of the
   // user's tolerance is allowed in a step, which leaves room for the errors of the steps before. In
   // free flight the film damps errors too slowly for them to decay before the motion ends, and a
-  // landing, in which ln q changes fast, multiplies them. Therefore only the fraction kFlightShare
-  // of this is allowed there.
+  // landing, in which ln q changes fast, multiplies errors. There only the fraction kFlightShare of
+  // that is allowed.
   system.tolerance = [this](double t, std::span<const double> y, std::span<double> allowed) {
     constexpr double kShare = 0.1, kFlightShare = 3e-4;
     // If the motion lasts more than this many damping times, errors decay before its end.

@@ -66,8 +66,8 @@ std::string reference_of(const std::vector<std::string>& names);
 /// The parameters of all models, each once, in the order of the models.
 std::vector<ModelParameter> model_parameters();
 
-/// The sections of a case that contain these parameters and the roughness, each once, in the order
-/// of the models.
+/// The sections of a case that contain model_parameters() and the roughness, each once, in the
+/// order of the models.
 std::vector<std::string_view> model_sections();
 
 /// Suffix of the name of a model that runs with the exact drag (lubrication/plane_drag.hpp) in

@@ -1,7 +1,7 @@
 // Reads the sections of a case of a rolling sphere, and applies the defaults. Numbers are in the
-// units of the case. A wrong value is an Error(kBadInput) with its line. A change must keep keys
-// and defaults, because users have written cases with them, and docs/case-file.md, which repeats
-// them.
+// units of the case. A wrong value is an Error(kBadInput) with its line. Used by rolling/, app/ and
+// python/. A change must keep keys and defaults, because users have written cases with them, and
+// docs/case-file.md, which repeats them.
 #include "viscontact/rolling/case/rolling_case.hpp"
 
 #include <algorithm>

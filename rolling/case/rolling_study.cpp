@@ -1,6 +1,7 @@
 // Computes the motions of a sweep of a rolling sphere (rolling_study.hpp). Numbers are in the units
-// of the case. Errors are those of rolling_study.hpp; a model that fails leaves its columns empty.
-// A change must keep the names of the columns, which users' scripts read.
+// of the case. Used by the command `sweep`. A key that cannot be varied is an Error(kWrongUsage); a
+// model that fails leaves its columns empty. A change must keep the names of the columns, which
+// users' scripts read.
 #include "viscontact/rolling/case/rolling_study.hpp"
 
 #include <fmt/format.h>

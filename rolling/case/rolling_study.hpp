@@ -17,7 +17,7 @@ namespace viscontact::rolling {
 /// What is computed at each point of the sweep.
 struct RollingPlan {
   std::filesystem::path case_path;  ///< the case whose keys are varied
-  /// fit of the drag (motions::PairFit), which is scaled to each point
+  /// Fit of the drag (motions::PairFit), which is scaled to each point.
   std::filesystem::path fit_path;
   sweep::Points points;             ///< at least one variation; `draws` is 0
   std::vector<std::string> models;  ///< names of rolling_models(); empty: those of the case

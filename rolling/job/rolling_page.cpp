@@ -1,6 +1,6 @@
-// The pictures and the page of a rolling sphere, in the units of the case. Errors are those of
-// rolling_page.hpp. A change must list every picture in kRollingPictures, which decides which files
-// in plots/ may be replaced or removed.
+// The pictures and the page of a rolling sphere, in the units of the case. A gnuplot that fails is
+// an Error(kExternalProgram). Used by rolling_stage.cpp. A change must list every picture in
+// kRollingPictures, which decides which files in plots/ may be replaced or removed.
 #include "viscontact/rolling/job/rolling_page.hpp"
 
 #include <fmt/format.h>
@@ -116,7 +116,7 @@ std::vector<std::string> rolling_warnings(const RollingResults& results) {
   const double low = results.fit.gap_interval[0];
   for (const auto& [model, rows] : results.trajectories) {
     const double thinnest = std::ranges::min_element(rows, {}, &RollingRow::gap)->gap;
-    // relative; a sphere that rests at the smallest fitted gap has no warning
+    // Relative rounding error of the gap of a sphere that rests at the smallest fitted gap.
     constexpr double kRounding = 1e-9;
     if (thinnest < (1 - kRounding) * low)
       warnings.push_back(

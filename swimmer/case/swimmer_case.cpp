@@ -1,7 +1,8 @@
 // Reads the case of a swimmer (swimmer_case.hpp): its spheres and arms (distances of the centres of
 // neighbouring spheres), and strokes given by corners, an ellipse or a file of samples. Numbers are
-// in the units of the case. A wrong value is an Error(kBadInput) with its line. A change must keep
-// the arms of a table bit for bit, because its finished rows are found by their gaps.
+// in the units of the case. A wrong value is an Error(kBadInput) with its line. Used by swimmer/,
+// app/ and python/. A change must keep the arms of a table bit for bit, because its finished rows
+// are found by their gaps.
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 
 #include <algorithm>
@@ -64,7 +65,7 @@ std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
       "must be at least {}",
       from, from - both_radii, kLeastGap, both_radii + least);
   section.require(to > from, "to", "is {}; it must be greater than from, {}", to, from);
-  constexpr double kLargestArm = 1e4;  // of the sum of both radii
+  constexpr double kLargestArm = 1e4;  // times the sum of both radii
   section.require(to <= kLargestArm * both_radii, "to",
                   "is {}; it must be at most {} times the sum of both radii, {}", to, kLargestArm,
                   kLargestArm * both_radii);
@@ -132,7 +133,7 @@ void read_tube(const case_file::TomlSection& section, std::string_view key, Swim
   auto& tube = c.spheres.tube.emplace();
   case_file::read_keys(table, tube_keys, tube);
   const auto& radii = c.spheres.radii;
-  constexpr double kNarrowest = 1.01, kWidest = 1e3;  // of the largest radius
+  constexpr double kNarrowest = 1.01, kWidest = 1e3;  // times the largest radius
   const double largest = std::ranges::max(radii);
   table.require(tube.radius >= kNarrowest * largest && tube.radius <= kWidest * largest, "radius",
                 "is {}; it must be {} to {} times the largest radius of the spheres, {}, or the "

@@ -1,6 +1,6 @@
-// Computes the strokes of a sweep (swimmer_study.hpp). Numbers are in the units of the case. Errors
-// are those of swimmer_study.hpp; a stroke that fails leaves its columns empty. A change must keep
-// the names of the columns, which users' scripts read.
+// Computes the strokes of a sweep (swimmer_study.hpp). Numbers are in the units of the case. Used
+// by the command `sweep`. A key that cannot be varied is an Error(kWrongUsage); a stroke that fails
+// leaves its columns empty. A change must keep the names of the columns, which users' scripts read.
 #include "viscontact/swimmer/case/swimmer_study.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,9 @@
 // Subtracts the lubrication R_lub between neighbouring spheres from each resistance matrix R of a
 // table, and takes the logarithm S of the rest: R = mu (R_lub + l exp S), with the viscosity mu and
 // the largest radius l (resistance_fit.hpp). The fit is the polynomial through the S of all rows.
-// Numbers are in the units of the table. Errors are those of fit_resistance.hpp. A change must keep
-// the random signs of change_by_estimates(), on which the error estimates depend.
+// Numbers are in the units of the table. Rows that are missing or stand twice are an
+// Error(kBadInput). Used by swimmer/job and python/. A change must keep the random signs of
+// change_by_estimates(), on which the error estimates depend.
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 
 #include <fmt/format.h>

@@ -12,10 +12,10 @@
 namespace viscontact::swimmer {
 
 /// The fit that interpolates all rows of the table. The number of its lubrication terms is the one
-/// with the smallest largest_left_one_out_error among those for which each matrix minus its
-/// lubrication is positive definite. Throws Error(kBadInput) if the rows are not all combinations
-/// of at least three values of each gap, each combination once, or if a matrix is not positive
-/// definite.
+/// with the smallest error of a row that is predicted from the others (largest_left_one_out_error),
+/// among those for which each matrix minus its lubrication is positive definite. Throws
+/// Error(kBadInput) if the rows are not all combinations of at least three values of each gap, each
+/// combination once, or if a matrix is not positive definite.
 ResistanceFit fit_resistance(const ResistanceTable& table);
 
 /// Fits with which a result is computed again. Its changes are estimates of its errors.

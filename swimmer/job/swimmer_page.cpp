@@ -1,7 +1,8 @@
 // The page of a swimmer: tables, curves over time, and the loops of strokes in the plane of two
 // arms, over a map of the displacement per area (displacement_curl). Numbers are in the units of
-// the case. Errors are those of swimmer_page.hpp. A change must list every picture in
-// kPictureNames, which decides which files in plots/ may be replaced or removed.
+// the case. A gnuplot that fails is an Error(kExternalProgram). Used by swimmer_stage.cpp. A change
+// must list every picture in kPictureNames, which decides which files in plots/ may be replaced or
+// removed.
 #include "viscontact/swimmer/job/swimmer_page.hpp"
 
 #include <fmt/format.h>

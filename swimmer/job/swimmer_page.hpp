@@ -27,9 +27,9 @@ struct StrokeResult {
 
 /// What a run of a swimmer has computed.
 struct SwimmerResults {
-  SwimmerCase c;
-  ResistanceTable table;
-  ResistanceFit fit;
+  SwimmerCase c;                        ///< the case
+  ResistanceTable table;                ///< resistance matrices of its spheres
+  ResistanceFit fit;                    ///< fit of the table
   std::optional<StrokeResult> stroke;   ///< of the section [stroke]; nothing if there is none
   std::optional<StrokeResult> optimal;  ///< of the section [optimal]; nothing if there is none
   /// How the search for the stroke of least energy converged, with energies in the period of the

@@ -1,7 +1,7 @@
 // Runs the stages of a swimmer one after the other (swimmer_stage.hpp): the table of resistance
-// matrices, its fit, the strokes, the page. Numbers are in the units of the case. Errors are those
-// of swimmer_stage.hpp. A change must keep the keys of swimmer.json and the columns of stroke.csv,
-// which are in docs/file-formats.md.
+// matrices, its fit, the strokes, the page. Numbers are in the units of the case. A wrong case and
+// a file of the user in the way are an Error(kBadInput). Used by app/ and python/. A change must
+// keep the keys of swimmer.json and the columns of stroke.csv, which are in docs/file-formats.md.
 #include "viscontact/swimmer/job/swimmer_stage.hpp"
 
 #include <fmt/format.h>
@@ -228,8 +228,7 @@ void run_swimmer(const SwimmerRequest& request) {
   if (results.c.table_file)
     results::write_output(folder.table(), TextKind::kHashComment,
                           write_resistance_table(results.c.table), of_fit);
-  // a table of matrices is written whole or not at all, so tabulate_stage() throws if rows failed
-  else
+  else  // tabulate_stage() throws if a row fails, because the table needs all its rows
     (void)pipeline::tabulate_stage({case_table(results.c, folder.table())}, request.jobs,
                                    request.stop);
   request.stop.throw_if_stop_requested();

@@ -1,7 +1,7 @@
 // Evaluates the lubrication of pairs, and R = mu (R_lub + l exp(S)) with its derivatives
 // (resistance_fit.hpp). mu is the viscosity, l the largest radius. Numbers are in the units of the
-// fit. Gaps outside the table are an Error(kBadInput). A change must keep that the slopes are the
-// derivatives of R.
+// fit. Gaps outside the table are an Error(kBadInput). Used by shape_mechanics.cpp and swimmer/fit.
+// A change must keep that the slopes are the derivatives of R.
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // The columns of a table of resistance matrices (resistance_table.hpp, docs/file-formats.md).
-// Numbers are in the units of the table. Errors are those of resistance_table.hpp. A change must
-// keep the names of the columns, which published tables have.
+// Numbers are in the units of the table. A matrix that is not positive definite is an
+// Error(kBadInput). Used by the other folders of swimmer/. A change must keep the names of the
+// columns, which published tables have.
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 #include <fmt/format.h>

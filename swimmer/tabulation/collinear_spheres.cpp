@@ -1,7 +1,8 @@
 // Calls the FreeFEM script collinear_spheres.edp and reads its answer. Lengths are in the unit of
 // the case; the script computes with viscosity 1, so that its matrix is multiplied by the viscosity
-// of the case. A failure of FreeFEM is an Error(kExternalProgram). A change of the arguments or of
-// the lines that are read must be made in the script, too.
+// of the case. A failure of FreeFEM is an Error(kExternalProgram). Used by swimmer/case and
+// resistance_table_plan.cpp. A change of the arguments or of the lines that are read must be made
+// in the script, too.
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 #include <fmt/format.h>

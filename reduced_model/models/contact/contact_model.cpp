@@ -1,8 +1,8 @@
 // The loop over time of the contact models (contact_model.hpp): it makes the steps of
 // contact_step.hpp and rebound.hpp, adds up the impulses and works, and finds when contact begins
 // and ends. gamma [M L/T] is minus the impulse that the film in the contact has absorbed. Numbers
-// are in any consistent units. Errors are those of contact_model.hpp. A change of results must
-// raise kModelsRevision.
+// are in any consistent units. Too many steps are an Error(kBadInput). Used by models.cpp. A change
+// of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 #include <algorithm>

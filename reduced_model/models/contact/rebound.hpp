@@ -24,7 +24,7 @@ struct Impact {
   double gamma = 0;          ///< after the impact, <= 0; 0 if the sphere leaves the film
   double lowest_gamma = 0;   ///< lowest value of gamma in the impact
   double solid_impulse = 0;  ///< impulse that the solids took up in the compression, s >= 0
-  /// impulse that the solids gave back: e_d s, or less if the sphere stays
+  /// Impulse that the solids gave back: e_d s, or less if the sphere stays.
   double restitution = 0;
 };
 
@@ -101,7 +101,7 @@ inline double time_of_fall(double gap, double velocity, double acceleration, dou
 /// u+ after it; 0 if the sphere stays.
 inline double strike(ReboundStep& step, double time, double velocity, double acceleration,
                      const ContactSetting& setting, double restitution) {
-  // of the step; a shorter flight counts as rest, so that bounces end
+  // Fraction of the step; a shorter flight counts as rest, so that bounces end.
   constexpr double kShortestFlight = 1e-3;
   const double least =
       setting.mass * kShortestFlight * setting.step * std::max(0.0, -acceleration) / 2;

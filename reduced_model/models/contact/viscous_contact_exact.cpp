@@ -1,6 +1,7 @@
 // Finds the events of viscous contact (landing, release, and the instant at which the solids
-// touch), and computes the budget between them. The equations and errors are those of
-// viscous_contact_exact.hpp. Numbers are in any consistent units. A change of results must raise
+// touch), and computes the budget between them. The equations are those of
+// viscous_contact_exact.hpp. Numbers are in any consistent units. A fit without a positive
+// coefficient of 1/q is an Error(kBadInput). Used by models.cpp. A change of results must raise
 // kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 

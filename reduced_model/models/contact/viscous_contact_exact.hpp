@@ -9,9 +9,9 @@
 
 namespace viscontact::reduced_model {
 
-/// The exact solution of problem (P) of viscous_contact.hpp. With I(t) = int f_ext, S(t) = int I,
-/// and the index 0 for values at the last event (landing, release, or the instant at which the
-/// solids touch):
+/// The exact solution of viscous contact, problem (P) of viscous_contact.hpp. With I(t) = int
+/// f_ext, S(t) = int I, and the index 0 for values at the last event (landing, release, or the
+/// instant at which the solids touch):
 ///
 ///     free:        q = q_0 + (t - t_0) u_0 + (S - S_0 - (t - t_0) I_0)/m,  u = u_0 + (I - I_0)/m,
 ///                  until q = 0 in a fall; then the impact of rebound.hpp gives u and gamma,
