@@ -1,11 +1,9 @@
-// Computes how the errors of a fit of the lubrication force change the gap between the sphere and
-// the wall during its motion, and writes and reads uncertainty.json (fit_uncertainty.hpp). One
-// interval comes from random draws of the fit's coefficients, the other from a bound of the fit's
-// relative error, the misfit. Numbers are in the units of the case, the misfit is from 0 to 1. A
-// draw is left out if its drag is not positive or the motion is impossible with it; if all are left
-// out, that is an Error(kNotConverged). Used by pipeline/simulate, results/ and report/. A change
-// must keep the seed and the order of the random numbers, so that the same case gives the same
-// file.
+// Computes how the errors of a fit of the drag change the gap between the sphere and the wall
+// during its motion, and writes and reads uncertainty.json (fit_uncertainty.hpp). Numbers are in
+// the units of the case. A draw of coefficients is left out if its drag is not positive or the
+// motion is impossible with it; if all are left out, that is an Error(kNotConverged). Used by
+// pipeline/simulate, results/ and report/. A change must keep the seed and the order of the random
+// numbers, so that the same case gives the same file.
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 
 #include <fmt/format.h>

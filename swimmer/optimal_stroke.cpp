@@ -1,8 +1,8 @@
 // Newton's method for the stroke of least energy (optimal_stroke.hpp), whose loop in the space of
 // arms has polynomials as coordinates (polynomial_loop.hpp). Numbers are in the units of the fit;
 // energies are those in a period of 1. Loops that leave the table are an Error(kBadInput), and a
-// failure of Newton's method with all polynomials an Error(kNotConverged). Used by swimmer/case and
-// swimmer/job. A change must keep energies to the digits of docs/swimmer.md.
+// failure of Newton's method an Error(kNotConverged). Used by swimmer/case and swimmer/job. A
+// change must keep energies to the digits of docs/swimmer.md.
 #include "viscontact/swimmer/optimal_stroke.hpp"
 
 #include <fmt/format.h>
@@ -165,7 +165,7 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
   return {};
 }
 
-/// True if the table contains the loop at 2000 equidistant parameters, not only at the points of
+/// True if the table contains the loop at 2001 equidistant parameters, not only at the points of
 /// the quadrature.
 bool is_contained(const Swimmer& swimmer, const PolynomialLoop& loop) {
   constexpr int kPoints = 2000;

@@ -47,7 +47,7 @@ struct OptimalStroke {
 /// starts from small loops in four directions, whose displacement then grows to the wanted one; of
 /// the four results the one with the least energy is improved with more polynomials. Throws
 /// Error(kBadInput) if every such loop leaves the table, Error(kNotConverged) if Newton's method
-/// fails with all polynomials, and Error(kInterrupted) if `stop` requests a stop.
+/// fails with `request.polynomials`, and Error(kInterrupted) if `stop` requests a stop.
 OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeRequest& request,
                                   const StopToken& stop);
 

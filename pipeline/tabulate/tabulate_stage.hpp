@@ -1,8 +1,8 @@
 // The stage tabulate: makes the tables of forces of one or several cases; a row is one gap, or one
 // shape of a swimmer. This process computes the rows, or each task of a job on a cluster computes a
 // share of them, and gather_stage() puts them together. Numbers are in the units of each case. Used
-// by app/, python/, rolling/job and swimmer/job. A change must not lose finished rows: one can take
-// hours.
+// by app/, python/, rolling/job and swimmer/job. A change must not lose finished rows, because a
+// table can take hours.
 #pragma once
 
 #include <filesystem>
