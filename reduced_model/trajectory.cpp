@@ -21,7 +21,7 @@ const std::array<std::string, 7> kColumns = {
     "time", "gap", "velocity", "lubrication_force", "external_force", "gamma", "solid_force"};
 const std::array<std::string, 2> kContactKeys = {"contact_from", "contact_until"};
 const std::array<std::string, 2> kSolidKeys = {"solid_contact_from", "solid_contact_velocity"};
-constexpr std::size_t kRequiredColumns = 3;
+constexpr std::size_t kRequiredColumns = 3;  // time, gap, velocity
 
 std::string optional_number(const OptionalDouble& value) {
   return value ? format_number(*value) : "";

@@ -74,7 +74,7 @@ std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
   // The displacement grows nearly like the square of the size of the loop, so that a few steps
   // suffice.
   constexpr int kMostSteps = 50;
-  constexpr double kTolerance = 1e-13;
+  constexpr double kTolerance = 1e-13;  // relative; near round-off
   for (int step = 0; step < kMostSteps; ++step) {
     if (!functional_.contains(loop)) return {};
     const double ratio = displacement / functional_.displacement(loop);

@@ -54,7 +54,7 @@ Integrals integrate_leg(const Swimmer& swimmer, const StrokeLeg& leg) {
   // The integrands are analytic, so that each doubling of the points squares the error. Legs of
   // 1e-3 radii need 8 points, legs across the whole table 64.
   constexpr int kFewest = 8, kMost = 512;
-  constexpr double kTolerance = 1e-12;
+  constexpr double kTolerance = 1e-12;  // relative, as in swim_sums()
   auto before = integrate(swimmer, leg, leg.start, leg.end, gauss_rule(kFewest));
   for (int count = 2 * kFewest; count <= kMost; count *= 2) {
     const auto sum = integrate(swimmer, leg, leg.start, leg.end, gauss_rule(count));

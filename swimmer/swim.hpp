@@ -37,7 +37,7 @@ struct SwimSums {
 
 /// Integrates one period of a stroke by Gauss-Legendre quadrature on each leg; the number of points
 /// is doubled until energies change by less than 1e-12 of themselves, and the displacement by less
-/// than 1e-12 of the length of the path of the arms. Throws Error(kBadInput) if the stroke leaves
+/// than 1e-13 of the length of the path of the arms. Throws Error(kBadInput) if the stroke leaves
 /// the table, and Error(kNotConverged) if the sums do not converge.
 SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke);
 

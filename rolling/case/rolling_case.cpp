@@ -127,7 +127,7 @@ void check_tabulation(const case_file::TomlSection& section,
 void rolling_sphere_keys(case_file::Keys& keys, RollingCase& c) {
   double density = 0;
   case_file::sphere_keys(keys, c.radius, density, c.motion.mass, true);
-  c.motion.moment_of_inertia = 0.4 * c.motion.mass * c.radius * c.radius;
+  c.motion.moment_of_inertia = 0.4 * c.motion.mass * c.radius * c.radius;  // homogeneous sphere
   keys.optional("moment_of_inertia", case_file::number(c.motion.moment_of_inertia, kPositive),
                 {"about an axis through the centre", "2 m r²/5"});
 }

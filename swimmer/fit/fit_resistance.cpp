@@ -27,7 +27,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr std::size_t kFewestNodes = 3;
+constexpr std::size_t kFewestNodes = 3;  // so that two remain if one is left out
 
 /// The values of each gap in the table, rising: the nodes of the polynomials. Throws
 /// Error(kBadInput) if a gap has fewer than three.
@@ -89,7 +89,7 @@ MatrixXd matrix_from(const MatrixXd& logarithm, const std::vector<double>& gaps,
 /// The value of which the relative error of R_ij is a fraction
 /// (ResistanceRow::relative_error_estimates).
 double entry_scale(const MatrixXd& matrix, Index i, Index j) {
-  constexpr double kLeastShare = 1e-3;
+  constexpr double kLeastShare = 1e-3;  // of sqrt(R_ii R_jj)
   return std::max(std::abs(matrix(i, j)), kLeastShare * std::sqrt(matrix(i, i) * matrix(j, j)));
 }
 

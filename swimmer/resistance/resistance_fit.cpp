@@ -103,7 +103,8 @@ Eigen::MatrixXd symmetric_matrix(const Eigen::VectorXd& entries, Eigen::Index sp
   return matrix;
 }
 
-/// The divided difference (exp a - exp b)/(a - b) of exp, which is exp a for a = b.
+/// The divided difference (exp a - exp b)/(a - b) of exp, which is exp a for a = b. For |a - b| <
+/// 2e-4 the next term of the series of sinh is below round-off.
 double divided_difference_of_exp(double a, double b) {
   const double half = (a - b) / 2;
   const double ratio = std::abs(half) < 1e-4 ? 1 + half * half / 6 : std::sinh(half) / half;
@@ -122,7 +123,7 @@ FittedResistance::FittedResistance(const ResistanceFit& fit)
 }
 
 bool FittedResistance::contains(std::span<const double> gaps) const {
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = 1e-12;  // relative; gaps are rounded differences of arms and radii
   for (std::size_t k = 0; k < gaps.size(); ++k)
     if (!(gaps[k] >= intervals_[k][0] * (1 - kRounding) &&
           gaps[k] <= intervals_[k][1] * (1 + kRounding)))
