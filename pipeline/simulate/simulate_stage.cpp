@@ -32,7 +32,8 @@ namespace fs = std::filesystem;
 /// exact. Empty also if this motion cannot be computed; then a warning says why.
 std::string uncertainty_of(const reduced_model::Motion& motion, const lubrication::Fit& fit,
                            const lubrication::OutsideInterval& outside) {
-  // Number of times at which the report shows how uncertain the gap is; any number >= 2 works.
+  // Number of times at which the report shows how uncertain the gap is, which docs/file-formats.md
+  // repeats; any number >= 2 works.
   constexpr std::size_t kTimes = 81;
   if (lubrication::is_exact_plane(fit)) return "";
   try {
