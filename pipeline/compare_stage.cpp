@@ -1,7 +1,8 @@
-// Finds the trajectory files of a folder, compares them and writes the comparison. Numbers are in
-// the units of the trajectories. A folder without trajectories is an Error(kBadInput). A change
-// must keep the order of the files, because the comparison lists models in this order, and because
-// the first file becomes the reference if the usual reference model has failed.
+// Finds the trajectory files of a folder (CSV, one for each model of motion: the gap over time),
+// compares them, and writes the comparison. Numbers are in the units of the trajectories. A folder
+// without trajectories is an Error(kBadInput). A change must keep the order of the files, because
+// the comparison lists models in this order, and because the first file becomes the reference if
+// the model that is the reference by default has failed. Used by `run` and `compare`.
 #include "viscontact/pipeline/compare_stage.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Warns if the trajectories were made from different cases or fits, because the distances between
-/// them then have two causes. Trajectories that the user wrote have no such record and are skipped.
+/// them then have two causes: the models and the inputs. A trajectory that the user wrote does not
+/// state its case and fit, and is skipped.
 void warn_of_different_inputs(const std::vector<reduced_model::Trajectory>& trajectories) {
   for (const auto* key : {"case", "fit"}) {
     const reduced_model::Trajectory* first = nullptr;
@@ -38,16 +40,16 @@ void warn_of_different_inputs(const std::vector<reduced_model::Trajectory>& traj
   }
 }
 
-/// The index of a trajectory's model in the registry of models; the size of the registry if the
-/// file is not named after a model.
+/// The index in reduced_model::all_models() of the model after which a file is named, or the number
+/// of all models if it is not named after a model.
 std::ptrdiff_t rank_of(const fs::path& file) {
   const auto choice = reduced_model::known_model(file.stem().string());
   return choice ? choice->model - reduced_model::all_models().data()
                 : std::ssize(reduced_model::all_models());
 }
 
-/// The trajectory files of a folder: those in its trajectories/ if it is a run's folder, otherwise
-/// the .csv files in the folder itself. Throws Error(kBadInput) if the folder does not exist.
+/// The CSV files in the sub-folder trajectories/ or, if there is none, in the folder itself, except
+/// table.csv, which is the table of forces. Throws Error(kBadInput) if the folder does not exist.
 std::vector<fs::path> trajectory_files(const fs::path& folder) {
   const auto inner = results::RunFolder{folder}.trajectories();
   const fs::path place = fs::is_directory(inner) ? inner : folder;
@@ -57,7 +59,7 @@ std::vector<fs::path> trajectory_files(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(place))
     if (entry.path().extension() == ".csv" && entry.path().filename() != "table.csv")
       files.push_back(entry.path());
-  // First the models in the order of the registry, then the user's files by name.
+  // First the models in the order of all_models(), then the user's files by name.
   std::ranges::sort(files, {},
                     [&](const fs::path& file) { return std::pair(rank_of(file), file); });
   return files;

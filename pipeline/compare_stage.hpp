@@ -1,6 +1,8 @@
-// The stage compare: how far the trajectories of a folder are from that of the reference
-// (docs/file-formats.md, "Comparison"). Numbers are in the units of the trajectories. The main job
-// and the command `compare` call it. A change must keep the order of the models in the file.
+// The comparison of trajectories: how far the motion that each model computed is from that of one
+// of them, the reference (docs/file-formats.md, "Comparison"). Numbers are in the units of the
+// trajectories. The commands `run` (run_stages.cpp) and `compare` call it. A change must keep the
+// order of the models in the file, that of reduced_model::all_models(), then the user's files by
+// name.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +14,20 @@
 
 namespace viscontact::pipeline {
 
-/// The CSV files of a folder that are named after models; none if the folder does not exist.
+/// The CSV files of a folder that are named after models, in no particular order; none if the
+/// folder does not exist.
 std::vector<std::filesystem::path> files_of_models(const std::filesystem::path& folder);
 
 /// Prints a comparison to standard output, as a table or as JSON.
 void print_comparison(const reduced_model::Comparison& comparison, bool json);
 
-/// Compares the trajectories of a folder, and those in the files `others`, and writes the
-/// comparison to `comparison_path`. `given` are the files of the user from which the same command
-/// made the trajectories; it is empty if the user gave the trajectories themselves. If
-/// `reference_model` is empty, the reference is the usual one, or the first model with a trajectory
-/// if the usual one failed. The comparison is printed, as JSON if `json` is true.
-/// Throws Error(kBadInput) if the folder or a trajectory is missing or wrong, and
-/// Error(kInterrupted) if `stop` requests a stop; then nothing is written.
+/// Compares the trajectories of a folder, and those in the files `others`, writes the comparison to
+/// `comparison_path` and prints it, as JSON if `json` is true, else as a table. `given` are the
+/// files of the user from which the same command made the trajectories; it is empty if the user
+/// gave the trajectories themselves. If `reference_model` is empty, the reference is
+/// reduced_model::usual_reference() or, if that model failed, the model of the first trajectory.
+/// Throws Error(kBadInput) if there is no trajectory, if one cannot be read or compared, or if the
+/// reference has none, and Error(kInterrupted) if `stop` requests a stop; then nothing is written.
 void compare_stage(const std::filesystem::path& folder,
                    const std::vector<std::filesystem::path>& others,
                    const std::string& reference_model, const std::filesystem::path& comparison_path,

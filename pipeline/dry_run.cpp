@@ -1,6 +1,7 @@
 // Estimates computing times [s] from finished rows, from a few rows that are computed now, or from
-// measured constants. Errors are those of the rows that are computed. A change must keep the keys
-// of the JSON, which users' scripts read (docs/command-line.md).
+// measured constants. An Error of a row that is computed ends the estimate. Used by app/ and
+// particles/sweep. A change must keep the keys of the JSON, which users' scripts read
+// (docs/command-line.md).
 #include "viscontact/pipeline/dry_run.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 namespace viscontact::pipeline {
 namespace {
 
+/// Time [s] of the rows that are not finished, if `jobs` >= 1 of them are computed at once.
 double remaining_seconds(const DryRun& run, int jobs) {
   const auto left = run.rows - run.finished;
   return run.seconds_per_row * static_cast<double>(left) /
@@ -54,7 +56,8 @@ DryRun dry_run(const sweep::Study& study, const std::string& output, const StopT
   const auto start = std::chrono::steady_clock::now();
   for (const auto index : sample) (void)study.row(index, stop);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  // A row at which models fail is finished, too: its columns say so.
+  // No row counts as failed: a row in which models fail is finished, and its column `failure` says
+  // why.
   return {output,
           study.size(),
           sweep::finished_rows(study, output),

@@ -1,6 +1,6 @@
 // The output of --dry-run: how many rows a command would compute and about how long that takes, in
-// seconds of wall time. Nothing is written. `tabulate` and `sweep` print it. Errors are those of
-// the rows that are computed. A change must keep the keys of the JSON, which scripts read.
+// seconds of wall time. Nothing is written. The commands `tabulate` and `sweep`, and
+// particles/sweep, use it. A change must keep the keys of the JSON, which users' scripts read.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,29 @@
 
 namespace viscontact::pipeline {
 
-/// How many rows one output has, and how long they take.
+/// How many rows one output of a command has, and how long they take.
 struct DryRun {
-  std::string output;  ///< path of the table or of the sweep's file
-  /// The number of all rows, and of those that are finished and would not be computed again.
-  std::uint64_t rows = 0, finished = 0;
+  std::string output;          ///< path of the table or of the sweep's file
+  std::uint64_t rows = 0,      ///< number of all rows
+      finished = 0;            ///< number of the rows that would not be computed again
   std::uint64_t failed = 0;    ///< number of the unfinished rows that were tried and failed
-  double seconds_per_row = 0;  ///< on one core [s]
+  double seconds_per_row = 0;  ///< mean time of a row on one core [s], >= 0
   std::string basis;           ///< what seconds_per_row was estimated from, in words
 };
 
 /// The estimate for a table. The time of a row is the mean over the finished rows. If there are
 /// none, it is the time that rows of the shipped tables took, which has the right order of
-/// magnitude on a similar machine.
+/// magnitude on a similar machine. Throws Error(kBadInput) if the file of the table or of its
+/// finished rows cannot be read.
 DryRun dry_run(const CaseTable& one);
 
-/// The estimate for a sweep into the file `output`. Up to three of its rows are computed and timed.
+/// The estimate for a sweep into the file `output`. The first, the middle and the last row are
+/// computed and timed. Throws the Errors of Study::run, Error(kInterrupted) among them if `stop`
+/// requests a stop.
 DryRun dry_run(const sweep::Study& study, const std::string& output, const StopToken& stop);
 
-/// A line for each output, then the time that all of them take if `jobs` rows are computed at once.
-/// If `json` is true, the same as JSON.
+/// A line for each output, then the time that all of them take if `jobs` >= 1 rows are computed at
+/// once. If `json` is true, the same as a JSON object.
 std::string dry_run_text(const std::vector<DryRun>& runs, int jobs, bool json);
 
 }  // namespace viscontact::pipeline

@@ -1,6 +1,8 @@
-// Reads tables, calls the fits, and writes fits, shifts and pictures with their provenance. Numbers
-// are in the units of the table; errors are those of fit_stages.hpp. A change must keep the columns
-// of the file of shifts (docs/file-formats.md).
+// Reads tables, calls the functions of fitting/, and writes fits, the shift of a rough wall
+// (fit_stages.hpp) and pictures, each with the record of how it was made (results/provenance.hpp).
+// Numbers are in the units of the table. A wrong table or fit is an Error(kBadInput), a gnuplot
+// that fails an Error(kExternalProgram). Used by `run`, `fit` and `shift`. A change must keep the
+// columns of the file of shifts (docs/file-formats.md).
 #include "viscontact/pipeline/fit_stages.hpp"
 
 #include <fmt/format.h>

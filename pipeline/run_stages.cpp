@@ -1,7 +1,8 @@
-// Decides which stages of the main job must run. Failures of rows and models are thrown last, when
-// all other results are written. Before it simulates again, it removes the outputs that depend on
-// the old trajectories; a change must keep this order, so that a run that is killed never leaves
-// outputs that do not belong together.
+// Decides which stages of `viscontact run` must run: those whose outputs are missing or were made
+// from other inputs. Failures of rows and models are thrown last, when all other results are
+// written. Used by the command `run`. A change must keep that the outputs made from old
+// trajectories are removed before new trajectories are written, so that a run that is killed never
+// leaves outputs that do not belong together.
 #include "viscontact/pipeline/run_stages.hpp"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ bool is_fit(const fs::path& path) {
   }
 }
 
-/// True if `path` is a comparison with this reference.
+/// True if `path` is a comparison whose reference is this model.
 bool has_reference(const fs::path& path, const std::string& model) {
   try {
     return fs::is_regular_file(path) &&
@@ -50,7 +51,7 @@ bool has_reference(const fs::path& path, const std::string& model) {
   }
 }
 
-/// True if the report used uncertainty.json, which has since been deleted.
+/// True if uncertainty.json, from which the report was made, has since been deleted.
 bool uncertainty_is_lost(const results::RunFolder& run) {
   if (fs::exists(run.uncertainty())) return false;
   try {
@@ -65,9 +66,10 @@ bool uncertainty_is_lost(const results::RunFolder& run) {
 }
 
 /// Throws Error(kBadInput) if a run would replace or delete a file that Viscontact did not write.
-/// Called before any work is done, because the tabulation can take hours.
+/// Must be called before any work is done, because the tabulation can take hours.
 void check_outputs_of_run(const results::RunFolder& run, bool writes_fit) {
-  // An earlier run may have copied a fit that the user wrote by hand into its folder.
+  // An earlier run may have copied a fit that the user wrote by hand. This copy may be replaced,
+  // although it has no record that Viscontact wrote it.
   const bool is_copy = holds_a_run(run) && is_fit(run.fit());
   if (writes_fit && !is_copy) results::refuse_other_kind(run.fit(), "\"gap_interval\"", "fit");
   results::refuse_other_kind(run.comparison(), "\"reference_model\"", "comparison");
@@ -79,7 +81,8 @@ void check_outputs_of_run(const results::RunFolder& run, bool writes_fit) {
 }
 
 /// Makes or finds the fit that the case asks for, and returns its path. `given` are the case and
-/// its force files. `failure` is set to the rows of its table that failed.
+/// the files of forces that it names. `failure` is set to the error that names the rows of the
+/// table that failed, if any did.
 fs::path provide_fit(const case_file::Case& c, const results::RunFolder& run,
                      const std::vector<fs::path>& given, int jobs, RowFailure& failure,
                      const StopToken& stop) {
@@ -158,7 +161,7 @@ void run_stages(const case_file::Case& c, const fs::path& folder, int jobs, bool
     stop.throw_if_stop_requested();
     report::write_report(folder, given, stop);
   }
-  // These errors are thrown last, so that everything else is complete.
+  // These errors are thrown last, so that all files that can be made are written before.
   with_failure(rows_failed, [&] {
     if (!failed.empty()) throw results::error_of(failed, models.size() - failed.size(), c.path);
   });

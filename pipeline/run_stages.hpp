@@ -1,7 +1,7 @@
-// Runs the five stages of the main job in order: the drag of the sphere is tabulated over the gap,
-// a formula is fitted to the table, each model simulates the motion, the motions are compared, and
-// the report is written. The command `run` calls it; a change must keep the order, because each
-// stage reads the files of those before it.
+// Runs the five stages of `viscontact run` in order: the drag of the sphere is tabulated over the
+// gap, a formula is fitted to the table, each model computes the motion, the motions are compared,
+// and the report is written. The command `run` calls it. Numbers are in the units of the case. A
+// change must keep the order, because each stage reads the files of those before it.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,12 @@
 
 namespace viscontact::pipeline {
 
-/// Tabulates (`jobs` >= 1 rows at once), fits, simulates, compares and reports into a run's folder.
-/// A stage whose inputs have not changed is not run again. Errors of the case, and files that must
-/// not be replaced, are found before the tabulation starts. If rows of the table or models failed,
-/// the error of the first is thrown after the results of the others are written. If `json` is true,
-/// the comparison is printed as JSON. If `stop` requests a stop, throws Error(kInterrupted);
-/// results that are finished are kept.
+/// Runs the stages, `jobs` >= 1 rows of the table at once, and writes into `folder`. A stage whose
+/// inputs have not changed is not run again. Throws Error(kBadInput) before the tabulation starts
+/// if the case is wrong or if a file of the user would be replaced. If rows of the table or models
+/// failed, their error is thrown after all results of the others are written. If `json` is true,
+/// the comparison is printed as JSON. Throws Error(kInterrupted) if `stop` requests a stop;
+/// finished results are kept.
 void run_stages(const case_file::Case& c, const std::filesystem::path& folder, int jobs, bool json,
                 const StopToken& stop);
 

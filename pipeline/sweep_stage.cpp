@@ -1,6 +1,6 @@
 // Computes the rows of a sweep (sweep_stage.hpp), shows its progress, and says at its end how many
-// rows failed. Times are in seconds. If all rows failed, the error is Error(kNotConverged). A
-// change must keep that finished rows are never computed again.
+// rows failed. Times are in seconds. If all rows failed, that is an Error(kNotConverged). Used by
+// app/ and particles/sweep. A change must keep that finished rows are never computed again.
 #include "viscontact/pipeline/sweep_stage.hpp"
 
 #include <fmt/format.h>
@@ -14,9 +14,12 @@
 namespace viscontact::pipeline {
 namespace {
 
-/// The remaining time in words, "about 3 min left", estimated from the rows of this call.
+/// The remaining time in words, "about 3 min left", estimated from the rows that this process
+/// computed.
 class Remaining {
  public:
+  /// The words when `done` of `size` rows are finished; empty in the first call, which has no
+  /// estimate.
   std::string after(std::uint64_t done, std::uint64_t size) {
     if (!first_) first_ = done;
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
@@ -32,7 +35,8 @@ class Remaining {
   std::optional<std::uint64_t> first_;
 };
 
-/// Says at how many points models or strokes (`part`) failed: "; ... failed at 3 points", or empty.
+/// Says at how many points of the sweep all or some models (or strokes: `part`) failed: "; every
+/// model failed at 3 points", or nothing.
 std::string failures_in_words(const sweep::SweepOutcome& outcome, const std::string& part) {
   const auto points = [](std::uint64_t n) {
     return fmt::format("{} point{}", n, n == 1 ? "" : "s");

@@ -1,6 +1,6 @@
-// The stage of a sweep, whatever is swept: it computes the rows of a study and writes their file,
-// in the units of the case. `sweep` and particles/sweep call it. A change must keep that finished
-// rows are never computed again.
+// A sweep of any kind of case: computes the rows of a study (sweep/study.hpp) and writes their
+// file. Numbers are in the units of the case. The command `sweep` and particles/sweep call it. A
+// change must keep that finished rows are never computed again.
 #pragma once
 
 #include <cstdint>
@@ -15,20 +15,22 @@ namespace viscontact::pipeline {
 
 /// The options of a sweep.
 struct SweepStageRequest {
-  std::string output;  ///< file of the rows
-  int jobs = 1;        ///< number of rows at once
-  StopToken stop{};
+  std::string output;  ///< path of the file of rows (CSV)
+  int jobs = 1;        ///< number of rows at once, >= 1
+  StopToken stop{};    ///< a stop ends the sweep
 };
 
 /// Computes the missing rows and writes their file, shows the progress, and says how many rows
-/// there are and how many failed. `part` is the word for the parts of a row that may fail, such as
-/// "model". Throws Error(kNotConverged) after all is written if every part failed in every row, and
-/// Error(kInterrupted) if `stop` requests a stop; finished rows are kept.
+/// there are and how many failed. `inputs` are the files that the rows depend on, for the record of
+/// how the file was made. `part` is the word for the parts of a row that may fail, such as "model".
+/// Throws Error(kNotConverged) after all is written if every part failed in every row, and the
+/// errors of write_rows().
 void run_sweep(const sweep::Study& study, const SweepStageRequest& request,
                const results::Inputs& inputs, const std::string& part);
 
 /// Computes the missing rows, writes their file, and returns their number. `progress` gets the
-/// number of finished rows and that of all rows.
+/// number of finished rows and that of all rows. Throws the errors of sweep::write_sweep(), such as
+/// Error(kInterrupted) if `stop` requests a stop; finished rows are kept.
 std::uint64_t write_rows(const sweep::Study& study, const SweepStageRequest& request,
                          const results::Inputs& inputs,
                          const std::function<void(std::uint64_t, std::uint64_t)>& progress);

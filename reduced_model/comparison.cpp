@@ -1,7 +1,8 @@
 // Distances between trajectories that are linear between their rows, by exact integrals, and the
 // comparison file (comparison.hpp, docs/file-formats.md). Numbers are in the units of the
-// trajectories. Names that are missing or doubled and files of another kind are an
-// Error(kBadInput). A change must keep old comparison files readable.
+// trajectories. Names that are missing or stand twice, and files of another form, are an
+// Error(kBadInput). Used by pipeline/, sweep/, results/ and report/. A change must keep old
+// comparison files readable.
 #include "viscontact/reduced_model/comparison.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +18,8 @@
 namespace viscontact::reduced_model {
 namespace {
 
-/// Gap and velocity of a trajectory at increasing times, linear between its rows.
+/// Gap [L] and velocity [L/T] of a trajectory at times that do not decrease from call to call,
+/// linear between its rows.
 class Interpolation {
  public:
   explicit Interpolation(const std::vector<TrajectoryRow>& rows) : rows_(rows) {}
@@ -26,7 +28,8 @@ class Interpolation {
     double gap, velocity;
   };
 
-  /// Gap and velocity at `time`, which must be in the trajectory, not before the last call's.
+  /// Gap and velocity at `time` [T], which must be between the first and the last row, and not
+  /// before the time of an earlier call.
   Value at(double time) {
     while (next_ + 1 < rows_.size() && rows_[next_].time < time) ++next_;
     const auto& b = rows_[next_];
@@ -41,7 +44,7 @@ class Interpolation {
   std::size_t next_ = 0;
 };
 
-/// int |d| over a step in which d changes linearly from d0 to d1.
+/// Integral of |d| over a step of time in which d changes linearly from d0 to d1.
 double integral_of_absolute(double d0, double d1, double step) {
   if (d0 * d1 >= 0) return step * (std::abs(d0) + std::abs(d1)) / 2;
   return step * (d0 * d0 + d1 * d1) / (2 * (std::abs(d0) + std::abs(d1)));
@@ -86,7 +89,8 @@ void measure_distances(const Trajectory& trajectory, const Trajectory& reference
   }
 }
 
-/// The contact interval that the trajectory states, or else the first and last row with gamma < 0.
+/// The contact interval that the trajectory states, or else the times of the first and the last row
+/// with gamma < 0 (TrajectoryRow::gamma); nothing if no row has this.
 std::optional<std::array<double, 2>> contact_interval(const Trajectory& trajectory) {
   if (trajectory.contact_interval) return trajectory.contact_interval;
   const auto& rows = trajectory.rows;

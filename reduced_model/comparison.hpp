@@ -1,7 +1,9 @@
-// Comparison of trajectories: how thin the film gets, when there is contact, and how far each
-// trajectory is from the reference. q is the gap, u the velocity, q_ref and u_ref those of the
-// reference. Lengths, masses and times are in the units of the trajectories. `compare`, `run` and
-// `sweep` use it. A change must keep comparison files of earlier versions readable.
+// Comparison of trajectories of a sphere near a wall: how thin the film between them gets, when
+// there is contact, and how far each trajectory is from the reference. q is the gap, u the
+// velocity, q_ref and u_ref those of the reference. In contact models gamma [M L/T] is minus the
+// impulse that the film has absorbed, <= 0. Lengths, masses and times are in the units of the
+// trajectories. Used by pipeline/, sweep/, results/ and report/. A change must keep comparison
+// files of earlier versions readable.
 #pragma once
 
 #include <array>
@@ -21,22 +23,23 @@ struct ModelComparison {
   std::string model;            ///< its name
   double minimal_gap = 0;       ///< smallest gap of the rows [L]
   double minimal_gap_time = 0;  ///< time of the first row with this gap [T]
-  /// Film thickness recovered from the lowest gamma [L]; contact models only.
+  /// Film thickness that the model computes from the lowest gamma [L], > 0; contact models only.
   std::optional<double> recovered_minimal_gap;
-  /// First landing and last release [T]. In a trajectory that Viscontact did not write: the first
-  /// and the last row with gamma < 0.
+  /// First time at which contact begins and last time at which it ends [T]. In a trajectory that
+  /// Viscontact did not write: the times of the first and the last row with gamma < 0.
   std::optional<std::array<double, 2>> contact_interval;
-  /// When the solids touch first; nothing if they never do, or if the model has no solids.
+  /// When the solids touch for the first time; nothing if they never do, or if the model has no
+  /// solids.
   std::optional<SolidTouch> solid_contact_from{};
-  /// Impacts on the solids, in order of time; only if the case has a restitution.
+  /// Impacts of the sphere on the solid wall, in order of time; only if the case has a restitution.
   std::vector<Rebound> rebounds;
-  /// Impulses and works; nothing in a trajectory that Viscontact did not write.
+  /// Impulse and work of each force; nothing in a trajectory that Viscontact did not write.
   std::optional<MomentumEnergyBudget> budget;
   double sup_gap_distance = 0;      ///< max over time of |q - q_ref| [L]
   double l1_gap_distance = 0;       ///< integral over time of |q - q_ref| [L T]
   double l1_velocity_distance = 0;  ///< integral over time of |u - u_ref| [L]
   long steps = 0;                   ///< number of steps of the integrator
-  double seconds = 0;               ///< wall time [s]
+  double seconds = 0;               ///< computing time on a clock [s]
 };
 
 /// A model that should have run but failed.
@@ -49,18 +52,19 @@ struct ModelWithoutTrajectory {
 struct Comparison {
   std::string reference_model;                          ///< name of the model of reference
   std::vector<ModelComparison> models;                  ///< in the order of the trajectories
-  std::vector<ModelWithoutTrajectory> failed_models{};  ///< filled in by the caller
-  std::string units{};  ///< in words, as the first trajectory says them; may be empty
+  std::vector<ModelWithoutTrajectory> failed_models{};  ///< empty until the caller fills it in
+  std::string units{};  ///< units in words, as the first trajectory says; may be empty
 };
 
 /// Compares each trajectory with that of `reference_model` over the times that both cover. Between
 /// its rows each trajectory is linear. Throws Error(kBadInput) if no trajectory has that name, if
-/// two have the same name, or if two have no time in common, and Error(kInterrupted) if `stop`,
-/// which is asked before each trajectory, requests a stop.
+/// two have the same name, or if one has no time in common with the reference, and
+/// Error(kInterrupted) if `stop` requests a stop before a trajectory is compared.
 Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
                                 std::string_view reference_model, const StopToken& stop = {});
 
-/// Reads the comparison file (JSON). Throws Error(kBadInput) for another file.
+/// Reads the comparison file (JSON). Throws Error(kBadInput) if the file is missing or of another
+/// form.
 Comparison read_comparison(const std::filesystem::path& path);
 /// The text of the comparison file.
 std::string write_comparison(const Comparison& comparison);

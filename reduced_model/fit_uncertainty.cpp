@@ -1,10 +1,9 @@
-// Computes how the errors of a fit of the lubrication force change the gap between the sphere and
-// the wall during its motion, and writes and reads uncertainty.json (fit_uncertainty.hpp). One
-// interval comes from random draws of the fit's coefficients, the other from a bound of the fit's
-// relative error, the misfit. Numbers are in the units of the case, the misfit is from 0 to 1. A
-// draw is left out if its drag is not positive or the motion is impossible with it; if all draws
-// were left out, the error is Error(kNotConverged). A change must keep the seed and the order of
-// the random numbers, so that the same case gives the same file.
+// Computes how the errors of a fit of the drag change the gap between the sphere and the wall
+// during its motion, and writes and reads uncertainty.json (fit_uncertainty.hpp). Numbers are in
+// the units of the case. A draw of coefficients is left out if its drag is not positive or the
+// motion is impossible with it; if all are left out, that is an Error(kNotConverged). Used by
+// pipeline/simulate, results/ and report/. A change must keep the seed and the order of the random
+// numbers, so that the same case gives the same file.
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 
 #include <fmt/format.h>
@@ -38,7 +37,8 @@ Eigen::MatrixXd root_of(const std::vector<std::vector<double>>& covariance) {
          eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
-/// The ends of the interval that contains the middle 95 % of the values. Sorts `values`.
+/// The ends of the interval that contains the middle 95 % of the values. Sorts `values`. Throws
+/// Error(kNotConverged) if there are none.
 std::array<double, 2> middle_of(std::vector<double>& values) {
   if (values.empty())
     throw Error(ErrorKind::kNotConverged,
@@ -51,8 +51,9 @@ std::array<double, 2> middle_of(std::vector<double>& values) {
   return {at(0.025), at(0.975)};
 }
 
-/// The times at which gaps are computed [T]: first that of the smallest gap, at which the impulse
-/// of the external force since time 0 is least, then `times` equidistant ones up to the end.
+/// The times at which gaps are computed [T]. The first is that of 0, the jumps of the external
+/// force and the end at which the impulse of this force is least, where the gap is smallest if the
+/// force has one sign between jumps. Then follow `times` equidistant times from 0 to the end.
 std::vector<double> instants_of(const Motion& motion, std::size_t times) {
   auto ends = motion.external_force.jumps();
   std::erase_if(ends, [&](double t) { return t > motion.end_time; });

@@ -1,7 +1,8 @@
-// How the errors of a fit change the motion without inertia (physics.md (4.2) with m = 0), for
-// uncertainty.json and the report. q is the gap, q0 the initial one, R the resistance, Gamma its
-// primitive, f_ext the external force; the index `fit` marks values by the fit. Lengths, masses and
-// times are in the units of the case. A change must keep the draws equal for equal arguments.
+// How the errors of a fit of the drag change the motion of the sphere without inertia (physics.md
+// (4.2) with m = 0), for uncertainty.json and the report. q is the gap, q0 the initial one, R the
+// resistance, Gamma its primitive, f_ext the external force; the index `fit` marks values by the
+// fit. Lengths, masses and times are in the units of the case. Used by pipeline/simulate, results/
+// and report/. A change must keep the draws equal for equal arguments.
 #pragma once
 
 #include <array>
@@ -22,8 +23,8 @@ struct UncertainGap {
   double gap = 0;   ///< gap with the fit unchanged [L]
   /// Interval that contains 95 % of the draws of coefficients [L].
   std::array<double, 2> random = {};
-  /// The gaps if the drag is everywhere larger, or everywhere smaller, by the factor that the
-  /// misfit allows [L].
+  /// The gaps if the drag is everywhere as large, or as small, as the misfit allows, in increasing
+  /// order [L].
   std::array<double, 2> misfit = {};
 };
 
@@ -34,10 +35,10 @@ struct FitUncertainty {
   /// impossible with it.
   std::size_t refused = 0;
   /// Bound of the relative error of the drag [1], at most 1: (1 + r)(1 + e) - 1, with the largest
-  /// relative residual r of the rows that are not outliers and the table's largest error estimate
-  /// e.
+  /// relative residual r of the fit (without the rows that it lists as outliers) and the largest
+  /// error estimate e of the table.
   double misfit = 0;
-  UncertainGap smallest;           ///< the smallest gap of the motion, q_min
+  UncertainGap smallest;           ///< smallest gap of the motion, q_min
   std::vector<UncertainGap> gaps;  ///< at equidistant times
 };
 
@@ -48,15 +49,15 @@ inline constexpr std::size_t kDraws = 10000;
 /// Propagates the errors of a fit to the motion without inertia, Gamma(q(t)) = Gamma(q0) + int
 /// f_ext (model reference_exact), in two ways:
 ///   random  draws coefficients from the normal distribution with the covariance of the fit, which
-///           treats the misfit as independent noise;
+///           treats the residuals of the fit as independent noise;
 ///   misfit  uses |R_fit/R - 1| <= misfit, so that Gamma_fit(q(t)) is between Gamma_fit(q0) +
 ///           (1 - misfit) int f_ext and Gamma_fit(q0) + (1 + misfit) int f_ext. This bound is valid
 ///           for every shape of the misfit, as far as the misfit is known at the gaps of the table.
 /// Outside the fit's interval the drag follows outside.with_limits(). The smallest gap, q_min, is
-/// sought at the beginnings and ends of the force's pieces. `times` is the number of further,
-/// equidistant instants from 0 to motion.end_time; 0 asks for q_min alone. Equal arguments give
-/// equal numbers. Throws the Error of LubricationForce if its constructor refuses the fit itself,
-/// and Error(kNotConverged) if all draws were left out.
+/// sought only at 0, at the jumps of f_ext or its slope, and at the end. `times` is the number of
+/// further, equidistant instants from 0 to motion.end_time; 0 asks for q_min alone. Equal arguments
+/// give equal numbers. Throws the Errors of LubricationForce if it refuses the fit itself or cannot
+/// compute a gap with it, and Error(kNotConverged) if all draws were left out.
 FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, std::size_t times,
                              const lubrication::OutsideInterval& outside = {},
                              std::size_t draws = kDraws);
@@ -64,7 +65,7 @@ FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, 
 /// The text of the file uncertainty.json.
 std::string write_uncertainty(const FitUncertainty& uncertainty);
 
-/// Reads uncertainty.json. Throws Error(kBadInput) for another file.
+/// Reads uncertainty.json. Throws Error(kBadInput) if the file is missing or of another form.
 FitUncertainty read_uncertainty(const std::filesystem::path& path);
 
 }  // namespace viscontact::reduced_model

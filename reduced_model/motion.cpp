@@ -1,7 +1,7 @@
 // What the models of motion share: the values of their parameters, reports of their progress, the
-// number of their steps, and the times [T] of the rows of their trajectories (motion.hpp). A
-// missing parameter or too many steps are an Error(kBadInput). A change of times changes
-// trajectories.
+// number of their steps, and the times [T] of the rows of their trajectories. A missing parameter
+// and too many steps are an Error(kBadInput). Used by all models, rolling/ and case_file/. A change
+// of step_count() or row_times() changes trajectories and must raise kModelsRevision.
 #include "viscontact/reduced_model/motion.hpp"
 
 #include <fmt/format.h>
@@ -49,8 +49,8 @@ std::vector<double> row_times(const Motion& motion, const ModelParameter& parame
   auto jumps = motion.external_force.jumps();
   std::erase_if(jumps,
                 [&](double t) { return t >= motion.end_time || are_one_time(t, motion.end_time); });
-  // A multiple of the step within 1e-6 of the spacing from a jump differs from the jump by rounding
-  // only; it is left out, and the jump is kept.
+  // A multiple of the spacing that is within 1e-6 of the spacing from a jump differs from it by
+  // rounding only. The multiple is left out, and the jump is kept.
   const auto is_a_jump = [&](double t) {
     const auto next = std::ranges::lower_bound(jumps, t);
     const auto close = [&](double jump) { return std::abs(t - jump) < 1e-6 * spacing; };

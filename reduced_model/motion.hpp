@@ -1,6 +1,7 @@
 // What every model of motion is given: the sphere, its start, the external force, and the values of
 // the models' parameters. Lengths, masses and times are in any consistent units. Case files set
-// these members; a change must keep the keys.
+// these members; reduced_model/, rolling/ and case_file/ use them. A change must keep the keys,
+// which users' case files contain.
 #pragma once
 
 #include <array>
@@ -18,13 +19,12 @@ namespace viscontact::reduced_model {
 /// Key of Motion::roughness in the case file.
 inline constexpr std::string_view kRoughnessKey = "viscous_contact.roughness";
 
-/// The motion of a sphere along the normal of a wall, problem (M) (physics.md (4.1)), with the gap
-/// q(t) and the lubrication force F_lub:
-/// m d^2q/dt^2 = F_lub(q, dq/dt) + f_ext(t), q(0) = q0, dq/dt(0) = v0.
+/// The motion of a sphere along the normal of a wall (physics.md (4.1)), with the gap q(t) and the
+/// lubrication force F_lub: m d^2q/dt^2 = F_lub(q, dq/dt) + f_ext(t), q(0) = q0, dq/dt(0) = v0.
 struct Motion {
   double mass = 0;               ///< m [M], > 0
   double initial_gap = 0;        ///< q0 [L], > 0
-  double initial_velocity = 0;   ///< v0 [L/T]
+  double initial_velocity = 0;   ///< v0 [L/T], > 0 away from the wall
   double end_time = 0;           ///< [T], > 0
   ExternalForce external_force;  ///< f_ext [M L/T^2], along the outward normal
 
@@ -48,7 +48,7 @@ struct Motion {
   void set(const ModelParameter& which, double value) { parameters[which.key] = value; }
 };
 
-/// The time step [T] with which a motion has 4000 steps, as many as the lecture's case.
+/// The time step [T] with which a motion has 4000 steps, as many as the case of Lefebvre's lecture.
 inline double default_time_step(const Motion& motion, double) { return motion.end_time / 4000; }
 
 /// Step h of `reference` [T], and spacing of the rows of models that choose their steps themselves.
@@ -79,12 +79,12 @@ inline constexpr ModelParameter kRestitution = {
     false,
     "0"};
 
-/// Models call this function at intervals with the time [T] that they have reached. It throws
-/// Error(kInterrupted) if motion.stop requests a stop, and then calls motion.progress.
+/// Models call this function at intervals with the time [T] that they have reached. Throws
+/// Error(kInterrupted) if motion.stop requests a stop, else calls motion.progress.
 void report_progress(const Motion& motion, double time);
 
-/// Number of cheap steps between two calls of report_progress(). They take about 0.1 ms, so the
-/// calls cost little and a stop acts at once.
+/// Number of steps, of a model whose steps are cheap, between two calls of report_progress(). They
+/// take about 0.1 ms, so that the calls cost little and a stop acts at once.
 inline constexpr int kStepsBetweenProgressReports = 4096;
 
 /// Number of steps of size `step` > 0 that cover [0, end]. The last step may be shorter. A last
@@ -92,13 +92,13 @@ inline constexpr int kStepsBetweenProgressReports = 4096;
 /// Error(kBadInput) for more than 1e8 steps.
 int step_count(double end, double step);
 
-/// The time after `index` of the `count` steps; after the last step it is exactly `end`.
+/// The time [T] after `index` of the `count` steps; after the last step it is exactly `end`.
 inline double step_time(int index, int count, double end, double step) {
   return index == count ? end : index * step;
 }
 
-/// The times of the rows of a model without a fixed step: 0, the multiples of `parameter`, the
-/// jumps of the force, and end_time.
+/// The times [T] of the rows of a model without a fixed step: 0, the multiples of `parameter`, the
+/// jumps of the force or of its slope, and end_time. Throws the error of step_count().
 std::vector<double> row_times(const Motion& motion,
                               const ModelParameter& parameter = kReferenceTimeStep);
 

@@ -1,7 +1,7 @@
 // Reads and writes the CSV file of a trajectory (docs/file-formats.md), and selects rows for it.
 // Numbers are in the units of the case. A fault of a file is an Error(kBadInput) with file and
-// line. A change must keep the columns, which users' scripts read, and the rows that a comparison
-// looks for.
+// line. Used by pipeline/, sweep/, results/ and python/. A change must keep the columns, which
+// users' scripts read, and the rows that a comparison looks for.
 #include "viscontact/reduced_model/trajectory.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ const std::array<std::string, 7> kColumns = {
     "time", "gap", "velocity", "lubrication_force", "external_force", "gamma", "solid_force"};
 const std::array<std::string, 2> kContactKeys = {"contact_from", "contact_until"};
 const std::array<std::string, 2> kSolidKeys = {"solid_contact_from", "solid_contact_velocity"};
-constexpr std::size_t kRequiredColumns = 3;
+constexpr std::size_t kRequiredColumns = 3;  // time, gap, velocity
 
 std::string optional_number(const OptionalDouble& value) {
   return value ? format_number(*value) : "";
@@ -35,7 +35,7 @@ long steps_of(const CsvComments& comments, const std::string& file) {
   return static_cast<long>(steps);
 }
 
-/// Numbers of a rebound, separated by blanks, and rebounds separated by "; ".
+/// The rebounds as text: the five numbers of each are separated by blanks, and rebounds by "; ".
 std::string write_rebounds(const std::vector<Rebound>& rebounds) {
   std::string text;
   for (const auto& of : rebounds)
@@ -153,7 +153,7 @@ namespace {
 bool in_contact(const TrajectoryRow& row) { return row.gamma && *row.gamma < 0; }
 bool on_solid(const TrajectoryRow& row) { return row.solid_force && *row.solid_force > 0; }
 
-/// The rows that differ from the row before in contact or in solid contact.
+/// The indices of the rows that differ from the row before in contact or in solid contact.
 std::vector<std::size_t> changes_of_contact(const std::vector<TrajectoryRow>& rows) {
   std::vector<std::size_t> changes;
   for (std::size_t i = 1; i < rows.size(); ++i)
@@ -163,7 +163,7 @@ std::vector<std::size_t> changes_of_contact(const std::vector<TrajectoryRow>& ro
   return changes;
 }
 
-/// The first row with the smallest `value`.
+/// The index of the first row with the smallest `value`.
 template <class Value>
 std::size_t first_of_least(const std::vector<TrajectoryRow>& rows, const Value& value) {
   return static_cast<std::size_t>(std::ranges::min_element(rows, {}, value) - rows.begin());

@@ -1,8 +1,10 @@
-// A trajectory, which every model of motion returns, its budget of momentum and energy, its file,
-// and the reduction of its rows for that file (key `rows` of [motion]). Lengths, masses and times
-// are in the units of the case. A change must keep the names of the columns, which published files
-// have, both balances of the budget, and all rows that compare_trajectories() looks for, such as
-// the one with the smallest gap.
+// A trajectory, which is the motion of one sphere near a wall as a model computes it: its rows, its
+// budget of momentum and energy, its file, and the reduction of its rows for that file (key `rows`
+// of [motion]). Contact models replace the thin film of fluid by contact with a memory gamma, minus
+// the impulse that the film has absorbed. Lengths, masses and times are in the units of the case.
+// Used by reduced_model/, pipeline/, sweep/, results/ and python/. A change must keep the names of
+// the columns, which published files have, both balances of the budget, and all rows that
+// compare_trajectories() looks for, such as the one with the smallest gap.
 #pragma once
 
 #include <array>
@@ -23,7 +25,7 @@ namespace viscontact::reduced_model {
 /// that include this file must not be compiled with -ffast-math, which ignores NaN.
 class OptionalDouble {
  public:
-  constexpr OptionalDouble() = default;
+  constexpr OptionalDouble() = default;  ///< a missing value
   /// `value` must not be NaN, because NaN stands for a missing value.
   // The conversion is implicit, as in std::optional.
   // NOLINTNEXTLINE(google-explicit-constructor)
@@ -54,17 +56,20 @@ class OptionalDouble {
 ///     m u(end)^2/2 - m v0^2/2      = sum of the works,
 ///
 /// with the mass m, the velocity u and its value v0 at the start. The left sides are 0 for a model
-/// without inertia. The film absorbed the energy -film_work, the
-/// resolved drag dissipated -drag_work, and the impact on the solid dissipated -solid_work.
+/// without inertia. The film absorbed the energy -film_work, the drag that a contact model resolves
+/// outside contact dissipated -drag_work, and the solid contact dissipated -solid_work.
 ///
-/// The contact models add up each step. In the other models the film is the whole drag. Its impulse
-/// then is the change of momentum minus the impulse of the external force. Its work is a sum over
-/// the rows, with an error of second order in their spacing, and external_work is set so that the
-/// works are balanced.
+/// Contact models add up the impulses and works of each step. In the other models the film stands
+/// for the whole drag. Its impulse is the change of momentum minus the impulses of the other
+/// forces. Its work is a sum over the rows, with an error of second order in their spacing, and
+/// external_work is set so that the works are balanced. In inertial_rough external_work is such a
+/// sum, and film_work is set.
 struct MomentumEnergyBudget {
   double external_impulse = 0;  ///< of the external force [M L/T]
-  double film_impulse = 0;   ///< of the film: of gamma in contact models, else of the drag [M L/T]
-  double drag_impulse = 0;   ///< of the drag that contact models resolve outside contact [M L/T]
+  /// Of the film: minus the change of gamma in contact models, else the impulse of the drag [M
+  /// L/T].
+  double film_impulse = 0;
+  double drag_impulse = 0;   ///< of the resolved drag, contact models only [M L/T]
   double solid_impulse = 0;  ///< of the solid contact [M L/T], >= 0
   double external_work = 0;  ///< of the external force [M L^2/T^2]
   double film_work = 0;      ///< of the film [M L^2/T^2]
@@ -93,31 +98,33 @@ struct TrajectoryRow {
   double time = 0;      ///< [T]
   double gap = 0;       ///< q [L], >= 0
   double velocity = 0;  ///< u = dq/dt [L/T]
-  /// Force of the fluid on the sphere [M L/T^2].
+  /// Force of the fluid on the sphere [M L/T^2]; in contact models that of film and resolved drag.
   OptionalDouble lubrication_force{};
   /// Every other force but that of contact, f_ext [M L/T^2].
   OptionalDouble external_force{};
-  /// Adhesion potential [M L/T], <= 0; contact models only.
+  /// Minus the impulse that the film has absorbed [M L/T], <= 0; contact models only.
   OptionalDouble gamma{};
-  /// Force of the solid contact on the sphere [M L/T^2], >= 0; contact models only.
+  /// Force of the solid contact on the sphere [M L/T^2], >= 0; models with solid contact only.
   OptionalDouble solid_force{};
 };
 
-/// An impact of the sphere on the solids, physics.md (4.12).
+/// An impact of the sphere on the solid wall (physics.md (4.12)).
 struct Rebound {
   double time = 0;  ///< [T]
-  double approach_velocity =
-      0;  ///< where gamma began, or of inertial_rough at the initial gap [L/T], < 0
-  double solid_impulse = 0;  ///< that the solids took up, before they gave a part back [M L/T], > 0
-  double velocity = 0;       ///< where the sphere leaves the film [L/T], >= 0; 0: it stays
-  double coefficient = 0;    ///< of restitution, velocity/|approach_velocity| [1]
+  /// Velocity before the film acts, in inertial_rough that at the initial gap [L/T], < 0.
+  double approach_velocity = 0;
+  /// Impulse that the solids took up before they gave a part back [M L/T], > 0.
+  double solid_impulse = 0;
+  double velocity = 0;  ///< velocity at which the sphere leaves the film [L/T], >= 0; 0: it stays
+  double coefficient = 0;  ///< coefficient of restitution, velocity/|approach_velocity| [1]
   bool operator==(const Rebound&) const = default;  ///< whether all numbers are equal
 };
 
-/// When solids touch for the first time.
+/// When the solids touch for the first time.
 struct SolidTouch {
   double time = 0;  ///< [T]
-  /// Rate of the gap, or of the film that is recovered from gamma, just before [L/T], <= 0.
+  /// Rate of the gap, or in contact models of the film thickness that gamma stands for, just before
+  /// [L/T], <= 0.
   double velocity = 0;
   bool operator==(const SolidTouch&) const = default;  ///< whether both numbers are equal
 };
@@ -130,18 +137,19 @@ inline constexpr int kModelsRevision = 5;
 struct Trajectory {
   std::string model;                ///< its name
   std::vector<TrajectoryRow> rows;  ///< in strictly increasing time, at least one
-  /// Smallest film thickness [L] that is recovered from gamma; contact models only.
+  /// Smallest film thickness [L] that gamma stands for; contact models only.
   std::optional<double> recovered_minimal_gap;
-  /// First landing and last release (or end of the motion) [T]; contact models only.
+  /// Beginning of the first contact and end of the last one (or of the motion) [T]; contact models
+  /// only.
   std::optional<std::array<double, 2>> contact_interval;
-  /// Nothing if the solids never touch, or if the model has no solids.
+  /// When the solids touch first; nothing if they never do, or if the model has no solids.
   std::optional<SolidTouch> solid_contact_from{};
-  /// In order of time; only if the case has a restitution.
+  /// Impacts on the solids in order of time; only if the case has a restitution.
   std::vector<Rebound> rebounds;
-  /// Nothing in a trajectory that Viscontact did not write.
+  /// The budget; nothing in a trajectory that Viscontact did not write.
   std::optional<MomentumEnergyBudget> budget;
   long steps = 0;      ///< number of steps of the integrator
-  double seconds = 0;  ///< wall time [s]
+  double seconds = 0;  ///< computing time on a clock [s]
   /// Further lines "# key: value" of the file, such as fit, case and time step.
   std::map<std::string, std::string> provenance;
 };
@@ -155,11 +163,11 @@ Trajectory read_trajectory(const std::filesystem::path& path);
 /// The text of the trajectory file (CSV).
 std::string write_trajectory(const Trajectory& trajectory);
 
-/// About `count` >= 2 of the rows, in their order. They are the first rows at or after each of
-/// `count` equidistant times, and the rows that a comparison needs: the first, the last, the first
-/// with the smallest gap, with the largest gap and with the lowest gamma, and the two rows around
-/// each instant at which contact or solid contact begins or ends. If there are more than `count`
-/// such instants, only the first and the last of them count. At most `count` rows are all returned.
+/// About `count` >= 2 of the rows, in their order; all of them if they are at most `count`. They
+/// are the first rows at or after each of `count` equidistant times, and the rows that a comparison
+/// needs: the first, the last, the first with the smallest gap, with the largest gap and with the
+/// lowest gamma, and the two rows around each instant at which contact or solid contact begins or
+/// ends. If there are more than `count` such instants, only the first and the last of them count.
 std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, int count);
 
 }  // namespace viscontact::reduced_model

@@ -1,12 +1,13 @@
 // The models `smooth` and `rough` of a sphere that moves along a plane in a viscous fluid
-// (physics.md (4.8), (4.9)). CVODE integrates the motion from one change of the solid contact to
-// the next: the sphere touches the roughness, its slip ends, friction no longer prevents slip, or
-// the sphere is lifted off. x is along the plane, z away from it, and y is the axis of rotation; u
-// and V are the velocities of sphere and plane along x, and w is the angular velocity. s is ln(q/r)
-// with the gap q and the radius r. Slip is the velocity of the lowest point relative to the plane,
-// u - V - r w. Numbers are in any consistent units. A start at a gap above those of the fit is an
-// Error(kBadInput), a step that CVODE cannot make an Error(kNotConverged). rolling/case/ and
-// rolling/job/ use it. A change must keep the slip exactly 0 while the sphere rolls.
+// (physics.md (4.8), (4.9)). The integrator CVODE computes the motion from one change of the solid
+// contact to the next: the sphere touches the roughness, its slip ends, friction no longer prevents
+// slip, or the sphere is lifted off. x is along the plane, z away from it, and y is the axis of
+// rotation; u and V are the velocities of sphere and plane along x, and w is the angular velocity.
+// s is ln(q/r) with the gap q and the radius r. Slip is the velocity of the lowest point relative
+// to the plane, u - V - r w. m is the mass and I the moment of inertia. Numbers are in any
+// consistent units. A gap above those of the fit is an Error(kBadInput), a step that CVODE cannot
+// make an Error(kNotConverged). rolling/case/ and rolling/job/ use the models. A change must keep
+// the slip exactly 0 while the sphere rolls.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +28,7 @@ enum RollingState : std::size_t { kLogGap, kMove, kTurn, kPosition, kAngle, kSta
 /// The state y of the sphere, in the order of RollingState.
 using RollingStateVector = std::array<double, kStates>;
 
-/// What the solids of sphere and plane do at present.
+/// What the solids of sphere and plane do at one time.
 struct SolidState {
   bool touches = false;  ///< true: the gap is constant
   /// How the solids move along each other; kNone if they do not touch.
@@ -35,11 +36,12 @@ struct SolidState {
   double sliding_direction = 0;  ///< the sign of the slip while the sphere slides
 };
 
-/// The right-hand side for the present SolidState. `motion` and `fit` must outlive the object.
+/// The equations of motion (4.8) for what the solids do at present. `motion` and `fit` must outlive
+/// the object.
 class RollingEquation {
  public:
-  /// Solids touch at the gap `contact_gap` [L]; 0: they never touch. Throws Error(kBadInput) if
-  /// the sphere starts above the interval of gaps of `fit`.
+  /// The solids touch at the gap `contact_gap` [L]; 0: they never touch. Throws Error(kBadInput) if
+  /// the sphere starts above the gaps of `fit`.
   RollingEquation(const RollingMotion& motion, const motions::PairFit& fit, double contact_gap);
 
   /// The state at time 0.
@@ -48,16 +50,17 @@ class RollingEquation {
   double gap_of(std::span<const double> y) const;
   /// dq/dt [L/T] at time t.
   double normal_velocity(double t, std::span<const double> y) const;
-  double contact_force() const;                            ///< of the solids along z, >= 0
-  double friction_force(std::span<const double> y) const;  ///< of the solids along x
+  double contact_force() const;  ///< of the solids along z [M L/T^2], >= 0
+  double friction_force(std::span<const double> y) const;  ///< of the solids along x [M L/T^2]
   double slip(std::span<const double> y) const;            ///< of the lowest point [L/T]
-  /// 1/m + r^2/I [1/M], with the moment of inertia I: acceleration of the lowest point per
-  /// friction.
+  /// 1/m + r^2/I [1/M]: acceleration of the lowest point per force of friction.
   double compliance() const;
-  /// True if Coulomb's friction can keep the slip at 0. If not, sets the direction of sliding.
+  /// True if Coulomb's friction can keep the slip at 0. If it cannot, sets the direction of
+  /// sliding.
   bool can_roll(std::span<const double> y);
 
-  /// For CVODE. `step_begin` is the time at which its present step begins.
+  /// The equations for CVODE. `step_begin` is the time at which its present step begins; it is read
+  /// at each call.
   reduced_model::StiffSystem system(const double& step_begin) const;
 
   /// r of the sphere [L], > 0.
@@ -89,7 +92,8 @@ reduced_model::Motion normal_motion(const RollingMotion& motion) {
           .external_force = reduced_model::ExternalForce({{motion.end_time, motion.normal_force}})};
 }
 
-/// The fluid around the sphere. Throws Error(kBadInput) if it starts above the gaps of the fit.
+/// The fluid around the sphere. Throws Error(kBadInput) if the sphere starts above the gaps of the
+/// fit.
 RollingFluid fluid_around(const RollingMotion& motion, const motions::PairFit& fit) {
   const RollingFluid fluid(fit);
   (void)fluid.at(motion.initial_gap);
@@ -138,7 +142,7 @@ double RollingEquation::compliance() const {
   return 1 / motion_.mass + radius_ * radius_ / motion_.moment_of_inertia;
 }
 
-/// The rate of the slip without friction.
+/// The rate of the slip without friction [L/T^2].
 double RollingEquation::slip_rate(std::span<const double> y) const {
   const auto free = free_force(y);
   return free.force / motion_.mass - radius_ * free.torque / motion_.moment_of_inertia;
@@ -185,7 +189,7 @@ reduced_model::StiffSystem RollingEquation::system(const double& step_begin) con
   return system;
 }
 
-/// The derivatives of all components but the gap.
+/// The derivatives in time of all components but the gap.
 void RollingEquation::derivative(std::span<const double> y, std::span<double> f) const {
   const auto free = free_force(y);
   const double friction = friction_force(y);
@@ -195,15 +199,15 @@ void RollingEquation::derivative(std::span<const double> y, std::span<double> f)
   f[kAngle] = y[kTurn];
 }
 
-/// All entries of the Jacobian, column by column. The derivative of the rate of s by s is set to 0
-/// here: gap_equation_ computes it.
+/// All entries of the Jacobian, column by column, but the derivative of the rate of s by s, which
+/// is set to 0 here and computed by gap_equation_.
 void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) const {
   std::ranges::fill(j, 0.0);
   const auto at = [&](std::size_t row, std::size_t column) -> double& {
     return j[column * kStates + row];
   };
   const auto put = [&](std::size_t column, const RollingForce& change) {
-    // Friction of rolling keeps the slip constant, whatever the other forces are.
+    // In rolling the friction takes the value that keeps the slip constant.
     double friction = 0;
     if (solids.contact == SolidContact::kRolling)
       friction =
@@ -223,7 +227,8 @@ void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) c
 
 /// The tolerances of all components but the gap. Those of the velocities are relative to the
 /// largest velocity that the forces can cause, so that a velocity that passes through 0 does not
-/// stop CVODE.
+/// stop CVODE. The terms with 1e-12 and 1e-3 keep the tolerances > 0 for a sphere at rest and at x
+/// = 0.
 void RollingEquation::tolerance(std::span<const double> y, std::span<double> allowed) const {
   const auto r = fluid_.at(std::min(gap_of(y), fluid_.largest_gap()));
   const double move = std::abs(y[kMove]) + radius_ * std::abs(y[kTurn]) +
@@ -237,7 +242,7 @@ void RollingEquation::tolerance(std::span<const double> y, std::span<double> all
   allowed[kAngle] = allowed[kPosition] / radius_;
 }
 
-/// The state in which a sphere leaves the roughness.
+/// The time [T] and the state at which a sphere leaves the roughness.
 struct LiftOff {
   double time = 0;
   RollingStateVector state{};
@@ -254,7 +259,7 @@ class LubricatedRun {
         equation_(motion, fit, contact_gap),
         cvode_(equation_.system(now_), equation_.initial_state()) {}
 
-  /// Adds the rows until the end, or until the sphere is lifted off.
+  /// Computes the rows at `times` until the end, or until the sphere is lifted off.
   RollingTrajectory run() {
     add_rows_until(0);
     const bool starts_in_contact = motion_.initial_gap <= contact_gap_ &&
@@ -306,7 +311,7 @@ class LubricatedRun {
     return state;
   }
 
-  /// The time in the step at which the slip becomes 0, or its end.
+  /// The time in the step from `from` to `to` [T] at which the slip becomes 0; `to` if it does not.
   double end_of_sliding(double from, double to) const {
     if (equation_.solids.contact != SolidContact::kSliding) return to;
     const auto has_stopped = [&](double t) {
@@ -371,8 +376,8 @@ class LubricatedRun {
   std::optional<LiftOff> lift_off_;
 };
 
-/// Appends the motion after a lift-off. The force is constant, so that the sphere does not come
-/// back, and the solids do not touch again.
+/// Appends the motion after a lift-off. The force along z is constant and > 0, so that the sphere
+/// does not come back, and the solids do not touch again.
 void append_flight(const RollingMotion& motion, const motions::PairFit& fit, double contact_gap,
                    std::vector<double> times, const LiftOff& lift_off, RollingTrajectory& rows) {
   auto flight = motion;

@@ -1,7 +1,9 @@
-// The model `viscous_contact` of a sphere that moves along a plane and turns: time steps by
-// physics.md (4.5) and (4.10). gamma is minus the impulse that the film has absorbed, q0 the
-// initial gap. Lengths, masses and times are in any consistent units. A fit that lacks an entry is
-// an Error(kBadInput). A change must keep the balance of contact_step.hpp.
+// The model `viscous_contact` of a sphere that moves along a plane and turns, by the time steps of
+// physics.md (4.5) and (4.10); also end_of() and the list of all models of rolling_motion.hpp.
+// gamma is minus the impulse that the film of fluid has absorbed, gamma_min its value at which the
+// solids touch, q0 the initial gap. Lengths, masses and times are in any consistent units. A fit
+// that lacks a resistance is an Error(kBadInput). Used by rolling/case, rolling/job and app/. A
+// change must keep the balance of contact_step.hpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,8 +18,8 @@ namespace viscontact::rolling {
 namespace {
 
 /// The 2 x 2 system (M/h + R) v = M v_before/h + forces + friction (1, -r) for v = (velocity along
-/// x, angular velocity), with M = diag(mass, moment of inertia), the resistances R, the step h and
-/// the radius r.
+/// x relative to the plane, angular velocity), with M = diag(mass, moment of inertia), the matrix R
+/// of the resistances, the step h and the radius r.
 class ImplicitStep {
  public:
   ImplicitStep(const RollingMotion& motion, const RollingResistance& r, double radius, double step)
@@ -31,7 +33,7 @@ class ImplicitStep {
     return {(c_ * f.force - b_ * f.torque) / determinant,
             (a_ * f.torque - b_ * f.force) / determinant};
   }
-  /// Change of the slip at the end of the step by a unit of friction [1/M times T].
+  /// Change of the slip at the end of the step per force of friction [T/M].
   double compliance() const { return slip_of(solve({1, -radius_}), radius_); }
 
  private:
@@ -44,7 +46,8 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
                                             const motions::PairFit& fit) {
   const RollingFluid fluid(fit);
   const double radius = fit.radius;
-  // k is the coefficient of 1/q in the resistance of a plane: gamma = k ln(film/q0).
+  // k is the coefficient of 1/q in the resistance of a sphere near a plane. The film thickness is
+  // q0 exp(gamma/k).
   const double k = 6 * std::numbers::pi * fit.viscosity * radius * radius, q0 = motion.initial_gap;
   const double gamma_min = motion.roughness > 0 ? std::min(0.0, k * std::log(motion.roughness / q0))
                                                 : -std::numeric_limits<double>::infinity();
@@ -65,7 +68,7 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
         reduced_model::contact_step(normal, step * motion.normal_force,
                                     {motion.mass, gamma_min, step}, reduced_model::NoDrag{});
     normal = contact.state;
-    // In contact the film is recovered from gamma; without contact it is the gap itself.
+    // In contact the gap of the row is the film thickness that gamma stands for.
     row.gap = normal.gap > 0 ? normal.gap : q0 * std::exp(normal.gamma / k);
     const ImplicitStep implicit(motion, fluid.at(std::min(row.gap, fluid.largest_gap())), radius,
                                 step);

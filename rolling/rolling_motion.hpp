@@ -1,7 +1,7 @@
-// A sphere near a plane that moves in two directions and turns (physics.md (4.8) to (4.11)): x
-// along the plane, z away from it, y the axis of rotation; q is the gap. Lengths, masses and times
-// are in any consistent units. The command `rolling` and its sweeps use these models; a change must
-// keep their names, which case files contain.
+// A sphere near a plane in a viscous fluid that moves in two directions and turns (physics.md (4.8)
+// to (4.11)): x along the plane, z away from it, y the axis of rotation; q is the gap. Lengths,
+// masses and times are in any consistent units. The command `rolling`, its sweeps and python/ use
+// these models. A change must keep their names, which users' case files contain.
 #pragma once
 
 #include <optional>
@@ -16,22 +16,22 @@ namespace viscontact::rolling {
 /// The sphere, its start, the forces that do not depend on its motion, and the surfaces. The fluid
 /// is at rest where the plane is at rest; a plane with a constant velocity carries it along.
 struct RollingMotion {
-  double mass = 0;                   ///< m [M], > 0
-  double moment_of_inertia = 0;      ///< I [M L^2], > 0
-  double initial_gap = 0;            ///< q0 [L], > 0
-  double normal_velocity = 0;        ///< dq/dt at the start [L/T]
-  double velocity = 0;               ///< dx/dt at the start [L/T]
-  double angular_velocity = 0;       ///< w at the start [1/T]; > 0 rolls along +x
-  double force = 0;                  ///< constant force along x [M L/T^2]
-  double normal_force = 0;           ///< along z [M L/T^2]; < 0 towards the plane
-  double torque = 0;                 ///< about y [M L^2/T^2]
-  double plane_velocity = 0;         ///< V of the plane along x [L/T]
-  double roughness = 0;              ///< gap at which solids touch [L], >= 0
-  double friction = 0;               ///< Coulomb's coefficient mu_s of the solids [1], >= 0
-  double end_time = 0;               ///< [T], > 0
-  double time_step = 0;              ///< of viscous_contact, and spacing of all rows [T], > 0
-  double relative_tolerance = 1e-9;  ///< of CVODE, in (0, 1)
-  /// Asks the models to stop early.
+  double mass = 0;               ///< m [M], > 0
+  double moment_of_inertia = 0;  ///< I [M L^2], > 0
+  double initial_gap = 0;        ///< q0 [L], > 0
+  double normal_velocity = 0;    ///< dq/dt at the start [L/T]
+  double velocity = 0;           ///< dx/dt at the start [L/T]
+  double angular_velocity = 0;   ///< w at the start [1/T]; > 0 rolls along +x
+  double force = 0;              ///< constant force along x [M L/T^2]
+  double normal_force = 0;       ///< constant force along z [M L/T^2]; < 0 towards the plane
+  double torque = 0;             ///< constant torque about y [M L^2/T^2]
+  double plane_velocity = 0;     ///< V of the plane along x [L/T]
+  double roughness = 0;          ///< gap at which solids touch [L], >= 0
+  double friction = 0;           ///< Coulomb's coefficient mu_s of the solids [1], >= 0
+  double end_time = 0;           ///< [T], > 0
+  double time_step = 0;  ///< step of the model viscous_contact, and spacing of all rows [T], > 0
+  double relative_tolerance = 1e-9;  ///< relative tolerance of the integrator CVODE [1], in (0, 1)
+  /// A stop makes the models throw Error(kInterrupted).
   StopToken stop{};
 };
 
@@ -40,15 +40,15 @@ enum class SolidContact { kNone, kRolling, kSliding };
 
 /// The state of the sphere at one time.
 struct RollingRow {
-  double time = 0;              ///< [T]
-  double gap = 0;               ///< q [L]; of viscous_contact in contact the recovered film
-  double position = 0;          ///< x [L], 0 at the start
-  double angle = 0;             ///< turned about y [radians], 0 at the start
+  double time = 0;      ///< [T]
+  double gap = 0;       ///< q [L]; in contact in the model viscous_contact the film thickness
+  double position = 0;  ///< x [L], 0 at the start
+  double angle = 0;     ///< angle turned about y [radians], 0 at the start
   double normal_velocity = 0;   ///< dq/dt [L/T]
   double velocity = 0;          ///< dx/dt [L/T]
   double angular_velocity = 0;  ///< w [1/T]
-  double contact_force = 0;     ///< of the solids along z [M L/T^2], >= 0
-  double friction_force = 0;    ///< of the solids along x [M L/T^2]
+  double contact_force = 0;     ///< force of the solids along z [M L/T^2], >= 0
+  double friction_force = 0;    ///< force of the solids along x [M L/T^2]
   /// What the solids do at this time.
   SolidContact contact = SolidContact::kNone;
 };
@@ -56,28 +56,29 @@ struct RollingRow {
 /// The motion of a sphere, in order of time.
 using RollingTrajectory = std::vector<RollingRow>;
 
-/// The model of smooth surfaces: lubrication at every gap, CVODE.
-/// Throws Error(kBadInput) if the sphere leaves the interval of gaps of `fit`, of which squeeze,
-/// slide, roll and slide_roll are needed, and the errors of Cvode.
+/// The model of smooth surfaces: lubrication at every gap, integrated by CVODE. Throws
+/// Error(kBadInput) if `fit` lacks squeeze, slide, roll or slide_roll, if the sphere rises above
+/// the gaps of `fit`, or if there are more than 1e8 rows; Error(kNotConverged) if CVODE gives up.
 RollingTrajectory roll_smooth(const RollingMotion& motion, const motions::PairFit& fit);
 
-/// Lubrication, and solid contact with Coulomb's friction at the gap `roughness`, CVODE. The impact
+/// As roll_smooth(), with solid contact and Coulomb's friction at the gap `roughness`. The impact
 /// is without rebound. Throws the errors of roll_smooth().
 RollingTrajectory roll_rough(const RollingMotion& motion, const motions::PairFit& fit);
 
-/// Viscous contact (physics.md (4.5)) along z with time steps: the film acts only by gamma, minus
-/// the impulse that it has absorbed. The solids touch, with friction, when the film recovered from
-/// gamma is as thin as the roughness. Resistances along x and to rotation are those at the
-/// recovered film, or without contact those at the gap (at gaps above the interval of the fit those
-/// at its end). The trajectory is of first order in the time step. Throws Error(kBadInput) if the
-/// fit lacks squeeze, slide, roll or slide_roll.
+/// Viscous contact (physics.md (4.5)) along z with time steps: the film acts only by the impulse
+/// that it absorbs, which determines its thickness. The solids touch, with friction, when the film
+/// is as thin as the roughness. Resistances along x and to rotation are those at the film
+/// thickness, or without contact those at the gap (at gaps above the interval of the fit those at
+/// its end). The error of the trajectory is of first order in the time step. Throws
+/// Error(kBadInput) if the fit lacks squeeze, slide, roll or slide_roll, or if there are more than
+/// 1e8 steps.
 RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
                                             const motions::PairFit& fit);
 
 /// How a motion ends.
 struct RollingEnd {
   RollingRow last;          ///< the last row
-  double smallest_gap = 0;  ///< of all rows [L]
+  double smallest_gap = 0;  ///< smallest gap of all rows [L]
   /// Velocity of the lowest point of the sphere relative to the plane, at the end [L/T].
   double slip = 0;
   /// Time of the first row in which the solids touch [T]; nothing if they never do.
@@ -95,7 +96,7 @@ struct RollingModel {
   RollingTrajectory (*run)(const RollingMotion& motion, const motions::PairFit& fit);
 };
 
-/// smooth, rough, viscous_contact.
+/// All models, in the order of their colours in pages: smooth, rough, viscous_contact.
 const std::vector<RollingModel>& rolling_models();
 
 }  // namespace viscontact::rolling

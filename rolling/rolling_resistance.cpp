@@ -1,6 +1,7 @@
-// Sums the terms of the fit of a pair, and decides between rolling and sliding. Numbers are in the
-// units of the fit. A missing entry, or a gap above the interval, is an Error(kBadInput). A change
-// must keep the matrix symmetric.
+// Sums the terms of the fits of the resistances, and decides between rolling and sliding. Numbers
+// are in the units of the fit. A missing resistance, and a gap above those of the fit, are an
+// Error(kBadInput). Used by the models of rolling/. A change must keep the matrix of the
+// resistances symmetric.
 #include "viscontact/rolling/rolling_resistance.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ namespace {
 
 using motions::PairEntry;
 
-/// The coefficients of an entry in the order of lubrication::all_terms().
+/// The coefficients of the fit of one resistance, in the order of lubrication::all_terms().
 std::vector<double> weights_of(const motions::PairFit& fit, PairEntry entry) {
   std::vector<double> weights(lubrication::all_terms().size());
   for (const auto& term : fit.entries.at(entry).fit.terms)

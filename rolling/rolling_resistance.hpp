@@ -11,7 +11,7 @@
 
 namespace viscontact::rolling {
 
-/// Velocity u of the sphere along x relative to the plane, and angular velocity w about y.
+/// Velocity of the sphere along x relative to the plane, and angular velocity about y.
 struct RollingVelocity {
   double move = 0;  ///< [L/T]
   double turn = 0;  ///< [1/T]
@@ -23,24 +23,24 @@ struct RollingForce {
       torque = 0;    ///< [M L^2/T^2], of an impulse [M L^2/T]
 };
 
-/// The symmetric matrix that maps velocities to the force and torque against them.
+/// The symmetric matrix that maps a RollingVelocity to the force and torque against it.
 struct RollingResistance {
-  double slide = 0;       ///< [M/T]
-  double roll = 0;        ///< [M L^2/T]
+  double slide = 0;       ///< force per velocity [M/T]
+  double roll = 0;        ///< torque per angular velocity [M L^2/T]
   double slide_roll = 0;  ///< [M L/T]; the entries off the diagonal are -slide_roll
 };
 
-/// The resistances as functions of the gap, and their derivatives by ln q.
+/// The resistances of the fluid as functions of the gap q, and their derivatives by ln q.
 class RollingFluid {
  public:
-  /// `fit` must outlive the object. Throws Error(kBadInput) if it lacks squeeze, slide, roll or
-  /// slide_roll.
+  /// `fit` must outlive the object. Throws Error(kBadInput) if it lacks one of its entries squeeze,
+  /// slide, roll and slide_roll.
   explicit RollingFluid(const motions::PairFit& fit);
 
   /// The resistances at a gap [L] > 0. Below the interval of the fit its formula, which has the
   /// terms of theory, is continued. Throws Error(kBadInput) above the interval.
   RollingResistance at(double gap) const;
-  RollingResistance slopes(double gap) const;  ///< d/d ln q of at()
+  RollingResistance slopes(double gap) const;  ///< d/d ln q of at(), with the same errors
 
   /// r of the sphere [L], > 0.
   double radius() const { return fit_.radius; }
@@ -55,7 +55,7 @@ class RollingFluid {
   std::vector<double> slide_, roll_, slide_roll_;
 };
 
-/// The force of the fluid.
+/// The force and torque of the fluid on the sphere.
 inline RollingForce fluid_force(const RollingResistance& r, const RollingVelocity& v) {
   return {-r.slide * v.move + r.slide_roll * v.turn, r.slide_roll * v.move - r.roll * v.turn};
 }
@@ -63,17 +63,18 @@ inline RollingForce fluid_force(const RollingResistance& r, const RollingVelocit
 /// The velocity of the sphere's lowest point relative to the plane [L/T].
 inline double slip_of(const RollingVelocity& v, double radius) { return v.move - radius * v.turn; }
 
-/// Dry friction (Coulomb): the force along x on the lowest point of a sphere, and what it does.
+/// Dry friction (Coulomb): its force along x on the lowest point of a sphere, and what the sphere
+/// does.
 struct Friction {
   double force = 0;  ///< [M L/T^2], of an impulse [M L/T]
   /// kRolling if the friction prevents slip, otherwise kSliding.
   SolidContact contact = SolidContact::kRolling;
 };
 
-/// Coulomb's friction T on a sphere. Its lowest point would have the slip `slip` [L/T] without
-/// friction, and has `slip` + `compliance` T with it; or these are rates of the slip [L/T^2], and T
-/// is a force instead of an impulse. If |T| <= bound is enough, there is no slip; otherwise T is
-/// bound or -bound, against the slip. compliance > 0, bound >= 0.
+/// Coulomb's friction T on the lowest point of a sphere. The slip of this point would be `slip`
+/// [L/T] without friction, and is `slip` + `compliance` T with it, where T is an impulse. T may
+/// also be a force, and `slip` the rate of the slip [L/T^2]. If |T| <= bound is enough to make the
+/// slip 0, it is 0; otherwise T is bound or -bound, against the slip. compliance > 0, bound >= 0.
 Friction coulomb(double slip, double compliance, double bound);
 
 }  // namespace viscontact::rolling

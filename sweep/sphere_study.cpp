@@ -1,6 +1,7 @@
 // Plans, checks and computes the rows of a sweep of one sphere, in the units of the case. A model
-// that fails leaves its columns empty. A change must keep that everything that determines the rows
-// goes into identity_of(), so that rows of another sweep are not kept.
+// that fails leaves its columns empty. A key that cannot be varied is an Error(kWrongUsage). Used
+// by the command `sweep`. A change must put everything that determines the rows into identity_of(),
+// so that rows of another sweep are not kept.
 #include "viscontact/sweep/sphere_study.hpp"
 
 #include <fmt/format.h>
@@ -59,7 +60,7 @@ void add_model(const reduced_model::ModelComparison& model,
   }
 }
 
-/// Throws Error(kWrongUsage) if a key of a case changes no row because a sweep does not read it.
+/// Throws Error(kWrongUsage) if the key of a case changes no row because a sweep does not read it.
 void refuse_unread(const std::string& key) {
   constexpr std::array kNotOfAMotion = {"tabulation", "fit", "published", "sweep", "units"};
   if (std::ranges::find(kNotOfAMotion, key.substr(0, key.find('.'))) != kNotOfAMotion.end()) {
@@ -74,8 +75,8 @@ void refuse_unread(const std::string& key) {
   }
 }
 
-/// Whether the motion of a model of the case depends on a key. All models depend on the weight less
-/// the buoyancy, and those with inertia on a mass that follows from a density.
+/// True if the motion of a model of the case depends on a key. With gravity, all models depend on
+/// the weight less the buoyancy; models with inertia depend on a mass that follows from a density.
 bool motion_depends_on(const case_file::Case& c, const std::string& model, std::string_view key) {
   const bool sets_mass = key == "sphere.density" || (key == "sphere.radius" && c.density > 0);
   const bool sets_weight = sets_mass || key == "sphere.mass" || key == "fluid.density" ||
@@ -98,7 +99,7 @@ void refuse_useless(const case_file::Case& c, const std::string& key,
                             key, fmt::join(models, ", ")));
 }
 
-/// Everything that determines the rows of a sweep.
+/// A text that contains everything that determines the rows of a sweep.
 std::string identity_of(const SpherePlan& plan) {
   std::string text = read_file(plan.case_path) + lubrication::write_fit(plan.fit);
   // The files from which the case reads an external force.
@@ -116,8 +117,8 @@ std::string identity_of(const SpherePlan& plan) {
 
 using SphereTemplate = case_file::CaseTemplate<case_file::Case>;
 
-/// The case with these numbers. Throws Error(kBadInput) if it is not valid, or if the fit cannot be
-/// scaled to it.
+/// The case with these values of its keys. Throws Error(kBadInput) if it is not valid, or if the
+/// fit cannot be scaled to it.
 case_file::Case case_with(const SphereTemplate& cases, const SpherePlan& plan,
                           const std::vector<std::pair<std::string, double>>& numbers) {
   case_file::Case c = cases.with(numbers);
@@ -125,8 +126,8 @@ case_file::Case case_with(const SphereTemplate& cases, const SpherePlan& plan,
   return c;
 }
 
-/// The trajectories of the models of a case. Those that fail are missing, and their reasons are
-/// added to the failure of the row.
+/// The trajectories of the models of a case that do not fail; the reasons of the others are added
+/// to the failure of the row.
 std::vector<reduced_model::Trajectory> run_models(const SpherePlan& plan, const case_file::Case& c,
                                                   const StopToken& stop, RowResults& results) {
   std::vector<reduced_model::Trajectory> trajectories;
@@ -142,7 +143,7 @@ std::vector<reduced_model::Trajectory> run_models(const SpherePlan& plan, const 
   return trajectories;
 }
 
-/// Adds what the trajectories give, compared with that of the reference if there is one.
+/// Adds the results of the trajectories, compared with that of the reference if there is one.
 void add_comparison(const std::vector<reduced_model::Trajectory>& trajectories,
                     const std::string& reference, RowResults& results) {
   if (trajectories.empty()) return;

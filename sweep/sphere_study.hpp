@@ -1,6 +1,7 @@
-// The sweep of a case of one sphere: each row has the gaps, films and distances of several models
-// (docs/file-formats.md). Lengths, masses and times are in the units of the case. `sweep` calls it.
-// A change must keep the names of the columns, which users' scripts read.
+// The sweep of a case of one sphere near a wall: it varies keys of the case, and each row has the
+// smallest gap, the thinnest film and the distance from a reference of several models of motion
+// (docs/file-formats.md). Lengths, masses and times are in the units of the case. The command
+// `sweep` calls it. A change must keep the names of the columns, which users' scripts read.
 #pragma once
 
 #include <filesystem>
@@ -13,36 +14,37 @@
 
 namespace viscontact::sweep {
 
-/// What is computed at each point.
+/// What is computed at each point of the sweep.
 struct SpherePlan {
-  std::filesystem::path case_path;       ///< the case whose keys are varied
-  lubrication::Fit fit;                  ///< scaled at each point to its viscosity and radius
+  std::filesystem::path case_path;  ///< the case whose keys are varied
+  lubrication::Fit fit;  ///< fit of the drag; scaled at each point to viscosity and radius there
   lubrication::OutsideInterval outside;  ///< drag outside the interval of the fit
-  Points points;                         ///< at least one variation, no draws
-  std::vector<std::string> models;       ///< at least one
+  Points points;                         ///< at least one variation; `draws` is 0
+  std::vector<std::string> models;       ///< names of models, at least one
   /// The model with which the others are compared, one of `models`; empty: that of
   /// reduced_model::reference_of().
   std::string reference;
 };
 
-/// The plan of the section [sweep] and the fit of a case. Variations, fit and reference are empty
-/// if the case does not give them. Throws Error(kBadInput) if a range in [sweep] is not valid or
-/// the fit file cannot be read.
+/// The plan that the sections [sweep] and [fit] of a case ask for. Variations, fit and reference
+/// are empty if the case does not give them. Throws Error(kBadInput) if a range in [sweep] is not
+/// valid or the fit file cannot be read.
 SpherePlan planned_sphere(const case_file::Case& c);
 
 /// The study of a plan. Its results are, for each model, MODEL.minimal_gap [L],
-/// MODEL.minimal_gap_time [T], MODEL.film [L] (the thinnest recovered film), MODEL.contact_from
-/// [T], MODEL.contact_until [T], MODEL.sup_gap_distance [L], MODEL.l1_gap_distance [L T] and
-/// MODEL.l1_velocity_distance [L] (to the reference), MODEL.film_ratio [1] (thinnest film over that
-/// of the reference), MODEL.steps, MODEL.solid_contact_from [T] and MODEL.solid_contact_velocity
-/// [L/T] (empty if the solids do not touch). Those of a model that fails are empty, and so are all
+/// MODEL.minimal_gap_time [T], MODEL.film [L] (thinnest film that a contact model computes),
+/// MODEL.contact_from [T], MODEL.contact_until [T], MODEL.sup_gap_distance [L],
+/// MODEL.l1_gap_distance [L T] and MODEL.l1_velocity_distance [L] (distances from the reference,
+/// ModelComparison), MODEL.film_ratio [1] (thinnest film or smallest gap, over that of the
+/// reference), MODEL.steps, MODEL.solid_contact_from [T] and MODEL.solid_contact_velocity [L/T]
+/// (empty if the solids do not touch). Those of a model that fails are empty, and so are all
 /// distances if the reference fails. `version` is that of Viscontact.
 ///
 /// Reads the case. Throws Error(kBadInput) if the case has no [motion], if the first or the last
 /// point of the plan gives no valid case, or if the fit cannot be scaled to it. Throws
-/// Error(kWrongUsage) if nothing is varied, if there is no fit, if the reference is not one of
-/// the models, if a key or a model occurs twice, or if a key changes no row, because a sweep does
-/// not read it or none of the models depends on it.
+/// Error(kWrongUsage) if nothing is varied, if there is no fit, if the reference is not one of the
+/// models, if a key or a model occurs twice, or if a key changes no row, because a sweep does not
+/// read it or none of the models depends on it.
 Study sphere_study(SpherePlan plan, const std::string& version);
 
 }  // namespace viscontact::sweep

@@ -1,6 +1,7 @@
-// Computes the rows of a sweep, and writes, continues and reads its file. Numbers are in the units
-// of the case. A file that cannot be written is an Error(kBadInput). A change must keep that rows
-// of an earlier call are kept only if its file has the same head.
+// Computes the rows of a sweep, and writes, continues and reads its file (study.hpp). Numbers are
+// in the units of the case. A file that cannot be read or written is an Error(kBadInput). Used by
+// app/, pipeline/ and the sweeps of all kinds of cases. A change must keep that rows of an earlier
+// call are kept only if its file has the same head.
 #include "viscontact/sweep/study.hpp"
 
 #include <fmt/format.h>
@@ -38,13 +39,14 @@ std::string header_of(const Study& study) {
 constexpr std::string_view kHowMade = "# provenance: ";
 
 /// The number of finished rows of this sweep after the header, and the number of bytes up to the
-/// end of the last of these rows. Nothing if the file does not begin with this header.
+/// end of the last of these rows.
 struct Kept {
   std::uint64_t rows = 0, bytes = 0;
 };
+/// What a file contains of this sweep. Nothing if the file does not begin with `header`.
 std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, const Study& study) {
   std::ifstream file(path, std::ios::binary);
-  // The provenance line may differ, because it does not influence the rows.
+  // The line that says how the file was made may differ, because it does not influence the rows.
   std::string first;
   if (!std::getline(file, first) || !first.starts_with(kHowMade)) {
     file.clear();
@@ -200,7 +202,7 @@ std::uint64_t write_sweep(
       "is locked by another sweep that writes the same file; wait until it has ended, or write "
       "elsewhere");
   auto kept = kept_rows(part, header, study);
-  // Removes an incomplete last row, or all rows of another plan.
+  // Removes an incomplete last row, or all rows if they are those of another sweep.
   if (::ftruncate(file.get(), kept ? static_cast<off_t>(kept->bytes) : 0) != 0)
     throw_bad_input({part.string()}, fmt::format("cannot be written ({})", std::strerror(errno)));
   if (!kept) {
@@ -266,7 +268,7 @@ SweepOutcome read_outcome(const Study& study, const fs::path& path) {
     const std::string failure = line.substr(last_comma + 1);
     if (failure.empty()) continue;
     if (outcome.first_failure.empty()) outcome.first_failure = failure;
-    std::size_t end_of_keys = 0;  // the comma after the fields of the varied keys
+    std::size_t end_of_keys = 0;  // position of the comma after the fields of the varied keys
     for (std::size_t key = 0; key < keys; ++key)
       end_of_keys = line.find(',', end_of_keys + (key > 0 ? 1 : 0));
     const bool has_result = line.find_first_not_of(',', end_of_keys) < last_comma;

@@ -1,8 +1,9 @@
-// What sweeps of all kinds of cases share: rows of named numbers at the points of a sweep, and the
-// CSV file in which they are kept (docs/file-formats.md). The file is written row by row, so that a
+// What sweeps of all kinds of cases share. A sweep computes a case again and again with other
+// values of some of its keys: each combination of values is a point, and its results are a row of
+// named numbers in a CSV file (docs/file-formats.md). The file is written row by row, so that a
 // later call continues an interrupted sweep after its last row. Each kind of case has a function
-// that makes a Study (sphere_study.hpp, rolling_study.hpp, swimmer_study.hpp, particles_study.hpp):
-// how a point becomes a case, and which numbers its row has. Numbers are in the units of the case.
+// that makes a Study (sphere_study.hpp, rolling_study.hpp, swimmer_study.hpp, particles_study.hpp).
+// Numbers are in the units of the case. Used by app/, pipeline/ and the folders of these functions.
 // A change must keep the form of the file, which users' scripts read.
 #pragma once
 
@@ -25,7 +26,7 @@ namespace viscontact::sweep {
 struct RowResults {
   std::map<std::string, double> values;  ///< a value that is not finite gives an empty field
   std::map<std::string, std::uint64_t> numbers;  ///< results that are whole numbers
-  std::string failure;                           ///< why results are missing; empty: none is
+  std::string failure;                           ///< why results are missing; empty if none is
 };
 
 /// Calls `part`, which computes some results of a row. If it fails, the reason is added to the
@@ -42,24 +43,24 @@ void add_part(RowResults& results, const Part& part) {
 
 /// The points of a sweep, and how the results of a row are computed.
 struct Study {
-  Points points;                     ///< they determine the first columns
+  Points points;                     ///< the points; their keys are the first columns
   std::vector<std::string> results;  ///< columns with results; a last column `failure` follows
   /// Lines "# key: value" for the head of the file. Files with the same head and the same columns
-  /// have the same rows.
+  /// must have the same rows.
   std::map<std::string, std::string> comments;
-  /// Computes the results of a row. Several threads call this function at once. It throws
-  /// Error(kInterrupted) if `stop` requests a stop; any other Error that it throws ends the whole
-  /// sweep.
+  /// Computes the results of row `index`, from 0. Several threads call this function at once. It
+  /// throws Error(kInterrupted) if `stop` requests a stop; any other Error that it throws ends the
+  /// whole sweep.
   std::function<RowResults(std::uint64_t index, const StopToken& stop)> run;
 
   std::uint64_t size() const { return points.rows(); }  ///< number of rows, > 0
   std::vector<std::string> columns() const;             ///< names of all columns
-  /// A row as a line of CSV.
+  /// Row `index` as a line of CSV. Throws what `run` throws.
   std::string row(std::uint64_t index, const StopToken& stop = {}) const;
 };
 
-/// The comments that every study has: its kind, the case file, the number of rows, a hash of all
-/// that determines the rows, and the version of Viscontact.
+/// The comments that every study has: its kind, a hash of the case file, the number of rows, a hash
+/// of `identity`, a text with what else determines the rows, and the version of Viscontact.
 std::map<std::string, std::string> head_of(const std::string& kind, const std::string& case_text,
                                            const Points& points, const std::string& identity,
                                            const std::string& version);
@@ -68,13 +69,13 @@ std::map<std::string, std::string> head_of(const std::string& kind, const std::s
 /// such as "the key".
 void refuse_doubles(const std::vector<std::string>& names, std::string_view kind);
 
-/// The ranges "KEY=RANGE" (variation.hpp) of the section [sweep] of a case. Throws
+/// Reads the ranges "KEY=RANGE" (variation.hpp) of the section [sweep] of a case. Throws
 /// Error(kBadInput), which names the case, if one is not valid.
 std::vector<Variation> variations_of_case(const std::vector<std::string>& ranges,
                                           const std::filesystem::path& case_path);
 
-/// Returns `make(numbers)` for the numbers of a row. An Error that it throws is thrown again with
-/// the point in its message.
+/// Returns `make(numbers)` for the keys and values of row `index`. An Error that it throws is
+/// thrown again with the point in its message.
 template <class Make>
 auto at_point(const Points& points, std::uint64_t index, const Make& make) {
   const auto numbers = points.numbers(index);
@@ -85,7 +86,8 @@ auto at_point(const Points& points, std::uint64_t index, const Make& make) {
   }
 }
 
-/// Makes the cases of the first and the last row, so that wrong ranges are refused at once.
+/// Calls `make`, which makes a case, for the first and the last row, so that a range that leads to
+/// a wrong case is an Error before rows are computed.
 template <class Make>
 void check_ends(const Points& points, const Make& make) {
   for (const std::uint64_t index : {std::uint64_t{0}, points.rows() - 1})
@@ -93,23 +95,24 @@ void check_ends(const Points& points, const Make& make) {
 }
 
 /// Computes the rows `begin`, ..., `size` - 1 with `jobs` >= 1 threads and passes them to `take` in
-/// order. Ends early if `stop` requests it, or if `row` or `take` throws; then throws the same
-/// exception. The memory that it needs does not grow with the number of rows. Returns the index of
-/// the last row taken plus 1, or `begin` if none was taken.
+/// order. Ends early if `stop` requests it. If `row` or `take` throws, ends early and throws the
+/// same exception. The memory that it needs does not grow with the number of rows. Returns the
+/// index of the last row taken plus 1, or `begin` if none was taken.
 std::uint64_t run_rows(
     std::uint64_t size, std::uint64_t begin, int jobs,
     const std::function<std::string(std::uint64_t index, const StopToken& stop)>& row,
     const std::function<void(std::uint64_t index, const std::string& row)>& take,
     const StopToken& stop = {});
 
-/// Computes the missing rows of a sweep and writes them into a CSV file. Until all rows are
-/// finished, they are in PATH.part, in order. A later call keeps the rows in that file if they
-/// belong to the same sweep (Study::comments), and otherwise deletes them. A finished file of the
-/// same sweep is left as it is. `how_made` is empty or a line "# provenance: ...\n" for the head of
-/// a new file. `progress(done, size)` is called after each row.
+/// Computes the missing rows of a sweep with `jobs` >= 1 threads and writes them into a CSV file.
+/// Until all rows are finished, they are in PATH.part, in order. A later call keeps the rows in
+/// that file if they belong to the same sweep (Study::comments), and otherwise deletes them. A
+/// finished file of the same sweep is left as it is. `how_made` is empty or a line "# provenance:
+/// ...\n" for the head of a new file. `progress(done, size)` is called after each row.
 ///
-/// Throws Error(kInterrupted) if `stop` requests a stop, and Error(kBadInput) if a file cannot be
-/// written or another process writes the same file. Returns the number of rows that were computed.
+/// Throws Error(kInterrupted) if `stop` requests a stop, Error(kBadInput) if a file cannot be
+/// written or another process writes the same file, and the Errors of Study::run. Finished rows are
+/// kept. Returns the number of rows that were computed.
 std::uint64_t write_sweep(
     const Study& study, const std::filesystem::path& path, int jobs, const std::string& how_made,
     const std::function<void(std::uint64_t done, std::uint64_t size)>& progress,
@@ -118,7 +121,7 @@ std::uint64_t write_sweep(
 /// How many points of a finished sweep have results, and why others have none.
 struct SweepOutcome {
   std::uint64_t points = 0;          ///< number of all points
-  std::uint64_t without_result = 0;  ///< number of points at which everything failed
+  std::uint64_t without_result = 0;  ///< number of points without any result
   /// Number of points with a failure and some results, for example of models that did not fail.
   std::uint64_t with_some_results = 0;
   /// Column `failure` of the first point that has one; may be empty.

@@ -1,6 +1,7 @@
 // Reads ranges, and computes the points of grids and random points. Values have the units of their
-// keys. A range that is not valid is an Error(kBadInput). A change must keep the values bit for
-// bit, because a sweep that continues compares them with its finished rows.
+// keys. A range that is not valid is an Error(kBadInput). Used by the sweeps of all kinds of cases.
+// A change must keep the values bit for bit, because a sweep that continues compares them with its
+// finished rows.
 #include "viscontact/sweep/variation.hpp"
 
 #include <fmt/format.h>
@@ -15,9 +16,9 @@
 namespace viscontact::sweep {
 namespace {
 
-// Free choices: no computer works through as many rows. At a microsecond per row 1e12 rows take 12
-// days. The product of the counts, a double, is exact up to 2^53 = 9e15, so that it can be
-// compared.
+// Free choices: computing so many rows takes too long anyway, 12 days for 1e12 rows at a
+// microsecond each. The product of the counts is a double, which is exact up to 2^53 = 9e15, so
+// that it can be compared with kMostPoints.
 constexpr double kMostValues = 1e9;
 constexpr double kMostPoints = 1e12;
 
@@ -56,7 +57,7 @@ double Variation::at(double share) const {
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
   if (!logarithmic) return std::lerp(first, last, share);
   // The logarithms are interpolated, because the ratio of the ends may overflow. The result is
-  // clamped, because rounding errors must not lead outside the range.
+  // clamped, because a rounding error must not lead outside the range.
   const double size =
       std::exp(std::lerp(std::log(std::abs(first)), std::log(std::abs(last)), share));
   const double a = std::abs(first), b = std::abs(last);

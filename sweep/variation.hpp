@@ -1,6 +1,7 @@
 // The keys of a case that a sweep varies, and the values of each key, in the unit that the key has
-// in the case. Sweeps of all kinds of cases use it. A change must keep the values bit for bit,
-// because an interrupted sweep compares them with the rows that it has already written.
+// in the case. study.hpp and the sweeps of all kinds of cases use it. A change must keep the values
+// bit for bit, because an interrupted sweep compares them with the rows that it has already
+// written.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +12,22 @@
 
 namespace viscontact::sweep {
 
-/// A key and its values: a list, or a range with `count` values from `first` to `last`, at equal
-/// distances or in geometric progression.
+/// A key and its values: a list of values, or a range of `count` values from `first` to `last`, at
+/// equal distances or in geometric progression.
 struct Variation {
   std::string key;  ///< as in a case file: "fluid.viscosity"
   /// The values of a list; empty for a range.
   std::vector<double> values;
   double first = 0;          ///< first value of a range, in the unit of the key
   double last = 0;           ///< last value of a range, in the unit of the key
-  bool logarithmic = false;  ///< whether a range is a geometric progression
+  bool logarithmic = false;  ///< true: the values of a range are in geometric progression
   std::uint64_t count = 0;   ///< number of values, >= 1
 
   /// Value i, 0 <= i < count.
   double value(std::uint64_t i) const;
 
   /// The value at the fraction `share` of the way from `first` to `last`, 0 <= share < 1, measured
-  /// in the logarithm if `logarithmic`. In a list of n values, the element floor(n share).
+  /// in the logarithm if `logarithmic`. Of a list of n values, the element floor(n share).
   double at(double share) const;
 };
 
@@ -35,7 +36,7 @@ struct Variation {
 /// not finite, a logarithmic range contains 0 or changes sign, or N is not an integer in [1, 1e9].
 Variation parse_variation(std::string_view text);
 
-/// Keys and values of point `index` of the grid that combines every value of each variation with
+/// Keys and values of point `index` of the grid, which combines every value of each variation with
 /// every value of the others. From one point to the next, the last variation changes first.
 std::vector<std::pair<std::string, double>> grid_point(const std::vector<Variation>& variations,
                                                        std::uint64_t index);
@@ -51,34 +52,35 @@ std::vector<std::pair<std::string, double>> random_point(const std::vector<Varia
 /// of rows that a sweep may have.
 std::uint64_t grid_size(const std::vector<Variation>& variations);
 
-/// The points of a sweep: a grid, or random points, each of them once or with several draws. Each
-/// draw at a point is a row, and the draws of a point follow each other.
+/// The points of a sweep: a grid, or random points. In a sweep of randomly arranged particles a
+/// point has several draws, which are arrangements with different seeds. Each draw is a row, and
+/// the draws of a point follow each other.
 struct Points {
   std::vector<Variation> variations;  ///< the varied keys
   std::uint64_t samples = 0;          ///< number of random points; 0: the whole grid
   std::uint64_t seed = 1;             ///< seed of the random points
-  /// Number of random arrangements of particles at each point; 0: that of the case alone.
+  /// Number of draws at each point; 0: one row without a draw, with the seed of the case.
   std::uint64_t draws = 0;
-  /// arrangement.seed of the first draw; the next draws have the following numbers.
+  /// The value of arrangement.seed in the first draw; it grows by 1 from draw to draw.
   std::uint64_t first_draw = 1;
 
-  std::uint64_t count() const;  ///< number of points, without draws
-  std::uint64_t rows() const;   ///< number of rows: points times draws
+  std::uint64_t count() const;  ///< number of points
+  std::uint64_t rows() const;   ///< number of rows: points times draws, or points if `draws` is 0
   /// The varied keys, and arrangement.seed if there are draws.
   std::vector<std::string> keys() const;
   /// Keys and values of a row, 0 <= index < rows().
   std::vector<std::pair<std::string, double>> numbers(std::uint64_t index) const;
   std::string key_fields(std::uint64_t index) const;  ///< the values of a row as fields of CSV
-  bool is_varied(const std::string& key) const;       ///< true: a variation has this key
+  bool is_varied(const std::string& key) const;       ///< true if a variation has this key
 };
 
 /// The text " KEY = VALUE KEY = VALUE ...", for messages; it begins with a space.
 std::string in_words(const std::vector<std::pair<std::string, double>>& numbers);
 
-/// A text that is different for different points, for hashes of sweeps that have no draws.
+/// A text that is different for different points, for hashes of sweeps without draws.
 std::string text_of(const Points& points);
 
-/// The key that draws vary.
+/// The key of a case whose value differs between draws.
 inline constexpr const char* kDrawKey = "arrangement.seed";
 
 }  // namespace viscontact::sweep

@@ -1,6 +1,8 @@
-// Newton's method for the stroke of least energy (optimal_stroke.hpp). Numbers are in the units of
-// the fit; energies are those at a period of 1. A search that fails in all directions is an Error.
-// A change must keep energies to the digits of docs/swimmer.md.
+// Newton's method for the stroke of least energy (optimal_stroke.hpp), whose loop in the space of
+// arms has polynomials as coordinates (polynomial_loop.hpp). Numbers are in the units of the fit;
+// energies are those in a period of 1. Loops that leave the table are an Error(kBadInput), and a
+// failure of Newton's method an Error(kNotConverged). Used by swimmer/case and swimmer/job. A
+// change must keep energies to the digits of docs/swimmer.md.
 #include "viscontact/swimmer/optimal_stroke.hpp"
 
 #include <fmt/format.h>
@@ -23,14 +25,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A loop that satisfies the conditions of an optimum for its displacement.
+/// A loop that satisfies the conditions of least energy at its displacement, with the multiplier of
+/// the displacement [M L/T^2] and the energy [M L^2/T^2].
 struct Extremal {
   PolynomialLoop loop;
   double multiplier = 0;
   double energy = 0;
 };
 
-/// The loops of least energy with a fixed number of polynomials.
+/// Finds loops of least energy with a fixed number of polynomials.
 class LoopOptimizer {
  public:
   LoopOptimizer(const Swimmer& swimmer, const VectorXd& through, Index polynomials)
@@ -38,17 +41,21 @@ class LoopOptimizer {
         scale_(functional_.constant_metric_hessian(swimmer.at(through).metric)),
         factor_(scale_) {}
 
-  /// Newton's method from `start`. Nothing if it does not converge or all steps leave the table.
+  /// The loop of least energy with this displacement [L], by Newton's method from `start`. Nothing
+  /// if it does not converge or all steps leave the table. Throws Error(kInterrupted) if `stop`
+  /// requests a stop.
   std::optional<Extremal> solve(const Extremal& start, double displacement,
                                 const StopToken& stop) const;
 
  private:
-  /// The multiple of the loop that has this displacement. Nothing if none was found in the table.
+  /// The multiple of the loop, as seen from `through`, that has this displacement [L]. Nothing if
+  /// none was found in the table.
   std::optional<PolynomialLoop> scaled_to(PolynomialLoop loop, double displacement) const;
-  /// The Hessian of the Lagrangian at a loop. Nothing if a loop beside this one leaves the table.
+  /// The Hessian of the Lagrangian, energy minus multiplier times displacement, at a loop. Nothing
+  /// if a loop beside this one leaves the table.
   std::optional<MatrixXd> lagrangian_hessian(const PolynomialLoop& loop, double multiplier) const;
-  /// Newton's step, which keeps the displacement to first order, and in the last entry the new
-  /// multiplier. Nothing if there is no Hessian.
+  /// Newton's step of the coefficients, which keeps the displacement to first order; the last entry
+  /// is the new multiplier. Nothing if there is no Hessian.
   std::optional<VectorXd> newton_step(const PolynomialLoop& loop, const LoopSums& sums,
                                       double multiplier) const;
 
@@ -64,9 +71,10 @@ PolynomialLoop moved(const PolynomialLoop& loop, const VectorXd& step, double sh
 
 std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
                                                        double displacement) const {
-  // The displacement grows nearly like the square of the size, so that a few steps suffice.
+  // The displacement grows nearly like the square of the size of the loop, so that a few steps
+  // suffice.
   constexpr int kMostSteps = 50;
-  constexpr double kTolerance = 1e-13;
+  constexpr double kTolerance = 1e-13;  // relative; near round-off
   for (int step = 0; step < kMostSteps; ++step) {
     if (!functional_.contains(loop)) return {};
     const double ratio = displacement / functional_.displacement(loop);
@@ -77,10 +85,11 @@ std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
   return {};
 }
 
-/// Central differences of the exact gradient.
+/// By central differences of the exact gradient.
 std::optional<MatrixXd> LoopOptimizer::lagrangian_hessian(const PolynomialLoop& loop,
                                                           double multiplier) const {
-  // The best step balances the rounding of the gradients (1e-14) with the third derivatives.
+  // The best step balances the relative rounding error of the gradients, 1e-14, with the error of
+  // the differences by third derivatives: about the cube root of the former.
   constexpr double kRelativeStep = 1e-5;
   const double step = kRelativeStep * loop.coefficients.norm();
   MatrixXd hessian(loop.coefficients.size(), loop.coefficients.size());
@@ -104,7 +113,8 @@ std::optional<VectorXd> LoopOptimizer::newton_step(const PolynomialLoop& loop, c
   const auto exact = lagrangian_hessian(loop, multiplier);
   if (!exact) return {};
   // On the plane of constant displacement the Hessian must be positive definite, or Newton's method
-  // would go to a saddle. A multiple of the constant metric's Hessian makes it so.
+  // would go to a saddle point. A multiple of the Hessian for a constant metric is added to make it
+  // so.
   const Eigen::HouseholderQR<MatrixXd> qr(normal);
   const MatrixXd basis = MatrixXd(qr.householderQ()).rightCols(normal.size() - 1);
   MatrixXd hessian = *exact;
@@ -124,8 +134,9 @@ std::optional<VectorXd> LoopOptimizer::newton_step(const PolynomialLoop& loop, c
 
 std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displacement,
                                              const StopToken& stop) const {
-  // With exact gradients and a Hessian by differences, errors fall by 1e-4 or more a step, so that
-  // 1e-8 is met with a step to spare; the energy is then exact to the square of this.
+  // With exact gradients and a Hessian by differences, a step multiplies the error by 1e-4 or less,
+  // so that 1e-8 is reached with a step to spare. The relative error of the energy is about its
+  // square.
   constexpr double kTolerance = 1e-8;
   constexpr int kMostSteps = 200, kMostHalvings = 30;
   auto loop = scaled_to(start.loop, displacement);
@@ -141,12 +152,12 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
     const VectorXd direction = step->head(step->size() - 1);
     multiplier = (*step)[step->size() - 1];
     // Along a straight step the displacement changes to second order. Each trial is therefore
-    // scaled to the wanted displacement, so that only the energy must fall.
+    // scaled to the wanted displacement; then only the energy must fall.
     std::optional<PolynomialLoop> next;
     double share = 1;
     for (int halvings = 0; !next && halvings < kMostHalvings; ++halvings, share /= 2) {
       next = scaled_to(moved(*loop, direction, share), displacement);
-      // The allowance is for rounding near the end.
+      // The energy may rise by 1e-13 of itself, its rounding error near the end.
       if (next && functional_(*next).energy > sums.energy * (1 + 1e-13)) next.reset();
     }
     loop = next;
@@ -154,7 +165,8 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
   return {};
 }
 
-/// True if the table contains the loop at all points, not only those of the quadrature.
+/// True if the table contains the loop at 2001 equidistant parameters, not only at the points of
+/// the quadrature.
 bool is_contained(const Swimmer& swimmer, const PolynomialLoop& loop) {
   constexpr int kPoints = 2000;
   for (int i = 0; i <= kPoints; ++i) {
@@ -165,8 +177,8 @@ bool is_contained(const Swimmer& swimmer, const PolynomialLoop& loop) {
 }
 
 /// The plane of arm velocities in which small loops of a given energy have the largest
-/// displacement: two columns that span it, each of unit power, and the displacement of the loop of
-/// the unit square that they span.
+/// displacement. The two columns of `directions` span it and have unit power. `curl` is the
+/// displacement of a small loop per area in the coordinates along these columns.
 struct BestPlane {
   MatrixXd directions;
   double curl = 0;
@@ -189,8 +201,8 @@ BestPlane best_plane(const Swimmer& swimmer, const VectorXd& through) {
   return {directions, svd.singularValues()[0]};
 }
 
-/// A small circle through `through` in the best plane, for a small displacement. `angle` is the
-/// direction in this plane from `through` to the centre.
+/// A small circle through the shape `through` in the best plane, with about this displacement [L].
+/// `angle` [rad] is the direction in this plane from `through` to the centre.
 PolynomialLoop small_loop(const BestPlane& plane, const VectorXd& through, double displacement,
                           double angle, Index polynomials) {
   const double radius = std::sqrt(std::abs(displacement) / (std::numbers::pi * plane.curl));
@@ -205,11 +217,13 @@ PolynomialLoop small_loop(const BestPlane& plane, const VectorXd& through, doubl
       polynomials);
 }
 
-/// Follows the optimal loop from a small displacement to the wanted one. Nothing if a loop on the
+/// The optimal loop, followed from a small displacement to the wanted one. Nothing if a loop on the
 /// way leaves the table.
 std::optional<Extremal> follow(const Swimmer& swimmer, const OptimalStrokeRequest& request,
                                double angle, const StopToken& stop) {
-  constexpr Index kPolynomials = 8;  // enough to follow; more are added at the end
+  constexpr Index kPolynomials = 8;  // enough on the way; more are added at the end
+  // The displacement begins at kFirstShare of the wanted one and grows by a factor, which is
+  // reduced when a search fails, but not below kSmallestFactor.
   constexpr double kFirstShare = 1. / 64, kSmallestFactor = 1.02;
   const LoopOptimizer optimizer(swimmer, request.through, kPolynomials);
   const auto plane = best_plane(swimmer, request.through);
@@ -253,7 +267,7 @@ OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeReq
                             "table's borders, or make a table of more arms",
                             request.displacement));
   // For fewer polynomials than `best` has, the search starts from the first polynomials of `best`.
-  // The result does not replace `best`, because with few polynomials it may be far from the others.
+  // Its result does not replace `best`, because with few polynomials it may be far from the others.
   OptimalStroke optimal;
   for (Index count = kFewestPolynomials;; count += 2) {
     count = std::min(count, request.polynomials);

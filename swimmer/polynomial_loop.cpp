@@ -1,6 +1,7 @@
-// Polynomial loops, their sums and gradients (polynomial_loop.hpp). Numbers are in the units of the
-// swimmer's fit. A loop outside the table is an Error(kBadInput). A change must keep that gradients
-// are those of the sums to round-off.
+// Polynomial loops of a swimmer's arms, their energy and displacement, and the gradients
+// (polynomial_loop.hpp). Numbers are in the units of the swimmer's fit. A loop outside the table is
+// an Error(kBadInput). Used by optimal_stroke.cpp. A change must keep that gradients are the
+// derivatives of the sums to round-off.
 #include "viscontact/swimmer/polynomial_loop.hpp"
 
 #include <Eigen/QR>
@@ -20,8 +21,8 @@ Eigen::VectorXd shape_at(const PolynomialLoop& loop, const Eigen::VectorXd& basi
 }  // namespace
 
 LoopBasis loop_basis(double s, Index count) {
-  // P_j and its derivatives by s, by the three-term recurrence and P'_{j+1} = P'_{j-1} + (2j + 1)
-  // P_j.
+  // Legendre's polynomials P_j(y) and their derivatives by s, by the three-term recurrence and
+  // P'_{j+1} = P'_{j-1} + (2j + 1) P_j; dy/ds = 2.
   const double y = 2 * s - 1;
   Eigen::VectorXd p(count), dp(count), ddp(count);
   for (Index j = 0; j < count; ++j) {
@@ -50,8 +51,9 @@ PolynomialLoop with_more_polynomials(const PolynomialLoop& loop, Index count) {
 }
 
 LoopFunctional::LoopFunctional(const Swimmer& swimmer, Index polynomials) : swimmer_(swimmer) {
-  // Exact for degrees below twice this number. The integrands are analytic functions of loops of
-  // degree polynomials + 1.
+  // Exact for polynomials of a degree below twice this number of points. The integrands are no
+  // polynomials, but analytic functions of loops of degree polynomials + 1; the 24 additional
+  // points are for them.
   const auto rule = gauss_rule(static_cast<int>(2 * polynomials + 24));
   points_ = rule.points;
   weights_ = rule.weights;

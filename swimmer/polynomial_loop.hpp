@@ -1,8 +1,8 @@
-// The shape of a swimmer is the list of its arms, the distances between the centres of neighbouring
-// spheres. This file has closed loops in the space of shapes, which are polynomials, and their
-// displacement and energy as functions of the coefficients. optimal_stroke.hpp uses it to find the
-// loop of least energy. Lengths, masses and times are in the units of the swimmer's fit. A change
-// must keep the gradients equal to the derivatives of the quadrature sums, to round-off.
+// The shape of a swimmer, a line of spheres, is the list of its arms, the distances between the
+// centres of neighbours. This file has closed loops in the space of shapes, which are polynomials,
+// and their displacement and energy as functions of the coefficients. optimal_stroke.hpp uses it to
+// find the loop of least energy. Lengths, masses and times are in the units of the swimmer's fit. A
+// change must keep the gradients equal to the derivatives of the quadrature sums, to round-off.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,20 +31,21 @@ LoopBasis loop_basis(double s, Eigen::Index count);
 /// The loop as a stroke of one leg, run once in `period` [T] > 0 at a constant rate of s.
 Stroke stroke_of(const PolynomialLoop& loop, double period);
 
-/// The loop with `count` polynomials, more than it has, and the same shape.
+/// The same loop with `count` polynomials, at least as many as it has; the coefficients of the
+/// others are 0.
 PolynomialLoop with_more_polynomials(const PolynomialLoop& loop, Eigen::Index count);
 
-/// Energy and displacement of a loop, with their gradients by the coefficients in the order of
-/// PolynomialLoop::coefficients, column by column. The loop is run once at a constant rate of s.
+/// Energy and displacement of a loop that is run once at a constant rate of s, and their gradients
+/// by the coefficients, in the order of PolynomialLoop::coefficients, column by column.
 struct LoopSums {
   /// Energy times period [M L^2/T], which is the same for all periods.
   double energy = 0;
   double displacement = 0;          ///< [L]
-  Eigen::VectorXd energy_gradient,  ///< [M L/T], with the same factor as `energy`
+  Eigen::VectorXd energy_gradient,  ///< gradient of `energy` [M L/T]
       displacement_gradient;        ///< [1]
 };
 
-/// Computes LoopSums by a quadrature that is exact up to four times the degree of the loop.
+/// Computes LoopSums by a quadrature with 2 n + 24 points for n polynomials.
 class LoopFunctional {
  public:
   /// For loops with `polynomials` polynomials of each arm. `swimmer` must outlive the object.
@@ -57,12 +58,12 @@ class LoopFunctional {
   /// The displacement alone [L]. Throws Error(kBadInput) if the table does not contain the loop.
   double displacement(const PolynomialLoop& loop) const;
 
-  /// Throws Error(kBadInput) if the table does not contain the loop.
+  /// The sums of the loop, with the same error.
   LoopSums operator()(const PolynomialLoop& loop) const;
 
   /// The Hessian, by the coefficients, of the integral of (dx/ds)^T G0 dx/ds over s for the
-  /// constant matrix G0 = `metric` [M/T]. The search for the optimal stroke scales the coefficients
-  /// by it.
+  /// constant symmetric matrix G0 = `metric` [M/T]. The search for the optimal stroke scales the
+  /// coefficients by it.
   Eigen::MatrixXd constant_metric_hessian(const Eigen::MatrixXd& metric) const;
 
  private:
@@ -78,8 +79,9 @@ PolynomialLoop project_loop(const std::function<Eigen::VectorXd(double s)>& shap
 
 /// The residual of Euler and Lagrange's equation of the problem "least energy at a given
 /// displacement" (physics.md (7.7)): the root mean square along the loop of d/ds (2 Phi v - eta A)
-/// - grad_x (v.Phi v - eta A.v), with v = dx/ds and A, Phi of shape_mechanics.hpp, over that of 2
-/// Phi dv/ds [1]. `eta` is the multiplier of the displacement [M L/T^2] (OptimalStroke).
+/// - grad_x (v.Phi v - eta A.v) over that of 2 Phi dv/ds [1], >= 0. Here v = dx/ds, `eta` is the
+/// multiplier of the displacement [M L/T^2] (OptimalStroke), and A and Phi are displacement_form
+/// and metric of ShapeMechanics. Throws Error(kBadInput) if the table does not contain the loop.
 double euler_lagrange_residual(const Swimmer& swimmer, const PolynomialLoop& loop, double eta);
 
 }  // namespace viscontact::swimmer

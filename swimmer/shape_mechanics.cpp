@@ -46,8 +46,8 @@ bool Swimmer::contains(const Eigen::VectorXd& arms) const {
 ShapeMechanics Swimmer::at(const Eigen::VectorXd& arms, bool with_slopes) const {
   for (Index k = 0; k < arms.size(); ++k) {
     const auto [from, to] = arm_interval(k);
-    // The shape is in the table if its gaps are, as contains() tests. The arms are tested only to
-    // find the one at fault: they have rounding errors, because an arm is a gap plus two radii.
+    // The shape is in the table if its gaps are, which contains() tests. The arms are tested only
+    // to find the one at fault, because they have rounding errors: an arm is a gap plus two radii.
     if (!contains(arms) && !(arms[k] >= from && arms[k] <= to))
       throw Error(ErrorKind::kBadInput,
                   fmt::format("arm x{} is {:.9g}; the table has arms from {:.9g} to {:.9g}", k + 1,

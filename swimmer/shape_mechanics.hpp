@@ -1,17 +1,20 @@
-// A swimmer made of spheres on a line that changes its arms, in a fluid without inertia (Najafi &
-// Golestanian 2004, Phys. Rev. E 69, 062901; Alouges, DeSimone & Lefebvre 2008, J. Nonlinear Sci.
-// 18, 277; physics.md, section 7). Lengths, masses and times are in the units of the fit. Strokes
-// (swim.hpp) and their search use it.
+// A swimmer made of spheres on a line that changes its arms, the distances between the centres of
+// neighbours, in a fluid without inertia (Najafi & Golestanian 2004, Phys. Rev. E 69, 062901;
+// Alouges, DeSimone & Lefebvre 2008, J. Nonlinear Sci. 18, 277; physics.md, section 7). Lengths,
+// masses and times are in the units of the fit. Strokes (swim.hpp) and the search for the best one
+// (optimal_stroke.hpp) use it. A change must keep that the total force is 0, and that metric_slopes
+// and displacement_form_slopes are the derivatives.
 //
-// x_k is the distance between the centres of spheres k and k + 1. With the resistance matrix R(x),
-// the spheres move at U_i = V + sum_k B_ik dx_k/dt, where V is the velocity of the middle sphere.
-// The total force vanishes, sum_ij R_ij U_j = 0, so that
+// x_k is the arm between spheres k and k + 1. With the resistance matrix R(x), the spheres move at
+// U_i = V + sum_k B_ik dx_k/dt, where V is the velocity of the middle sphere. The total force
+// vanishes, sum_ij R_ij U_j = 0, so that
 //
 //   V = sum_k A_k(x) dx_k/dt,   power = sum_kl Phi_kl(x) dx_k/dt dx_l/dt.
 //
-// B_ik is 1 if arm k is between the middle sphere and a sphere i behind it, -1 if sphere i is
-// before it, else 0. The displacement of a closed stroke is the integral of A along its loop, and
-// does not depend on the time law.
+// B_ik is 1 if arm k is between the middle sphere and a sphere i with a larger number, -1 if it is
+// between the middle sphere and a sphere i with a smaller number, else 0. The displacement of a
+// closed stroke is the integral of A along its loop, and does not depend on the velocity at which
+// the loop is run.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,21 +24,21 @@
 
 namespace viscontact::swimmer {
 
-/// A and Phi at one shape.
+/// What determines the motion and the power at one shape: A, Phi and R.
 struct ShapeMechanics {
   Eigen::RowVectorXd displacement_form;  ///< A [1]: velocity of the middle sphere per arm velocity
   Eigen::MatrixXd metric;                ///< Phi [M/T], symmetric and positive definite
   /// U = motion * dx/dt: velocities of all spheres per arm velocity [1].
   Eigen::MatrixXd motion;
   Eigen::MatrixXd resistance;  ///< R [M/T]
-  /// sum_ij R_ij [M/T]: the drag of the rigid swimmer per velocity.
+  /// sum_ij R_ij [M/T]: the drag of the swimmer with fixed arms per velocity.
   double towing_resistance = 0;
   // Derivatives by each arm, if they were asked for.
   std::vector<Eigen::RowVectorXd> displacement_form_slopes;  ///< dA/dx_k [1/L]
   std::vector<Eigen::MatrixXd> metric_slopes;                ///< dPhi/dx_k [M/(L T)]
 };
 
-/// Number of the middle sphere, from 0: of an even number of spheres, the first of the two.
+/// Index of the middle sphere, from 0; of an even number of spheres, the first of the two.
 inline std::size_t middle_sphere(std::size_t spheres) { return (spheres - 1) / 2; }
 
 /// The mechanics of a swimmer as a function of its shape.
@@ -49,7 +52,7 @@ class Swimmer {
   /// The radii of the spheres along the line [L], > 0.
   const std::vector<double>& radii() const { return resistance_.radii(); }
 
-  /// The smallest and the largest arm k of the table [L].
+  /// The smallest and the largest length of arm k in the table [L].
   std::array<double, 2> arm_interval(Eigen::Index k) const;
 
   /// True if the table contains the shape with these arms [L].

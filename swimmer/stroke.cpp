@@ -1,7 +1,7 @@
 // Makes strokes from corners, samples and ellipses, and the points of a quadrature by the
-// eigenvalues of the Jacobi matrix (stroke.hpp; Golub & Welsch 1969, Math. Comp. 23, 221), in the
-// units of the case. Samples that do not close the loop are an Error(kBadInput). A change must keep
-// where legs meet, because forces jump there.
+// eigenvalues of the Jacobi matrix (Golub & Welsch 1969, Math. Comp. 23, 221). Numbers are in the
+// units of the case. Samples that do not close the loop are an Error(kBadInput). Used by swimmer/.
+// A change must keep the times at which legs meet, because forces jump there.
 #include "viscontact/swimmer/stroke.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ Stroke polygon_stroke(const std::vector<Eigen::VectorXd>& corners, double period
 
 Stroke sampled_stroke(const std::vector<double>& times,
                       const std::vector<Eigen::VectorXd>& samples) {
-  constexpr double kRounding = 1e-9;  // samples written with ten digits close the loop
+  constexpr double kRounding = 1e-9;  // relative; samples written with ten digits close the loop
   const Eigen::VectorXd opening = samples.back() - samples.front();
   if (opening.cwiseAbs().maxCoeff() > kRounding * samples.front().cwiseAbs().maxCoeff())
     throw Error(ErrorKind::kBadInput,
@@ -63,8 +63,8 @@ Stroke elliptic_stroke(const Eigen::VectorXd& centre, const Eigen::VectorXd& sem
     return ArmState{centre.array() + semi_axes.array() * angle.cos(),
                     -frequency * semi_axes.array() * angle.sin()};
   };
-  // The legs meet where the first arm turns. If all arms turn there, the root of the power has a
-  // kink.
+  // The legs meet where the first arm turns back. If all arms turn there, the square root of the
+  // power, which is integrated, has a kink.
   const double first_turn = -phases[0] / pi - std::floor(-phases[0] / pi);
   Stroke stroke{period, {}};
   double start = 0;

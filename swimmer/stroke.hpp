@@ -1,8 +1,8 @@
 // Strokes: closed paths of a swimmer's arms, with their time law, and the quadrature for integrals
-// along them. An arm is the distance between the centres of neighbouring spheres. Lengths and times
-// are in the units of the case. Cases make strokes, and swim.hpp and polynomial_loop.hpp integrate
-// them. Legs must follow each other without a gap, and sums depend on the points of the quadrature
-// to the last digit.
+// along them. A swimmer is a line of spheres, and an arm is the distance between the centres of
+// neighbours. Lengths and times are in the units of the case. swimmer_case.cpp makes strokes, and
+// swim.hpp and polynomial_loop.hpp integrate them. A change must keep that legs follow each other
+// without a gap, and the points of the quadrature, on which the last digits of results depend.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,9 +19,9 @@ struct ArmState {
 
 /// A part of a stroke on which the arms are a smooth function of time.
 struct StrokeLeg {
-  double start = 0,                            ///< [T], < end
-      end = 0;                                 ///< [T]
-  std::function<ArmState(double time)> state;  ///< for times from start to end
+  double start = 0,                            ///< time at which the leg begins [T], < end
+      end = 0;                                 ///< time at which it ends [T]
+  std::function<ArmState(double time)> state;  ///< the arms at times [T] from start to end
 };
 
 /// A closed stroke: the legs follow each other from time 0 to the period, and the last one ends at
@@ -31,18 +31,18 @@ struct Stroke {
   std::vector<StrokeLeg> legs;  ///< in order of time, at least one
 };
 
-/// Straight legs from corner to corner [L] and back to the first one. Each leg takes the same time,
-/// at constant velocity. Needs at least two corners.
+/// Straight legs from corner to corner [L] and back to the first one in `period` [T] > 0. Each leg
+/// takes the same time, at constant velocity. Needs at least two corners.
 Stroke polygon_stroke(const std::vector<Eigen::VectorXd>& corners, double period);
 
 /// Straight legs between samples of the arms [L] at rising times [T], at constant velocity each.
-/// The first time is that of the stroke's beginning, and the last sample closes the loop; throws
-/// Error(kBadInput) if it differs from the first one by more than rounding.
+/// The first time is the beginning of the stroke, and the last sample closes the loop. Throws
+/// Error(kBadInput) if the last sample differs from the first one by more than rounding.
 Stroke sampled_stroke(const std::vector<double>& times,
                       const std::vector<Eigen::VectorXd>& samples);
 
-/// x_k = centre_k + semi_axes_k cos(2 pi t/period + phase_k): an ellipse if there are two arms.
-/// Phases are in radians.
+/// The arms x_k = centre_k + semi_axes_k cos(2 pi t/period + phase_k), with the phases in radians:
+/// an ellipse if there are two arms.
 Stroke elliptic_stroke(const Eigen::VectorXd& centre, const Eigen::VectorXd& semi_axes,
                        const Eigen::VectorXd& phases, double period);
 

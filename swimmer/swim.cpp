@@ -1,6 +1,7 @@
 // Integrates displacement and power along a stroke (swim.hpp). Numbers are in the units of the fit.
 // A stroke outside the table is an Error(kBadInput); sums that do not converge are an
-// Error(kNotConverged). A change may alter sums by rounding errors only.
+// Error(kNotConverged). Used by swimmer/case, swimmer/job and python/. A change may alter sums by
+// rounding errors only.
 #include "viscontact/swimmer/swim.hpp"
 
 #include <fmt/format.h>
@@ -47,12 +48,13 @@ Integrals integrate(const Swimmer& swimmer, const StrokeLeg& leg, double from, d
   return sum;
 }
 
-/// Integrates a leg with more and more points until nothing changes.
+/// Integrates a leg with more and more points until the integrals no longer change. Throws the
+/// errors of swim_sums().
 Integrals integrate_leg(const Swimmer& swimmer, const StrokeLeg& leg) {
-  // The integrands are analytic, so that each doubling squares the error; legs of 1e-3 radii need 8
-  // points, legs across the whole table 64.
+  // The integrands are analytic, so that each doubling of the points squares the error. Legs of
+  // 1e-3 radii need 8 points, legs across the whole table 64.
   constexpr int kFewest = 8, kMost = 512;
-  constexpr double kTolerance = 1e-12;
+  constexpr double kTolerance = 1e-12;  // relative, as in swim_sums()
   auto before = integrate(swimmer, leg, leg.start, leg.end, gauss_rule(kFewest));
   for (int count = 2 * kFewest; count <= kMost; count *= 2) {
     const auto sum = integrate(swimmer, leg, leg.start, leg.end, gauss_rule(count));
@@ -82,7 +84,7 @@ SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke) {
 }
 
 std::vector<SwimRow> swim_rows(const Swimmer& swimmer, const Stroke& stroke, int intervals) {
-  // Between two rows, 1/100 of a stroke or less, this rule is exact to round-off.
+  // Exact to round-off between two rows if they are 1/100 of a stroke or less apart.
   const auto rule = gauss_rule(16);
   std::vector<SwimRow> rows;
   double position = 0;
@@ -99,7 +101,7 @@ std::vector<SwimRow> swim_rows(const Swimmer& swimmer, const Stroke& stroke, int
     for (int i = 0; i < parts; ++i) {
       const double from = std::lerp(leg.start, leg.end, static_cast<double>(i) / parts);
       const double to = std::lerp(leg.start, leg.end, static_cast<double>(i + 1) / parts);
-      // A corner has two rows at the same time, because forces jump there.
+      // At a corner of the stroke two rows have the same time, because forces jump there.
       add_row(leg, from);
       position += integrate(swimmer, leg, from, to, rule).displacement;
       if (i + 1 == parts) add_row(leg, to);
@@ -114,9 +116,8 @@ SwimErrors swim_errors(const SwimSums& sums, const Stroke& stroke,
   const auto changes = [&](const ResistanceFit& fit) -> SwimErrors {
     const auto changed = swim_sums(Swimmer(fit), stroke);
     const double displacement = changed.displacement - sums.displacement;
-    // Because the loop is stationary, the least energy at the wanted displacement changes, to first
-    // order, by the change of the loop's energy minus the multiplier times that of its
-    // displacement.
+    // Of an optimal loop, the least energy at the wanted displacement changes, to first order, by
+    // the change of the loop's energy minus the multiplier times that of its displacement.
     return {displacement, changed.energy - sums.energy - multiplier * displacement};
   };
   SwimErrors errors;

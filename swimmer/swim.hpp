@@ -1,8 +1,8 @@
 // What a stroke of a swimmer, a line of spheres, does: its displacement, energy, positions, forces
 // and power, and estimates of their errors. The arms are the distances x_k between the centres of
 // neighbouring spheres, and a stroke is a closed path of the arms. Lengths, masses and times are in
-// the units of the fit and of the stroke. The commands `swimmer` and `sweep` use it. A change may
-// alter the sums over a period by rounding errors only.
+// the units of the fit and of the stroke. The commands `swimmer` and `sweep`, and python/, use it.
+// A change may alter the sums over a period by rounding errors only.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,11 +15,12 @@ namespace viscontact::swimmer {
 
 /// The swimmer at one time.
 struct SwimRow {
-  double time = 0;         ///< [T]
-  Eigen::VectorXd arms;    ///< x [L]
-  double position = 0;     ///< of the middle sphere [L], 0 at the beginning
-  Eigen::VectorXd forces;  ///< of each sphere on the fluid [M L/T^2], towards the last sphere
-  double power = 0;        ///< of the swimmer [M L^2/T^3], >= 0
+  double time = 0;       ///< [T]
+  Eigen::VectorXd arms;  ///< x [L]
+  double position = 0;   ///< position of the middle sphere [L], 0 at the beginning
+  /// Force of each sphere on the fluid [M L/T^2], > 0 towards the last sphere.
+  Eigen::VectorXd forces;
+  double power = 0;  ///< power of the swimmer [M L^2/T^3], >= 0
 };
 
 /// The sums over one period.
@@ -36,7 +37,7 @@ struct SwimSums {
 
 /// Integrates one period of a stroke by Gauss-Legendre quadrature on each leg; the number of points
 /// is doubled until energies change by less than 1e-12 of themselves, and the displacement by less
-/// than 1e-12 of the length of the path of the arms. Throws Error(kBadInput) if the stroke leaves
+/// than 1e-13 of the length of the path of the arms. Throws Error(kBadInput) if the stroke leaves
 /// the table, and Error(kNotConverged) if the sums do not converge.
 SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke);
 
@@ -50,14 +51,15 @@ struct SwimErrors {
   double energy = 0;        ///< [M L^2/T^2]
 };
 
-/// Estimates the errors of the sums of a stroke by computing the sums with other fits, which
-/// fit/fit_resistance.hpp makes. An error is the sum of two parts: the changes of the sum with the
-/// fits `lower_degrees` of lower degree, added up, and twice the root mean square of its changes
-/// with `table_errors`, fits of tables that differ by the table's errors.
+/// Estimates the errors of `sums`, those of a stroke, by computing the sums with other fits, which
+/// fit/fit_resistance.hpp makes. An error is the sum of two parts: the absolute changes of the sum
+/// with each of the fits `lower_degrees`, and twice the root mean square of its changes with the
+/// fits `table_errors`. Throws the errors of swim_sums().
 ///
-/// For the optimal stroke, `multiplier` is OptimalStroke::multiplier over the period [M L/T^2]: it
-/// corrects the energy, because the displacement changes with the fit, too, whereas that of the
-/// optimum is prescribed. For any other stroke `multiplier` is 0.
+/// For a stroke of least energy, `multiplier` is OptimalStroke::multiplier over the period [M
+/// L/T^2]. With another fit the displacement of the stroke changes, too, whereas that of the
+/// optimum is prescribed; the multiplier corrects the energy for this. For any other stroke it is
+/// 0.
 SwimErrors swim_errors(const SwimSums& sums, const Stroke& stroke,
                        const std::vector<ResistanceFit>& lower_degrees,
                        const std::vector<ResistanceFit>& table_errors, double multiplier = 0);

@@ -1,6 +1,6 @@
-// Checks a case without a table: number of gaps, parameters of models, gaps of the motion. Gaps [L]
-// are in the unit of the case. Faults are an Error(kBadInput), and gaps outside the table a
-// warning. The checks must be quick, because `run` makes them before each tabulation.
+// Checks of a case that need no table of forces: number of gaps, parameters of models, gaps [L] of
+// the motion. Faults are an Error(kBadInput), and gaps outside those of the table a warning. Used
+// by pipeline/. The checks must be quick, because `run` makes them before each tabulation.
 #include "viscontact/pipeline/simulate/run_checks.hpp"
 
 #include <fmt/format.h>
@@ -57,7 +57,7 @@ void check_run(const case_file::Case& c, const std::vector<std::string>& models)
 
 void warn_of_gaps_outside(const case_file::Case& c, const std::vector<std::string>& models,
                           const StopToken& stop) {
-  constexpr double kMostSteps = 1e6;  // about a second for each model
+  constexpr double kMostSteps = 1e6;  // so many steps take about a second for each model
   const auto& tabulation = case_file::required_tabulation(c);
   const auto& request = case_file::required_fit(c);
   reduced_model::Motion motion = case_file::required_motion(c);

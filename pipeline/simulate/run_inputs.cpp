@@ -1,8 +1,8 @@
-// Checks and writes the copies of a run's inputs in its folder, and the comment lines of
-// trajectories that identify these inputs. A file of the user in the way is an Error(kBadInput); a
-// trajectory that cannot be read counts as one from other inputs. A change must keep the order of
-// writing (write_copies), by which files of the user are told from copies. A change of a key makes
-// `run` simulate again, because trajectories of earlier versions lack the key.
+// Checks and writes the copies of a run's inputs in its folder, and makes the comment lines of
+// trajectories that identify these inputs. A copy that would replace a file of the user is an
+// Error(kBadInput); a trajectory that cannot be read counts as one from other inputs. Used by
+// pipeline/. A change must keep the order in which write_copies() writes (see run_inputs.hpp). If
+// the name or the value of a comment changes, `run` simulates again.
 #include "viscontact/pipeline/simulate/run_inputs.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Throws Error(kBadInput) if `copy` exists in a folder without a run and differs from `text` in
-/// more than its provenance. `kind` names the kind of file in the message.
+/// more than the record of how it was made. `kind` names the kind of file in the message.
 void check_copy(const results::RunFolder& run, const fs::path& copy, const std::string& text,
                 std::string_view kind) {
   if (!fs::is_regular_file(copy) || holds_a_run(run)) return;
@@ -102,7 +102,8 @@ bool is_simulated(const results::RunFolder& run, const std::string& model,
     const auto same = [&](const std::string& key) {
       return value(made_from, key) == value(identity, key);
     };
-    // The two keys of the limits are compared even if `identity` lacks them, which means no limit.
+    // If `identity` lacks the two keys of the drag outside the fit's interval, it allows no such
+    // gaps; then the trajectory must lack the keys, too.
     return same(kBelowKey) && same(kAboveKey) &&
            std::ranges::all_of(identity, [&](const auto& line) { return same(line.first); });
   } catch (const Error&) {  // not a trajectory

@@ -1,8 +1,9 @@
-// The inputs of a run: their copies in its folder (case, force files, fit), so that the folder
-// alone repeats the run, and the record of what a trajectory was made from, by which `run` decides
-// whether it is up to date. The stages of the main job call it. Numbers are in the units of the
-// case. A copy must never replace a file of the user, and the record must name everything that
-// alters a trajectory.
+// The inputs of a run: their copies in its folder (case, files of sampled external forces, fit of
+// the drag), so that the folder alone repeats the run, and the comments of a trajectory that say
+// from which inputs it was made, by which `run` decides whether it is up to date. Numbers are in
+// the units of the case. The other files of pipeline/ call it. A change must keep that a copy never
+// replaces a file of the user, and that the comments identify everything that alters a trajectory.
+// A file that cannot be read is an Error(kBadInput), except in is_simulated().
 #pragma once
 
 #include <string>
@@ -14,9 +15,8 @@
 
 namespace viscontact::pipeline {
 
-/// True if Viscontact has simulated into this folder before. It is recognised by a sub-folder
-/// trajectories/ that contains a file that Viscontact wrote, or that is empty because the run was
-/// interrupted.
+/// True if Viscontact has simulated into this folder before: if there is a sub-folder trajectories/
+/// that contains a file that Viscontact wrote, or that is empty because the run was interrupted.
 bool holds_a_run(const results::RunFolder& run);
 
 /// Throws Error(kBadInput) if a copy of the case or of its force files would replace a different
@@ -24,22 +24,24 @@ bool holds_a_run(const results::RunFolder& run);
 /// with a run, that file is the copy that the earlier run made, and it may be replaced.
 void check_case_copies(const results::RunFolder& run, const case_file::Case& c);
 
-/// Throws Error(kBadInput) if a copy of the fit with this text would replace a file of the user, as
-/// check_case_copies() does for the case.
+/// Throws Error(kBadInput) if a copy of the fit with this text would replace a different file in a
+/// folder without a run, as check_case_copies() does for the case.
 void check_fit_copy(const results::RunFolder& run, const std::string& fit_text);
 
-/// Makes the folder of trajectories, then writes the copies. This order is needed, because
-/// holds_a_run decides by the folder of trajectories whether the copies may be replaced, and the
-/// run can be interrupted in this function.
+/// Makes the folder of trajectories, then writes the copies of the case, its force files and the
+/// fit. A change must keep this order: the run can be interrupted in this function, and
+/// holds_a_run() must then be true, so that the next run may replace the copies.
 void write_copies(const results::RunFolder& run, const case_file::Case& c,
                   const std::string& fit_text);
 
-/// The lines "# key: value" that identify the inputs of a trajectory: hashes of case, fit (the text
-/// `fit_text`) and forces, limits of the drag, revision of the models and version.
+/// The comment lines "# key: value" that identify the inputs of a trajectory: hashes of the case,
+/// of the fit (the text `fit_text`) and of the force files, the choice of the drag outside the
+/// fit's interval, the revision of the models and the version of Viscontact.
 CsvComments identity_of_trajectory(const case_file::Case& c, const std::string& fit_text,
                                    const lubrication::OutsideInterval& outside);
 
-/// True if the folder has a trajectory of the model that was made from the inputs `identity`.
+/// True if the folder has a trajectory of the model whose comments are those of `identity`; false
+/// if the trajectory cannot be read.
 bool is_simulated(const results::RunFolder& run, const std::string& model,
                   const CsvComments& identity);
 

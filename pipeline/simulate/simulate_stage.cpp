@@ -1,7 +1,7 @@
 // Chooses the fit, runs the models of a case and writes their results. Numbers are in the units of
-// the case; errors are those of simulate_stage.hpp. A change must keep the order of writing
-// (write_simulated), because `run` takes a trajectory as the sign that copies and uncertainty are
-// written.
+// the case. A drag that is not given is an Error(kWrongUsage); if models fail, the error of the
+// first is thrown after the results of the others are written. Used by pipeline/, app/ and python/.
+// A change must keep the order of writing in write_simulated().
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
 
 #include <fmt/format.h>
@@ -28,10 +28,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The effect of the fit's errors on the motion without inertia (JSON). Empty if the fit is exact,
-/// or if this motion cannot be computed; then a warning says why.
+/// The effect of the fit's errors on the motion without inertia, as JSON. Empty if the fit is
+/// exact. Empty also if this motion cannot be computed; then a warning says why.
 std::string uncertainty_of(const reduced_model::Motion& motion, const lubrication::Fit& fit,
                            const lubrication::OutsideInterval& outside) {
+  // Number of times at which the report shows how uncertain the gap is, which docs/file-formats.md
+  // repeats; any number >= 2 works.
   constexpr std::size_t kTimes = 81;
   if (lubrication::is_exact_plane(fit)) return "";
   try {
@@ -45,9 +47,9 @@ std::string uncertainty_of(const reduced_model::Motion& motion, const lubricatio
   }
 }
 
-/// The end of a message, which says how far a model leaves the fit's interval; empty if it stays
-/// inside or if no estimate is possible. The estimate uses the limits of the drag (glossary)
-/// outside the interval.
+/// The end of an error message, which says at which gaps a model would leave the fit's interval.
+/// The estimate uses the formulas for the drag outside the interval (OutsideInterval::with_limits).
+/// Empty if the model stays inside or if its motion cannot be computed with them.
 std::string estimate_of_gaps(const reduced_model::ModelChoice& choice,
                              const reduced_model::Motion& motion, const lubrication::Fit& fit,
                              const lubrication::OutsideInterval& outside) {
@@ -70,7 +72,7 @@ std::string estimate_of_gaps(const reduced_model::ModelChoice& choice,
   return text;
 }
 
-/// The record of a model for which simulate() threw this error.
+/// The record of a model for which reduced_model::simulate() threw `error`.
 results::FailedModel failure_of(const reduced_model::ModelChoice& choice, const Error& error,
                                 const reduced_model::Motion& motion, const lubrication::Fit& fit,
                                 const lubrication::OutsideInterval& outside) {
@@ -82,8 +84,8 @@ results::FailedModel failure_of(const reduced_model::ModelChoice& choice, const 
   return {choice.name, reason, error.kind(), {}};
 }
 
-/// The fit of a text, scaled to the case. The user is told if it was made for another sphere or
-/// fluid.
+/// Reads the fit and scales it to radius and viscosity of the case. Tells the user if its own
+/// differ from these.
 lubrication::Fit fit_of_text(const case_file::Case& c, const FitFile& file) {
   auto fit = lubrication::parse_fit(file.text, file.path.string());
   if (!equal_up_to_rounding(fit.viscosity, c.viscosity) ||
@@ -96,7 +98,8 @@ lubrication::Fit fit_of_text(const case_file::Case& c, const FitFile& file) {
   return case_file::fit_for(c, std::move(fit), file.path);
 }
 
-/// Adds comments that say how the trajectory was computed, and drops rows if the case asks for it.
+/// Adds comments to the trajectory that say how it was computed, and drops rows if the case asks
+/// for fewer (motion.output_rows).
 void finish(reduced_model::Trajectory& trajectory, const reduced_model::ModelChoice& choice,
             const reduced_model::Motion& motion, const lubrication::LubricationForce& force) {
   auto& comments = trajectory.provenance;
@@ -176,13 +179,14 @@ void write_simulated(const results::RunFolder& run, const case_file::Case& c,
     remove_file(run.uncertainty());
   else
     results::write_output(run.uncertainty(), TextKind::kJson, simulated.uncertainty, provenance);
-  // The trajectories are written after these files, because `run` takes a trajectory as the sign
-  // that these files are written.
+  // The trajectories are written last, because `run` takes a trajectory as the sign that copies and
+  // uncertainty.json are written.
   for (const auto& trajectory : simulated.trajectories)
     results::write_output(run.trajectory(trajectory.model), TextKind::kHashComment,
                           reduced_model::write_trajectory(trajectory), provenance);
   auto failed = results::recorded_failures(run, simulated.made_from);
-  // The record keeps failures of models that this call did not run, if their inputs were the same.
+  // Failures of models that this call did not run stay in the record, if their inputs were the
+  // same.
   std::erase_if(failed, [&](const results::FailedModel& other) {
     const auto is_it = [&](const auto& model) { return model.model == other.model; };
     return std::ranges::any_of(simulated.trajectories, is_it) ||
@@ -196,7 +200,7 @@ void write_simulated(const results::RunFolder& run, const case_file::Case& c,
                           results::write_failed_models(failed), provenance);
   for (const auto& model : simulated.failed) {
     remove_file(run.trajectory(model.model));
-    // The reason of the first model is in the error with which the command ends.
+    // The error with which the command ends gives the reason of the first model.
     if (&model != &simulated.failed.front())
       terminal::say(fmt::format("simulate: model {} failed: {}", model.model, model.reason));
   }
@@ -227,8 +231,8 @@ void simulate_stage(const case_file::Case& c, const SimulateRequest& request) {
   auto inputs = files_of_motion(c);
   if (!exact) inputs.push_back(path);
   auto provenance = results::provenance_of({inputs, {}});
-  // The recorded command names this fit, because `rerun` may repeat the command with another folder
-  // as output, which has no fit.
+  // The recorded command must name the fit that the folder has, because `rerun` may repeat the
+  // command with another output folder, which has none.
   if (of_folder) provenance.command.insert(provenance.command.end(), {"--fit", path.string()});
   if (request.fit.empty())
     terminal::say(fmt::format("simulate: the drag is {}",

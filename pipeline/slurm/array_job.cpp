@@ -1,7 +1,8 @@
-// An array job (array_job.hpp): its tasks, its script and the calls of squeue and sbatch. Each task
-// runs `viscontact COMMAND --task K/T`, where K is the number of the task, from 0, and T the number
-// of tasks. A Slurm that fails is an Error(kExternalProgram). A change must keep the name of the
-// job, by which a second job for the same output is refused.
+// An array job (array_job.hpp): its tasks, the script that each task runs, and the calls of Slurm's
+// programs squeue and sbatch. Each task runs `viscontact COMMAND --task K/T`, where K is the number
+// of the task, from 0, and T the number of tasks. A program of Slurm that fails is an
+// Error(kExternalProgram). Used by app/, particles/sweep and pipeline/tabulate. A change must keep
+// the name of the job, because a second job for the same output is recognised by it.
 #include "viscontact/pipeline/slurm/array_job.hpp"
 
 #include <fmt/format.h>
@@ -28,15 +29,16 @@ fs::path absolute_output(const fs::path& output) {
   return whole.has_filename() ? whole : whole.parent_path();  // "folder/" becomes "folder"
 }
 
-/// The name of the job. It depends on the output's path only, so that refuse_second_job finds an
-/// earlier job for the same output by its name.
+/// The name of the job. It depends on the output's path only, so that refuse_second_job() finds an
+/// earlier job for the same output.
 std::string job_name(const fs::path& output) {
   constexpr std::size_t kDigits = 12;  // of the hash: 48 bits, enough to distinguish outputs
   return "viscontact-" + sha256(absolute_output(output).string()).substr(0, kDigits);
 }
 
-/// Runs a program of Slurm and returns its output without the last newline. Throws
-/// Error(kExternalProgram) if the program cannot be run or fails.
+/// Runs a program of Slurm and returns its output without the last newline. `here` is the command
+/// of Viscontact that the message recommends in place of Slurm. Throws Error(kExternalProgram) if
+/// the program cannot be run or fails.
 std::string ask_slurm(const std::vector<std::string>& command, const std::string& here,
                       const StopToken& stop) {
   auto result = run_process(command, {}, {}, {}, {}, stop);
@@ -56,8 +58,8 @@ std::string ask_slurm(const std::vector<std::string>& command, const std::string
   return result.output;
 }
 
-/// The numbers of the tasks as sbatch --array reads them, for example "0-3,7". Runs of numbers are
-/// shortened, because sbatch limits the length of this text.
+/// The numbers of the tasks as sbatch --array reads them, for example "0-3,7". Consecutive numbers
+/// are written as a range, because sbatch limits the length of this text.
 std::string array_of(const std::vector<std::size_t>& tasks) {
   std::string text;
   for (std::size_t first = 0, last = 0; first < tasks.size(); first = last + 1) {
@@ -74,8 +76,8 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// The script of a task. It runs this program with the copies of the cases that were made when the
-/// job was submitted.
+/// The script of a task. It runs this program on copies of the cases, which are written when the
+/// job is submitted.
 std::string task_script(const ArrayJob& job, const ArrayRequest& request) {
   std::vector<std::string> copies;
   for (const auto& [name, text] : job.copies)
@@ -140,7 +142,7 @@ void submit(const ArrayJob& job, const ArrayRequest& request) {
   write_file(script, task_script(job, request));
 
   // With --requeue, the tasks of a node that fails are run again. The user's options come later on
-  // the command line and can change this.
+  // the command line, so that they can change this.
   std::vector<std::string> command = {"sbatch", "--requeue"};
   command.insert(command.end(), options.begin(), options.end());
   command.insert(command.end(), {"--parsable", "--job-name=" + job_name(request.output),

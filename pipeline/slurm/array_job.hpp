@@ -1,6 +1,7 @@
-// Submits rows to the workload manager Slurm as one array job (docs/cluster.md): those of
-// tabulations and of sweeps of particles. A change must keep that later edits of a case do not
-// change a submitted job. Used by app/, particles/ and tabulate/.
+// Submits the rows of a table, or of a sweep of particles, to the workload manager Slurm as one
+// array job, whose tasks each compute a share of the rows (docs/cluster.md). A change must keep
+// that later edits of a case do not change a submitted job. Used by app/, particles/sweep and
+// tabulate/.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +15,17 @@
 
 namespace viscontact::pipeline {
 
-/// The rows of task `number` of `count` tasks: those whose number modulo `count` is `number`.
+/// The rows that one task computes: those whose number, from 0, modulo `count` is `number`.
 struct Share {
   std::size_t number = 0,  ///< number of the task, from 0, < count
       count = 1;           ///< number of tasks, >= 1; 1: all rows
 };
 
-/// The options of an array job.
+/// The options of a command that submits an array job.
 struct ArrayRequest {
-  std::filesystem::path output;      ///< output of the command
+  std::filesystem::path output;      ///< path of the command's output: a table or a folder
   std::optional<std::size_t> tasks;  ///< size of the array; nothing: one task a row, at most 1000
-  std::optional<int> jobs;           ///< processes or runs at once in a task; nothing: 1
+  std::optional<int> jobs;           ///< rows that a task computes at once; nothing: 1
   std::string options;               ///< further words for sbatch, quoted as in a shell; or empty
   StopToken stop{};                  ///< a stop ends the wait for Slurm (kInterrupted)
 };
@@ -32,18 +33,19 @@ struct ArrayRequest {
 /// What an array job computes.
 struct ArrayJob {
   std::string command;     ///< of Viscontact: "tabulate" or "sweep"
-  std::string is_running;  ///< what happens to the output, for a message: "is being tabulated"
-  std::string results;     ///< what the output is in messages, such as "the tables"
+  std::string is_running;  ///< what the job does to the output, in messages: "is being tabulated"
+  std::string results;     ///< what the output is in messages: "the tables"
   std::vector<std::string> cases;  ///< paths of the case files
   /// Names and contents of the copies of the cases, which the tasks run, so that later edits of the
   /// cases do not change them.
   std::vector<std::pair<std::string, std::string>> copies;
-  std::vector<std::string> options;  ///< further words of the command
+  std::vector<std::string> options;  ///< further arguments of the command, each one word
   std::size_t count = 1;             ///< number of tasks
   std::vector<std::size_t> tasks;    ///< numbers of the tasks that have rows to compute
 };
 
-/// The number of tasks: that of the request or, if it names none, one for each row, at most 1000.
+/// The number of tasks: that of the request or, if it names none, one for each of `rows`, at most
+/// 1000.
 std::size_t task_count(const ArrayRequest& request, std::size_t rows);
 
 /// The folder OUTPUT.slurm, which has copies of the submitted cases, the script of a task and the
@@ -51,12 +53,14 @@ std::size_t task_count(const ArrayRequest& request, std::size_t rows);
 std::filesystem::path slurm_folder(const std::filesystem::path& output);
 
 /// Throws Error(kBadInput) if Slurm has a job for this output that is not over, and
-/// Error(kExternalProgram) if Slurm cannot be asked. Call it before the missing rows are listed.
+/// Error(kExternalProgram) if Slurm cannot be asked. Must be called before the missing rows are
+/// listed, because a job that is not over can still compute some of them.
 void refuse_second_job(const ArrayJob& job, const ArrayRequest& request);
 
-/// Submits the job and prints its number to standard output. If there is no task, no job is
-/// submitted and no number is printed. Throws Error(kExternalProgram) with the message of Slurm if
-/// Slurm is missing or refuses the job.
+/// Writes the folder slurm_folder(), submits the job and prints its number to standard output. If
+/// `job.tasks` is empty, nothing is written, submitted or printed there. Throws
+/// Error(kExternalProgram) with the message of Slurm if Slurm is missing or refuses the job, and
+/// Error(kBadInput) if a file cannot be written.
 void submit(const ArrayJob& job, const ArrayRequest& request);
 
 }  // namespace viscontact::pipeline

@@ -1,6 +1,7 @@
 // Chooses the gaps, names the files and writes the pictures of a tabulation. Gaps [L] are in the
-// unit of the case. Errors are those of picture_stage.hpp. The markers of kMesh to kVtu must occur
-// in the files that are written.
+// unit of the case. A number that is not a gap of the case is an Error(kBadInput), a FreeFEM or
+// gnuplot that fails an Error(kExternalProgram). Used by app/. A change must keep that the markers
+// of kMesh to kVtu occur in the files that are written; a file without its marker is not replaced.
 #include "viscontact/pipeline/tabulate/picture_stage.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-// `viscontact tabulate --plot`: pictures (SVG) and VTK files of the flow for chosen gaps. Gaps [L]
-// and velocities [L/T] are in the units of the case. A change must keep the names of the files,
-// which contain the gap. Used by app/.
+// `viscontact tabulate --plot`: pictures (SVG) and VTK files of the flow around the sphere for
+// chosen gaps. Gaps [L] and velocities [L/T] are in the units of the case. A change must keep the
+// names of the files, which contain the gap. Used by app/.
 #pragma once
 
 #include <filesystem>
@@ -12,23 +12,25 @@
 
 namespace viscontact::pipeline {
 
-/// The gaps of the case that the numbers `asked` [L] mean, in the same order. A number means a gap
-/// from which it differs by at most 1e-6 of it, because names of files have seven digits. If
-/// `asked` is empty, the result is the smallest, the middle and the largest gap. Throws
-/// Error(kBadInput), which names the nearest gap, for a number that is not a gap of the case.
+/// The gaps of the case that the numbers `asked` [L] mean, in the same order. A number means the
+/// nearest gap, from which it may differ by at most 1e-6 of that gap, because names of files have
+/// seven digits. If `asked` is empty, the result is the smallest, the middle and the largest gap.
+/// Throws Error(kBadInput), which names the nearest gap, for a number that is not a gap of the
+/// case.
 std::vector<double> gaps_to_picture(const freefem_axi::Tabulation& tabulation,
                                     const std::vector<double>& asked);
 
 /// The folder for the pictures of a table, beside the table: table.plots/ for table.csv.
 std::filesystem::path picture_folder(const std::filesystem::path& table_path);
 
-/// Throws Error(kBadInput) if a picture of these gaps would replace a file that Viscontact did not
-/// write. To be called before the tabulation, which can take hours.
+/// Throws Error(kBadInput) if a picture of these gaps in `folder` would replace a file that
+/// Viscontact did not write. Must be called before the tabulation, which can take hours.
 void check_pictures(const std::vector<double>& gaps, const std::filesystem::path& folder);
 
-/// Solves the flow again for each of these gaps at the first reference velocity, and writes
-/// gap_GAP_mesh.svg, gap_GAP_flow.svg, gap_GAP_film.svg and gap_GAP.vtu into `folder`. `case_file`
-/// is the case that contains the tabulation, `motion` that of the table. Throws
+/// Solves the flow again for each of these gaps at the first reference velocity of the tabulation,
+/// and writes into `folder` pictures of the mesh, of the flow and of the flow in the gap
+/// (gap_GAP_mesh.svg, gap_GAP_flow.svg, gap_GAP_film.svg), and the flow as gap_GAP.vtu. `motion` is
+/// that of the sphere in the table, and `case_file` contains the tabulation. Throws
 /// Error(kExternalProgram) if FreeFEM or gnuplot fails, Error(kInterrupted) if `stop` requests a
 /// stop.
 void picture_stage(const freefem_axi::Tabulation& tabulation, lubrication::MotionKind motion,

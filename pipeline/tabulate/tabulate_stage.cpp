@@ -1,6 +1,8 @@
-// Tabulates several cases in one process, computes the rows of one task, or gathers the rows of all
-// tasks. Rows that fail do not stop the others; the error that names them comes last. Journals of
-// finished rows must not be removed before their table is written.
+// Tabulates several cases in one process, computes the rows of one task of a cluster, or gathers
+// the rows of all tasks. Rows that fail do not stop the others; the error that names them comes
+// last. Used by app/, pipeline/, python/, rolling/ and swimmer/. A change must keep that the
+// journals, files beside a table to which each row is added when it is finished, are removed only
+// after the table is written.
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 
 #include <fmt/format.h>
@@ -34,8 +36,8 @@ void warn_of_unmet_accuracy(const freefem_axi::TablePlan& plan,
   }
 }
 
-/// True if the table of this case exists and has all rows; then a message says so, and journals
-/// that a process wrote after the table was finished are removed.
+/// True if the table of this case exists and has all rows. Then a message says so, and journals
+/// that another process wrote after the table was finished are removed.
 bool is_up_to_date(const CaseTable& one) {
   if (!freefem_axi::missing_points(one.plan.read(one.table), one.plan.points).empty()) return false;
   terminal::say(fmt::format("tabulate: {} is up to date", one.table.string()));
@@ -44,9 +46,10 @@ bool is_up_to_date(const CaseTable& one) {
   return true;
 }
 
-/// Writes the table of a record in which no row is missing, or only rows that failed and that the
-/// table can do without. Returns the error that names the failed rows, if there are any, with
-/// `remedy` for them. Throws it if the table cannot be written without them.
+/// Writes the table and its companions from a record of rows of which none is missing but those
+/// that failed. Returns the error that names the failed rows, if there are any; it ends with
+/// `remedy`, what the user can do. Throws that error if all rows failed or the table needs all its
+/// rows.
 RowFailure finish_table(const CaseTable& one, const freefem_axi::RowRecord& record,
                         const results::Provenance& provenance, const std::string& remedy) {
   const auto failures = freefem_axi::failures_of(record, one.plan.points);
@@ -79,7 +82,7 @@ void show_rows(const freefem_axi::TabulateProgress& progress) {
                                       progress.rows, progress.seconds_left));
 }
 
-/// Says in words how many rows there are and how many of them an earlier call has finished.
+/// How many rows there are, and how many of them an earlier call has finished, in words.
 std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::RowPoint>& points) {
   const auto missing =
       freefem_axi::missing_points(freefem_axi::read_row_record(one.table, one.plan), points);
@@ -125,7 +128,8 @@ RowFailure gather_one(const CaseTable& one, const fs::path& slurm_folder) {
   if (is_up_to_date(one)) return {};
   const auto record = freefem_axi::read_row_record(one.table, one.plan);
   const auto missing = freefem_axi::missing_points(record, one.plan.points);
-  // A row that did not fail may still be computed by a task.
+  // A row that is missing and has not failed may still be computed by a task, so the table must
+  // wait.
   if (freefem_axi::failures_of(record, missing).size() < missing.size())
     throw_missing(one, record, missing, slurm_folder);
   auto failure = finish_table(one, record, results::provenance_of({{one.case_path}, {}}),
@@ -135,9 +139,9 @@ RowFailure gather_one(const CaseTable& one, const fs::path& slurm_folder) {
 }
 
 /// Calls `work` for the index of each table. An error of kind kExternalProgram or kNotConverged,
-/// which comes from rows, does not stop the other tables. Such errors are put together and, at the
-/// end, returned if `work` returned them all, because every table is written; otherwise they are
-/// thrown. Any other error stops the work.
+/// which says that rows failed or are missing, does not stop the other tables. At the end such
+/// errors become one. It is returned if `work` returned all of them, because every table is
+/// written; if `work` threw one of them, it is thrown. Any other error stops the work.
 template <class Work>
 RowFailure for_each_table(const std::vector<CaseTable>& tables, const StopToken& stop,
                           const Work& work) {
@@ -275,7 +279,7 @@ void submit_to_slurm(const std::vector<CaseTable>& tables, const ArrayRequest& r
   for (const auto& one : tables) {
     check_output_file(one.table);
     rows += one.plan.points.size();
-    // A case of several motions has several tables.
+    // A case of several motions has several tables, but is named once.
     if (std::ranges::find(job.cases, one.case_path.string()) != job.cases.end()) continue;
     job.cases.push_back(one.case_path.string());
     job.copies.emplace_back(one.case_path.filename().string(), one.case_text);

@@ -1,7 +1,8 @@
-// Sums of piecewise polynomials (polynomial.hpp) and sinusoids, and the search for their changes of
-// sign. Numbers are in any consistent units. A force that is not defined is an Error(kBadInput). A
-// change must keep the form of the sums, in which short intervals and small arguments lose no
-// digits.
+// Sums of piecewise polynomials (polynomial.hpp) and sinusoids, and the search for the times at
+// which they change their sign. Numbers are in any consistent units. A force that is not defined is
+// an Error(kBadInput), and one with too many periods an Error(kNotConverged). Used by all models of
+// one sphere. A change must keep the formulas of the means and integrals, which lose no digits by
+// cancellation for short intervals and small arguments.
 #include "viscontact/reduced_model/external_force/external_force.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +24,8 @@
 namespace viscontact::reduced_model {
 namespace {
 
-/// Number of samples in a period of the fastest sinusoid, in the search for changes of sign.
+/// Number of samples in a period of the fastest sinusoid, in the search for changes of sign. Two
+/// changes between two samples are missed; more samples take longer.
 constexpr int kSamplesPerPeriod = 32;
 
 double sine(const ExternalForce::Sinusoid& s, double time) {
@@ -44,6 +46,7 @@ double argument_minus_sine(double x) {
   return sum;
 }
 
+/// The mean of a sinusoid over the times from a to b [M L/T^2].
 double sine_mean(const ExternalForce::Sinusoid& s, double a, double b) {
   return sine(s, a + (b - a) / 2) * sinc(s.angular_frequency * (b - a) / 2);
 }
@@ -115,7 +118,8 @@ ExternalForce ExternalForce::stretched(double factor) const {
 }
 
 void ExternalForce::sum_up() {
-  // A piece as short as a rounding error is left out: the piece before it lasts until its end.
+  // A piece as short as the rounding error of its time is left out, and the piece before it takes
+  // its place.
   for (std::size_t i = 1; i + 1 < pieces_.size();)
     if (are_one_time(pieces_[i].from, pieces_[i + 1].from))
       pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(i));
@@ -223,13 +227,13 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
     const double from = pieces_[i].from;
     const double to = i + 1 < pieces_.size() ? std::min(end, pieces_[i + 1].from) : end;
     const auto& coefficients = pieces_[i].coefficients;
-    // The force of this piece, also at its right end, where value() gives that of the next piece.
+    // The force of this piece. At its right end value() would give the force of the next piece.
     const auto value_at = [&](double t) {
       double value = polynomial::value(coefficients, t - from);
       for (const auto& s : sinusoids_) value += sine(s, t);
       return value;
     };
-    // f is monotone between two of these times, or nearly so if there are sinusoids.
+    // The force is monotone between two of these times, or nearly so if it has sinusoids.
     std::vector<double> stops = {from};
     if (sinusoids_.empty()) {
       for (const double tau : polynomial::turning_points(coefficients, to - from))

@@ -1,7 +1,7 @@
 // The external force f_ext(t): every force on the sphere except those of the fluid and of contact,
 // such as gravity, a push or a measured signal. Lengths, masses and times are in any consistent
-// units. Every model of one sphere uses it. A change must keep means and impulses exact, because
-// the budgets are balanced to round-off.
+// units. All models of one sphere in reduced_model/, and rolling/, use it. A change must keep means
+// and impulses exact, because the budgets of impulses and works are balanced to round-off.
 #pragma once
 
 #include <algorithm>
@@ -24,10 +24,10 @@ inline bool are_one_time(double a, double b) {
 class ExternalForce {
  public:
   /// A polynomial on an interval of time. The first piece begins at 0, each other one where the
-  /// piece before it ends. With tau the time since that beginning,
-  /// f = value + higher[0] tau + higher[1] tau^2 + ...
+  /// piece before it ends. With the time tau since this beginning, f_ext = value + higher[0] tau +
+  /// higher[1] tau^2 + ...
   struct Piece {
-    double until = 0;  ///< end of the piece [T]
+    double until = 0;  ///< end of the piece [T], > its beginning; the last piece has no end
     /// Force at tau = 0 along the outward normal [M L/T^2]; < 0 towards the wall.
     double value = 0;
     std::vector<double> higher{};  ///< coefficients [M L/T^3], [M L/T^4], ...
@@ -40,11 +40,11 @@ class ExternalForce {
     double phase = 0;              ///< [radians]
   };
 
-  /// The `until` of the pieces must increase and be > 0; the last piece has no end. Throws
+  /// The `until` of the pieces must increase and be > 0; that of the last piece is not used. Throws
   /// Error(kBadInput) otherwise, or if there is no piece.
   explicit ExternalForce(const std::vector<Piece>& pieces);
 
-  /// Throws Error(kBadInput) if the angular frequency is not > 0.
+  /// The force of one sinusoid. Throws Error(kBadInput) if its angular frequency is not > 0.
   static ExternalForce sinusoidal(const Sinusoid& sinusoid);
 
   /// Adds another force.
@@ -62,19 +62,20 @@ class ExternalForce {
   /// int_0^t f_ext [M L/T].
   double impulse(double time) const;
 
-  /// int_0^t of impulse() [M L].
+  /// int_0^t of impulse(), for t >= 0 [M L].
   double impulse_integral(double time) const;
 
   /// Mean of f_ext over [from, to] [M L/T^2], 0 <= from < to.
   double mean(double from, double to) const;
 
-  /// The times at which f_ext or its slope jumps, increasing. are_one_time() is false for any two.
+  /// The times [T] at which f_ext or its slope jumps, in increasing order, without 0.
+  /// are_one_time() is false for any two of them.
   std::vector<double> jumps() const;
 
   /// The times in (0, end) at which f_ext changes its sign, by a jump or through 0, in increasing
   /// order. In a piece without sinusoids all of them are found. In other pieces two of them can be
   /// missed if they are closer to each other than 1/32 of the shortest period. Throws
-  /// Error(kNotConverged) if `end` is beyond 3e4 of these periods.
+  /// Error(kNotConverged) if `end` is beyond about 3e4 of these periods.
   std::vector<double> sign_changes(double end) const;
 
  private:
@@ -94,8 +95,8 @@ class ExternalForce {
 };
 
 /// value() and mean() of a force at times that do not decrease from call to call. They are faster
-/// than the functions of ExternalForce, because they need not search for the piece while the force
-/// is constant.
+/// than the functions of ExternalForce, because they do not search for the piece while the force is
+/// constant.
 class ForceWalk {
  public:
   /// The walk begins at time 0. `force` must outlive the object.
@@ -106,7 +107,7 @@ class ForceWalk {
     go_to(time);
     return constant_ ? level_ : force_.value(time);
   }
-  /// The mean of the force from time `from` to time `to` [M L/T^2].
+  /// The mean of the force from time `from` to time `to` > `from` [M L/T^2].
   double mean(double from, double to) {
     go_to(from);
     return constant_ && to <= end_ ? level_ : force_.mean(from, to);

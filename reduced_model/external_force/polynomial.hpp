@@ -1,6 +1,7 @@
-// Polynomials c0 + c1 tau + c2 tau^2 + ..., given by their coefficients; numbers have any
-// dimension. External forces and the states of CVODE within a step are such polynomials. Nothing is
-// thrown. A change must keep the order of operations, on which all digits of trajectories depend.
+// Polynomials c0 + c1 tau + c2 tau^2 + ..., given by their coefficients, at least one; numbers have
+// any dimension. External forces (external_force.cpp) and the states of CVODE within a step
+// (inertial.cpp) are such polynomials. Nothing is thrown. A change must keep the order of
+// operations, on which the last digits of trajectories depend.
 #pragma once
 
 #include <algorithm>

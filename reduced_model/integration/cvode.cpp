@@ -1,6 +1,7 @@
-// Calls CVODE of SUNDIALS 6 or 7 and checks all return codes (cvode.hpp). Times are in [T]. A code
-// that is an error becomes Error(kNotConverged). A change must keep that CVODE prints nothing, and
-// that both versions of SUNDIALS compile.
+// Calls the integrator CVODE of SUNDIALS 6 or 7 and checks all return codes (cvode.hpp). Times are
+// in [T]. A code that is an error becomes Error(kNotConverged). Used by reduced_model/models and
+// rolling/. A change must keep that CVODE prints nothing, and that the file compiles with both
+// versions of SUNDIALS.
 #include "viscontact/reduced_model/integration/cvode.hpp"
 
 #include <cvode/cvode.h>
@@ -42,8 +43,8 @@ constexpr int kTryAgain = 1;
 
 }  // namespace
 
-/// The objects of SUNDIALS, in the order in which they depend on each other, and the functions that
-/// CVODE calls. The argument `self` of these functions is the Cvode.
+/// The objects of SUNDIALS, each after those that it depends on, and the functions that CVODE
+/// calls. The argument `self` of these functions is the Cvode.
 struct Cvode::Sundials {
   struct Deleters {
     void operator()(N_Vector object) const { N_VDestroy(object); }
@@ -127,13 +128,13 @@ void Cvode::restart(double time, double stop_time, double first_step) {
 void Cvode::step() {
   const double before = time_;
   int code = CVode(sundials_->memory, stop_time_, sundials_->state.get(), &time_, CV_ONE_STEP);
-  // A limit, because CVODE would make tiny steps for ever if the solution diverges.
+  // Since the restart; without a limit CVODE makes tiny steps for ever if the solution diverges.
   constexpr long kMostSteps = 1'000'000;
   if (code >= 0 && (!(time_ > before) || ++steps_since_restart_ > kMostSteps))
     code = CV_TOO_MUCH_WORK;
   if (code < 0 && system_error_) {
-    // CVODE reports its own last failure. If CVODE did not get further than the relative distance
-    // kNoWay beyond the time at which the system threw an Error, that Error is the cause.
+    // CVODE reports its own last failure. If the time that it reached exceeds the time at which the
+    // system threw an Error by at most the fraction kNoWay, that Error is the cause.
     constexpr double kNoWay = 1e-9;
     double reached = 0;
     check(CVodeGetCurrentTime(sundials_->memory, &reached), "CVodeGetCurrentTime");

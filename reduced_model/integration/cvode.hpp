@@ -1,8 +1,9 @@
 // A C++ interface to the integrator CVODE of SUNDIALS (Hindmarsh et al. 2005), for the models
-// `inertial` and `rolling`. Times are in [T]; the components of a state may have any dimensions.
-// Every return code of SUNDIALS is checked in cvode.cpp and nowhere else. This header must include
-// no header of SUNDIALS: those of Debian 13 need the headers of MPI, which the tests and users of
-// an installed Viscontact would then have to find. Used by models/ and rolling/.
+// `inertial` and `inertial_rough` of reduced_model/models and for rolling/. Times are in [T]; the
+// components of a state may have any dimensions. Every return code of SUNDIALS is checked in
+// cvode.cpp and nowhere else. A change must include no header of SUNDIALS here: those of Debian 13
+// need the headers of MPI, which the tests and users of an installed Viscontact would then have to
+// find.
 #pragma once
 
 #include <exception>
@@ -23,17 +24,19 @@ struct StiffSystem {
       derivative;
   /// Computes the Jacobian, stored by columns: entry (i, j) = d f_i/d y_j.
   std::function<void(double time, std::span<const double> y, std::span<double> jacobian)> jacobian;
-  /// Computes the error that is allowed in a step, for each component, > 0.
+  /// Computes the error that is allowed in a step, for each component of y, > 0.
   std::function<void(double time, std::span<const double> y, std::span<double> allowed)> tolerance;
   /// The key of the case file that sets the tolerance, for messages.
   std::string tolerance_key = "inertial.relative_tolerance";
 };
 
-/// BDF of variable order and step with Newton's method and dense linear algebra. If the system
-/// throws an Error, CVODE tries a smaller step; if the Error persists, step() throws it.
+/// Backward differences (BDF) of variable order and step, with Newton's method and dense linear
+/// algebra. If the system throws an Error, CVODE tries a smaller step; if the Error persists,
+/// step() throws it. All functions throw Error(kNotConverged) if SUNDIALS reports an error.
 class Cvode {
  public:
-  /// Starts at time 0 from `state`. restart() must be called before step().
+  /// Starts at time 0 from `state`, which has system.dimension components. restart() must be called
+  /// before step().
   Cvode(StiffSystem system, std::span<const double> state);
   Cvode(const Cvode&) = delete;
   Cvode& operator=(const Cvode&) = delete;
@@ -43,19 +46,21 @@ class Cvode {
   void set_state(std::span<const double> state);
 
   /// Starts again at `time` from the present state. The integrator does not evaluate the system
-  /// beyond `stop_time`, where it may change. `first_step` > 0 is the step to try first, for cases
-  /// in which CVODE's own guess is too careful; 0 leaves the choice to CVODE.
+  /// beyond `stop_time`, where it may change. `first_step` > 0 is the step to try first [T], for
+  /// cases in which CVODE's own choice is much too short; 0 leaves the choice to CVODE.
   void restart(double time, double stop_time, double first_step = 0);
 
   /// Makes one step of a length that CVODE chooses, at most to the stop time. Throws
-  /// Error(kNotConverged) if CVODE gives up, or the Error of the system.
+  /// Error(kNotConverged) if CVODE gives up or needs more than 1e6 steps since the restart, or the
+  /// Error of the system.
   void step();
 
-  /// Component `i` of the state at a time within the last step, from the polynomial of CVODE.
+  /// Component `i` of the state at a time within the last step, from the polynomial by which CVODE
+  /// interpolates.
   double at(double time, std::size_t i = 0) const;
 
-  /// The 2 to 6 coefficients of that polynomial in powers of (t - time()). They are cheaper than
-  /// at() if the state is needed at many times.
+  /// The 2 to 6 coefficients of that polynomial for component `i`, in powers of (t - time()). If
+  /// the state is needed at many times, they are cheaper than calls of at().
   std::vector<double> expansion(std::size_t i = 0) const;
 
   /// Time that the integration has reached [T].

@@ -1,8 +1,8 @@
-// Drives CVODE through the equation of inertial_equation.hpp: it restarts where the force jumps,
-// and makes rows at the required times and where the velocity changes its sign. q is the gap, P the
-// momentum with impulses, Gamma the primitive of the resistance R, m the mass; lengths, masses and
-// times are in any one system of units. Errors are those of inertial.hpp. A change of results must
-// raise kModelsRevision.
+// Integrates the equation of inertial_equation.hpp with CVODE: restarts it where the force jumps,
+// and makes rows at the required times and where the velocity changes its sign. q is the gap, Gamma
+// the primitive of the resistance R, m the mass, P = m dq/dt + Gamma(q); lengths, masses and times
+// are in any one system of units. A CVODE that gives up is an Error(kNotConverged), a gap outside
+// the fit an Error(kBadInput). Used by models.cpp. A change of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/inertial.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +43,8 @@ class InertialRun {
 
   Trajectory run() {
     auto stops = motion_.external_force.jumps();
-    // A sphere that rests on the solids may be pulled off where the force changes its sign.
+    // A stop is needed where the force changes its sign, because the force may pull the sphere off
+    // the solids there.
     if (solid_gap_ > 0) {
       std::ranges::copy(motion_.external_force.sign_changes(motion_.end_time),
                         std::back_inserter(stops));
@@ -98,7 +99,7 @@ class InertialRun {
 
   void restart(double first_step) { cvode_.restart(now_, stop_, first_step); }
 
-  /// Makes the rebound from the solids at the time now_, and continues the integration after it.
+  /// Makes the rebound from the solids at the time now_, and continues from there.
   void strike_solids() {
     const double before = std::min(0.0, velocity_at_solids()), m = motion_.mass;
     if (!trajectory_.solid_contact_from)
@@ -115,7 +116,7 @@ class InertialRun {
     solid_impulse_ += m * (after - before);
     solid_work_ += m / 2 * (after - before) * (after + before);
     if (before < 0) {
-      // The impulse that the drag takes between the initial gap and the solids.
+      // The velocity that the drag takes between the initial gap and the solids.
       const double film = (force_.impulse(motion_.initial_gap) - force_.impulse(solid_gap_)) / m;
       const double approach = before - film, leaving = std::max(0.0, after - film);
       trajectory_.rebounds.push_back({now_, approach, -m * before, leaving, leaving / -approach});
@@ -132,14 +133,14 @@ class InertialRun {
     return (equation_.momentum(now_) - force_.impulse(solid_gap_)) / motion_.mass;
   }
 
-  /// True if the force pulls the sphere until the next stop, where it changes its sign or jumps.
+  /// True if the force, which has one sign until the next stop, pulls the sphere off the solids.
   bool leaves_solids() {
     if (!(motion_.external_force.mean(now_, stop_) > 0)) return false;
     rests_ = false;
     return true;
   }
 
-  /// The solids carry the force until the time `stop`.
+  /// Lets the sphere rest on the solids, which carry the force, until the time `stop`.
   void rest_until(double stop) {
     const double carried =
         motion_.external_force.impulse(stop) - motion_.external_force.impulse(now_);
@@ -152,9 +153,9 @@ class InertialRun {
     now_ = last_stop_ = stop;
   }
 
-  /// The work of the external force is the sum over the rows of the mean force times the change of
-  /// the gap, with an error of second order in the spacing of the rows. The work of the film is
-  /// what then balances the energy.
+  /// The budget. The work of the external force is the sum over the rows of the mean force times
+  /// the change of the gap, with an error of second order in the spacing of the rows. The work of
+  /// the film is that which then balances the energy.
   MomentumEnergyBudget budget() const {
     MomentumEnergyBudget budget;
     const auto& rows = trajectory_.rows;
@@ -176,9 +177,8 @@ class InertialRun {
       cvode_.step();
       return true;
     } catch (const Error&) {
-      // If the state differs from the balance of forces in the film by more than its tolerance,
-      // CVODE would have to resolve its return to the balance, at the rate R/m. At each time CVODE
-      // may restart from the balance once.
+      // CVODE can fail if it must resolve how a state returns to the balance of drag and force, at
+      // the rate R/m. Then it is restarted from the balanced state, once at each time.
       if (now_ <= given_up_at_) throw;
       given_up_at_ = now_;
       const double q = gap();
@@ -190,14 +190,17 @@ class InertialRun {
   }
 
   InertialInstant instant_of(double t, double s) const {
-    // At the stop time the force has jumped, but the velocity has not.
+    // At the stop time the force has jumped, but the velocity has not. The force is therefore taken
+    // just before.
     const double force_time = t == stop_ ? std::nextafter(stop_, last_stop_) : t;
     return equation_.instant(t, equation_.gap_of(s), force_time);
   }
 
-  /// Adds the rows of the step that has just been made until the time `end` in it, which is `now`.
+  /// Adds the rows of the last step of CVODE that are at most at the time `end` [T]; `now` is the
+  /// state at this time.
   void add_rows_of_step(double end, const InertialInstant& now) {
-    // If many rows are in the step, an expansion of s in powers of t - end is cheaper than at().
+    // If more rows than this are in the step, the expansion of s in powers of the time is cheaper
+    // than at().
     constexpr std::ptrdiff_t kManyRows = 8;
     const bool many = times_.end() - next_row_ > kManyRows && *(next_row_ + kManyRows) < end;
     const std::vector<double> expansion = many ? cvode_.expansion() : std::vector<double>();

@@ -1,7 +1,7 @@
 // The motion of the sphere with its inertia and the whole drag, integrated by CVODE: the models
 // `inertial`, with which all others are compared, and `inertial_rough`. q is the gap, u = dq/dt the
-// velocity, m the mass, R the resistance, f_ext the external force. Lengths, masses and times are
-// in any consistent units. models.cpp lists the models. A change of results must raise
+// velocity, m the mass, R(q) the resistance, f_ext the external force. Lengths, masses and times
+// are in any consistent units. models.cpp lists the models. A change of results must raise
 // kModelsRevision.
 #pragma once
 
@@ -29,19 +29,20 @@ inline constexpr std::array kInertialParameters = {kReferenceTimeStep, kRelative
 /// inertial_equation.hpp.
 ///
 /// The unknown is s = ln(q/r), with the radius r. The equation is stiff, because the film damps at
-/// the rate R/m. Errors of s decay in the film and do not add up. The first integral (4.2) of the
-/// equation holds by construction, so that it cannot check this model. The model is checked by
+/// the rate R/m; errors of s decay in the film and do not add up. The first integral of the
+/// equation holds by construction, so that it cannot be used to check this model. Tests check it by
 /// exact states (data/reference/limit_case_states.csv) and by an integration of (4.1) in extended
 /// precision.
 ///
 /// CVODE stops and restarts where f_ext or its slope jumps. The rows are at the multiples of
-/// reference.time_step, at the jumps, and where u = 0 (the extrema of q). The error of s in a step
-/// is at most 0.1 inertial.relative_tolerance, and in free flight at most 3e-5 times it. If the
-/// film would stop a fall within 1e-12 t of the time t, which no step can resolve, the gap is
-/// set to the smallest gap of that fall at once.
+/// reference.time_step, at the jumps, and where u = 0 (the extrema of q). The error of s allowed in
+/// a step is 0.1 inertial.relative_tolerance, and in free flight 3e-5 times this tolerance. If the
+/// film would stop a fall at the time t within 1e-12 t, which no step can resolve, the gap is set
+/// to the smallest gap of that fall at once.
 ///
-/// Throws Error(kNotConverged) if CVODE gives up, and Error(kBadInput) if the motion leaves the
-/// interval of the fit.
+/// Throws Error(kNotConverged) if CVODE gives up, Error(kBadInput) if the motion leaves the
+/// interval of the fit or has too many rows, and Error(kInterrupted) if `motion.stop` requests a
+/// stop.
 Trajectory simulate_inertial(const Motion& motion, const lubrication::LubricationForce& force);
 
 /// The parameters of simulate_inertial_rough().
@@ -50,8 +51,8 @@ inline constexpr std::array kInertialRoughParameters = {kReferenceTimeStep, kRel
 
 /// As simulate_inertial(), but with solids that touch at the gap r1 + r2, where r1 and r2 [L] are
 /// the heights of the roughness of the sphere and of its neighbour: there the velocity u becomes
-/// -e_d u (4.14), where e_d is the restitution. The sphere rests on the solids if a flight without
-/// drag would last less than 1e-6 end_time, or if e_d = 0, until the force pulls it. Without
+/// -e_d u (4.14), where e_d is the restitution. If e_d = 0, or if a flight without drag would last
+/// less than 1e-6 end_time, the sphere rests on the solids until the force pulls it. Without
 /// roughness this is simulate_inertial().
 ///
 /// The velocities of Trajectory::rebounds are those that the sphere would have at the initial gap

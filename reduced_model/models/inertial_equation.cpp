@@ -1,6 +1,7 @@
-// The equation (S) of inertial_equation.hpp for s = ln(q/r), the tolerances of its integration, and
-// the velocity that belongs to a state. Numbers are in any consistent units. A gap outside the fit
-// is an Error(kBadInput) of LubricationForce. A change of results must raise kModelsRevision.
+// The equation (S) of inertial_equation.hpp for s = ln(q/r) (q the gap, r the radius), the
+// tolerances of its integration, and the velocity that belongs to a state. Numbers are in any
+// consistent units. A gap outside the fit is an Error(kBadInput) of LubricationForce. Used by
+// inertial.cpp and rolling/. A change of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/inertial_equation.hpp"
 
 #include <algorithm>
@@ -36,8 +37,8 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
   system.derivative = [this, &step_begin](double t, std::span<const double> y,
                                           std::span<double> derivative) {
     const double q = gap_of(y[0]);
-    // CVODE chooses its first step from the slope at its beginning, which must not be rounding
-    // errors.
+    // CVODE chooses the first step after a restart from this slope. slope() can be a rounding error
+    // divided by a small mass; instant() avoids this error.
     derivative[0] = t == step_begin ? instant(t, q, t).velocity / q : slope(t, q);
   };
   system.jacobian = [this](double t, std::span<const double> y, std::span<double> jacobian) {
@@ -46,9 +47,9 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
   };
   // s is a logarithm, so its absolute error is the relative error of the gap. Only a tenth of the
   // user's tolerance is allowed in a step, which leaves room for the errors of the steps before. In
-  // free flight the film damps errors too slowly to forget them before the motion ends, and a
-  // landing, in which ln q changes fast, multiplies errors of time. In free flight only the
-  // fraction kFlightShare is therefore allowed.
+  // free flight the film damps errors too slowly for them to decay before the motion ends, and a
+  // landing, in which ln q changes fast, multiplies errors. There only the fraction kFlightShare of
+  // that is allowed.
   system.tolerance = [this](double t, std::span<const double> y, std::span<double> allowed) {
     constexpr double kShare = 0.1, kFlightShare = 3e-4;
     // If the motion lasts more than this many damping times, errors decay before its end.
@@ -71,14 +72,15 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   const double momentum_error = (kEpsilon * (std::abs(momentum(t)) + std::abs(absorbed)) +
                                  relative_tolerance_ * resistance * q) /
                                 m;
-  // If inertia is this important and the momentum has at least three digits, the velocity from the
-  // momentum is more exact than that from the balance below.
+  // If inertia is more than this fraction of the drag and the momentum has at least three digits,
+  // the velocity from the momentum is more exact than that from the balance below.
   constexpr double kMuchInertia = 1e-2;
   if (m * std::abs(by_momentum) > kMuchInertia * resistance * q &&
       std::abs(by_momentum) > 1e3 * momentum_error)
     return {q, by_momentum, momentum_error, resistance};
-  // With little inertia the velocity follows the force. The velocity from the momentum also
-  // contains what remains of an earlier velocity, so that both values are compared.
+  // With little inertia the velocity follows from the balance of drag and force. The velocity from
+  // the momentum also contains what remains of an earlier velocity, so that both values are
+  // compared.
   const double balance = motion_.external_force.value(force_time) / resistance;
   const double rate = (motion_.external_force.slope(force_time) -
                        balance * balance * force_.resistance_log_slope(q) / q) /
@@ -86,7 +88,8 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   const double correction = -m / resistance * rate;
   const double neglected =
       std::abs(correction) * std::min(1.0, std::abs(correction) / std::abs(balance));
-  // The balance counts only if both values agree to within a few times the error bound.
+  // The value from the balance is taken only if both values agree within a few times the error
+  // bound.
   if (neglected < momentum_error &&
       std::abs(balance + correction - by_momentum) < 4 * momentum_error)
     return {q, balance + correction, neglected, resistance};

@@ -1,16 +1,17 @@
 // The equation of motion of the sphere with its inertia, by its first integral (physics.md (4.1),
 // (4.2)). q is the gap, r the radius, m the mass, R the resistance, Gamma its primitive, f_ext the
-// external force. Lengths, masses and times are in any consistent units. The models `inertial` and
-// `inertial_rough` integrate it, and rolling/ along its normal.
+// external force; the index 0 marks values at the start. Lengths, masses and times are in any
+// consistent units. The models `inertial` and `inertial_rough` integrate it, and rolling/ does for
+// the motion along the normal of the plane.
 //
 //     m d^2q/dt^2 = -R(q) dq/dt + f_ext(t)                                           (M)
 //     m u + Gamma(q) = P(t) := m u0 + Gamma(q0) + int_0^t f_ext,   u = dq/dt         (I)
 //     ds/dt = (P(t) - Gamma(q))/(m q),   q = r e^s                                   (S)
 //
-// (I) is exact, because dGamma/dq = R. It leaves the equation (S) of first order in s = ln(q/r).
-// A change of this file must keep that gaps are above 0 whatever the error of s, that P is
-// continuous where f_ext jumps, and that s contains the radius r, which makes the error weights of
-// CVODE, and so its steps, independent of the unit of length.
+// (I) is exact, because dGamma/dq = R. With (I), (M) becomes the equation (S) of first order for s
+// = ln(q/r). A change must keep that gaps are > 0 whatever the error of s, that P is continuous
+// where f_ext jumps, and that s contains the radius r, which makes the error weights of CVODE, and
+// so its steps, independent of the unit of length.
 #pragma once
 
 #include "viscontact/lubrication/lubrication_force.hpp"
@@ -28,44 +29,45 @@ struct InertialInstant {
 };
 
 /// Equation (S) and what follows from a solution of it. Motion and force must outlive the object.
-/// `relative_tolerance` is that of the gap [1].
+/// Every function of a gap throws Error(kBadInput) if the gap is outside the interval of the force.
 class InertialEquation {
  public:
-  /// The equation for the sphere of `motion` that is subject to `force`.
+  /// The equation for the sphere of `motion` under the drag `force`; `relative_tolerance` > 0 is
+  /// that of the gap [1].
   InertialEquation(const Motion& motion, const lubrication::LubricationForce& force,
                    double relative_tolerance);
 
   double gap_of(double s) const;      ///< q = r e^s [L]
-  double state_of(double gap) const;  ///< s = ln(q/r)
+  double state_of(double gap) const;  ///< s = ln(q/r), for q > 0 [1]
   double momentum(double t) const;    ///< P(t) [M L/T]
-  /// Adds an impulse [M L/T] to P, at a jump of the velocity or after solids carried the force.
+  /// Adds an impulse [M L/T] to P: that of an impact, or that of solids which carried the force.
   void add_impulse(double impulse) { momentum_at_start_ += impulse; }
 
-  /// Equation (S), its Jacobian and its tolerances, for CVODE. `step_begin` is the time at which
-  /// the present step of CVODE begins; it is read at each call.
+  /// Equation (S), its Jacobian and its tolerances, for CVODE. `step_begin` is the time [T] at
+  /// which the present step of CVODE begins; the system reads it at each call, so it must outlive
+  /// the system.
   StiffSystem system(const double& step_begin) const;
 
-  /// The state of the sphere at time t and gap q.
+  /// The state of the sphere at time t [T] and gap q.
   ///
   /// The velocity is (P - Gamma)/m. In a film so thin that m/R is much shorter than all other
-  /// times, this difference loses its digits. In such a film the velocity follows from the balance
-  /// of drag and force with its first correction for inertia, u = u_0 - (m/R) du_0/dt with u_0 =
-  /// f_ext/R, provided that both values agree to within four times the error bound of the former.
-  /// `force_time` is t, or a time just before t if f_ext jumps at t, because the velocity does not
-  /// jump.
+  /// times, this difference loses its digits. The velocity then follows from the balance of drag
+  /// and force with its first correction for inertia, u = v - (m/R) dv/dt with v = f_ext/R,
+  /// provided that both values agree within four times the error bound of the former. `force_time`
+  /// is t, or a time just before t if f_ext jumps at t, because the velocity does not jump.
   InertialInstant instant(double t, double gap, double force_time) const;
 
   /// The first step [T] that CVODE should try after a restart at time t and gap q; 0 leaves the
-  /// choice to CVODE. It is positive if the film damps within the rounding of t: the velocity then
-  /// follows a jump of f_ext at once.
+  /// choice to CVODE. It is positive if the damping time m/R is below the rounding of t, so that
+  /// the velocity follows a jump of f_ext at once.
   double first_step(double t, double gap) const;
 
-  /// The state s near that of `gap` [L] in which drag and force at time t are balanced, exactly by
-  /// (I).
+  /// The state s near that of `gap` [L] in which drag and force at time t are balanced. It obeys
+  /// (I) exactly.
   double balanced_state(double t, double gap) const;
 
   /// True if the rest of a fall takes less time than the rounding of t. `film` [L] is then set to
-  /// the gap Gamma^{-1}(P(t)), at which the film has taken all the momentum.
+  /// the gap Gamma^{-1}(P(t)), at which the velocity is 0 by (I).
   bool lands_at_once(double t, const InertialInstant& now, double& film) const;
 
   /// The smallest ratio of a step to the time t that CVODE can resolve.

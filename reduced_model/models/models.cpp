@@ -1,7 +1,8 @@
-// The registry of models, the suffixes of their names, the budget of models whose film is the
+// The table of models of motion, the suffixes of their names, the budget of models that resolve the
 // whole drag, and the gaps that a model reaches. Numbers are in any consistent units. An unknown
-// name is an Error(kBadInput), and a result that is not finite an Error(kNotConverged). A change
-// must keep the names, and the order, which gives the colours of the report.
+// name is an Error(kBadInput), and a result that is not finite an Error(kNotConverged). Used by
+// pipeline/, sweep/, results/, report/, case_file/, app/ and python/. A change must keep the names,
+// which users' files contain, and the order, which gives the colours of the report.
 #include "viscontact/reduced_model/models/models.hpp"
 
 #include <fmt/format.h>
@@ -27,15 +28,17 @@
 namespace viscontact::reduced_model {
 namespace {
 
-/// Problem (M) (physics.md (4.1)) by explicit Euler in q and u, with h = viscous_contact.time_step:
+/// The motion with inertia (physics.md (4.1)) by explicit Euler in the gap q and the velocity u,
+/// with the mass m, the resistance R, the mean external force f^n of a step, and h =
+/// viscous_contact.time_step:
 ///
 ///     m (u^{n+1} - u^n)/h = -R(q^n) u^n + f^n,     q^{n+1} = q^n + h u^n.
 ///
 /// The film damps at the rate R/m, which grows without bound as q falls. As soon as h R(q)/m > 2,
 /// the velocity changes its sign at each step and grows, and the sphere goes through the wall,
-/// although (M) has no contact in finite time by the first integral (4.2). The trajectory ends with
-/// a row of gap 0 where the sphere goes through the wall, or at the end of the motion. Throws
-/// Error(kBadInput) if the motion leaves the fit's interval.
+/// although the exact motion never touches it. The trajectory ends with a row of gap 0 where the
+/// sphere goes through the wall, or at the end of the motion. Throws Error(kBadInput) if the motion
+/// leaves the fit's interval.
 Trajectory simulate_explicit_euler(const Motion& motion,
                                    const lubrication::LubricationForce& force) {
   const double end = motion.end_time;
@@ -55,7 +58,7 @@ Trajectory simulate_explicit_euler(const Motion& motion,
     const double fall = -h * u;
     ++trajectory.steps;
     if (!(q - fall > 0)) {
-      // The point at which the straight line of this step crosses the wall, where no drag is
+      // The time at which the straight line of this step crosses the wall, where no drag is
       // defined.
       const double crossing = t + q / fall * h;
       trajectory.rows.push_back({crossing, 0, u, {}, motion.external_force.value(crossing), {}});
@@ -106,9 +109,9 @@ constexpr std::array kModels = {
     // A new model stands here, at the end, so that the others keep their colours in the report.
 };
 
-/// The budget of a model whose film is the whole drag. Between two rows, the film's impulse is the
-/// change of momentum minus the impulse of the force, and its work is this impulse times the mean
-/// velocity.
+/// The budget of a model that resolves the whole drag, which counts as that of the film. Between
+/// two rows, the film's impulse is the change of momentum minus the impulse of the force, and its
+/// work is this impulse times the mean velocity.
 MomentumEnergyBudget budget_of_drag(const std::vector<TrajectoryRow>& rows, const Motion& motion,
                                     bool inertia) {
   MomentumEnergyBudget budget;
@@ -229,7 +232,8 @@ bool depends_on(const ModelChoice& choice, std::string_view key) {
   const auto has_key = [&](const auto& parameters) {
     return std::ranges::find(parameters, key, &ModelParameter::key) != std::end(parameters);
   };
-  // The roughness is where the solids of models with restitution touch; plain contact has no film.
+  // The roughness matters where solids touch, which they do in models with a restitution. Plain
+  // inelastic contact (fluid = false) has no film and does not use it.
   if (key == kRoughnessKey) {
     const auto& all = model.parameters;
     return model.fluid && !choice.smooth &&

@@ -1,7 +1,7 @@
-// The registry of models of motion, and the gaps that a model reaches. A new model needs its own
-// source and a row in models.cpp (docs/extending.md); commands, help, sweeps and the report learn
-// of it from there. Lengths, masses and times are in any consistent units. A change must keep the
-// names of models, which case files contain.
+// The table of models of motion of one sphere, and the gaps that a model reaches. A new model needs
+// its own source and a row in models.cpp (docs/extending.md); commands, help, sweeps and the report
+// read that table. Lengths, masses and times are in any consistent units. A change must keep the
+// names of models, which users' case files contain.
 #pragma once
 
 #include <optional>
@@ -22,9 +22,9 @@ namespace viscontact::reduced_model {
 struct Model {
   std::string_view name;         ///< as users type it; the stem of its trajectory file
   std::string_view description;  ///< a line for --help and legends
-  /// Computes the trajectory; null for a contact model, which run_contact_model() runs.
+  /// Computes the trajectory; null for a contact model that run_contact_model() runs.
   Trajectory (*simulate)(const Motion&, const lubrication::LubricationForce&);
-  /// Makes the contact model; null if this is not a contact model.
+  /// Makes the contact model (contact_model.hpp); null if this is not a contact model.
   MakeContactModel contact = nullptr;
   /// True if the model runs when a case names no models.
   bool by_default = true;
@@ -44,7 +44,7 @@ struct Model {
   bool usual_reference = false;
 };
 
-/// All models. The report chooses the colour of a model's lines by its place here.
+/// All models. The place of a model here decides on the colour of its lines in the report.
 std::span<const Model> all_models();
 
 /// The models that run when a case names none.
@@ -66,8 +66,8 @@ std::string reference_of(const std::vector<std::string>& names);
 /// The parameters of all models, each once, in the order of the models.
 std::vector<ModelParameter> model_parameters();
 
-/// The sections of a case that contain these parameters and the roughness, each once, in the order
-/// of the models.
+/// The sections of a case that contain model_parameters() and the roughness, each once, in the
+/// order of the models.
 std::vector<std::string_view> model_sections();
 
 /// Suffix of the name of a model that runs with the exact drag (lubrication/plane_drag.hpp) in
@@ -90,14 +90,12 @@ struct ModelChoice {
 /// The model with this name, which may have suffixes; nothing if there is none.
 std::optional<ModelChoice> known_model(std::string_view name);
 
-/// The model with this name, which may have suffixes. Throws Error(kBadInput), which lists the
-/// names, if there is none.
+/// As known_model(), but throws Error(kBadInput), which lists the names, if there is no such model.
 ModelChoice find_model(std::string_view name);
 
 /// False if the number of the case at this key, such as "viscous_contact.roughness[0]", cannot
-/// change what the model computes. Always true for keys of [motion] other than the initial
-/// velocity, and for keys that belong neither to fluid, sphere and roughness nor to a parameter of
-/// a model.
+/// change what the model computes. True for all keys of [motion] but initial_velocity, and for keys
+/// that belong neither to [fluid], [sphere] and the roughness nor to a parameter of a model.
 bool depends_on(const ModelChoice& choice, std::string_view key);
 
 /// The drag for the model: `force`, or the exact drag of the same viscosity and radius.
@@ -107,36 +105,38 @@ lubrication::LubricationForce drag_of(const ModelChoice& choice,
 /// The motion for the model: `motion`, without roughness if the choice is smooth.
 Motion motion_of(const ModelChoice& choice, const Motion& motion);
 
-/// The contact model that the choice, which must be of a contact model, makes of the motion for the
-/// model (motion_of) and of `force`. `force` must outlive the result, which refers to it.
+/// The contact model that the choice, which must be of a contact model, makes of motion_of(choice,
+/// motion) and `force`. `force` must outlive the result, which refers to it.
 ContactModel contact_model_of(const ModelChoice& choice, const Motion& motion,
                               const lubrication::LubricationForce& force);
 
 /// The description of the model and of its suffixes, a line for legends.
 std::string description_of(const ModelChoice& choice);
 
-/// Throws the same Error(kBadInput) as simulate() would for numbers of the motion that it refuses,
-/// but without running the model. Of `force`, only its interval and its coefficient k are used.
+/// Throws the Error(kBadInput) that simulate() would throw for a time step that is too short or, if
+/// the model is a contact model, for a gap, a roughness or a fit that it refuses, but does not run
+/// the model. Of `force`, only its interval and its coefficient k are used.
 void check_model(const ModelChoice& choice, const Motion& motion,
                  const lubrication::LubricationForce& force);
 
-/// Runs a model and fills in its name, its budget and the wall time. The messages of all Errors
-/// begin with the name of the model.
+/// Runs a model and fills in its name, its budget and the computing time. The messages of all
+/// Errors begin with the name of the model. Throws the errors of the model, Error(kNotConverged) if
+/// a number of the motion is not finite, and Error(kInterrupted) if `motion.stop` requests a stop.
 Trajectory simulate(const ModelChoice& choice, const Motion& motion,
                     const lubrication::LubricationForce& force);
 
 /// The smallest and the largest gap [L] at which a model evaluates the whole drag in a motion.
 struct ReachedGaps {
-  /// Nothing for a model that evaluates no drag in a thin film.
+  /// [L], > 0; nothing for a model that evaluates no drag in a thin film.
   std::optional<double> smallest;
   double largest = 0;  ///< [L], >= 0
 };
 
 /// Runs the model with `force`, which must be defined for every gap > 0: it must be the exact drag,
 /// or a fit with its limits below and above. If a contact model makes contact at a threshold gap,
-/// `smallest` is the thickness of the film recovered from gamma, because the drag at these gaps
-/// determines that thickness. Returns nothing if the model evaluates no drag, or if the motion
-/// cannot be computed.
+/// `smallest` is the film thickness that it computes from gamma (TrajectoryRow::gamma), because the
+/// drag at these gaps determines that thickness. Returns nothing if the model evaluates no drag, or
+/// if the motion cannot be computed. Throws Error(kInterrupted) if `motion.stop` requests a stop.
 std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion& motion,
                                         const lubrication::LubricationForce& force);
 

@@ -1,8 +1,9 @@
-// The models without inertia: `reference`, the lecture's reference solution by explicit Euler
-// (physics.md (4.3)), and `reference_exact`, the solution without a time step by the first integral
-// (4.2). q is the gap, q0 the initial one, u the velocity, F_lub the lubrication force, R the
-// resistance, Gamma its primitive, f_ext the external force. Lengths, masses and times are in any
-// consistent units. models.cpp lists the models. A change of results must raise kModelsRevision.
+// The models without inertia: `reference`, the reference solution of Lefebvre's lecture (2008) by
+// explicit Euler (physics.md (4.3)), and `reference_exact`, the solution without a time step by the
+// first integral (4.2). q is the gap, q0 the initial one, u the velocity, F_lub the lubrication
+// force, R the resistance, Gamma its primitive, f_ext the external force. Lengths, masses and times
+// are in any consistent units. models.cpp lists the models. A change of results must raise
+// kModelsRevision.
 #pragma once
 
 #include "viscontact/lubrication/lubrication_force.hpp"
@@ -17,17 +18,19 @@ namespace viscontact::reduced_model {
 ///     q^{n+1} = q^n + h u^n,
 ///
 /// where f^n is the mean of the external force over step n and h = reference.time_step. The scheme
-/// is of first order in h. The film that it computes is too thin. Throws Error(kNotConverged) if a
-/// step goes through the wall, and Error(kBadInput) if the motion leaves the fit's interval.
+/// is of first order in h. Under a push to the wall its film is thinner than the exact one. Throws
+/// Error(kNotConverged) if a step goes through the wall, Error(kBadInput) if the motion leaves the
+/// fit's interval or has more than 1e8 steps, and Error(kInterrupted) if `motion.stop` requests a
+/// stop.
 Trajectory simulate_reference(const Motion& motion, const lubrication::LubricationForce& force);
 
 /// Without inertia, R(q) dq/dt = f_ext integrates to
 ///
-///     Gamma(q(t)) = Gamma(q0) + int_0^t f_ext              (the first integral without mass),
+///     Gamma(q(t)) = Gamma(q0) + int_0^t f_ext,
 ///
-/// which is solved for q at the time of each row: the multiples of reference.time_step, and
-/// the jumps of f_ext. The velocity is u = f_ext/R(q). Throws Error(kBadInput) if the motion leaves
-/// the fit's interval.
+/// which is solved for q at the time of each row: the multiples of reference.time_step, and the
+/// jumps of f_ext. The velocity is u = f_ext/R(q). Throws Error(kBadInput) if the motion leaves the
+/// fit's interval or has too many rows, and Error(kInterrupted) if `motion.stop` requests a stop.
 Trajectory simulate_reference_exact(const Motion& motion,
                                     const lubrication::LubricationForce& force);
 

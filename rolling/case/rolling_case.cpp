@@ -1,6 +1,7 @@
 // Reads the sections of a case of a rolling sphere, and applies the defaults. Numbers are in the
-// units of the case. A wrong value is an Error(kBadInput) with its line. A change must keep keys
-// and defaults, because users have written cases with them.
+// units of the case. A wrong value is an Error(kBadInput) with its line. Used by rolling/, app/ and
+// python/. A change must keep keys and defaults, because users have written cases with them, and
+// docs/case-file.md, which repeats them.
 #include "viscontact/rolling/case/rolling_case.hpp"
 
 #include <algorithm>
@@ -23,8 +24,10 @@ struct WeightKeys {
   double weight = 0, incline = 0;
 };
 
-/// `mass` [M] is that of the sphere minus that of the fluid which it displaces.
+/// Declares these keys. `mass` [M] is that of the sphere minus that of the fluid which it
+/// displaces.
 void weight_keys(case_file::Keys& keys, WeightKeys& given, double mass) {
+  // A little more than a right angle.
   constexpr Allowed kAngle = {[](double v) { return std::abs(v) <= 1.6; },
                               "of radians from -1.6 to 1.6"};
   keys.require(keys.has("weight") + keys.has("force") + keys.has("gravity") == 1, "force",
@@ -50,7 +53,7 @@ void weight_keys(case_file::Keys& keys, WeightKeys& given, double mass) {
                given.force.size());
 }
 
-/// The names of models, each at most once.
+/// Reads the names of models, each at most once.
 void read_rolling_models(const case_file::TomlSection& section, std::string_view key,
                          std::vector<std::string>& models) {
   const auto all = rolling_models();
@@ -124,7 +127,7 @@ void check_tabulation(const case_file::TomlSection& section,
 void rolling_sphere_keys(case_file::Keys& keys, RollingCase& c) {
   double density = 0;
   case_file::sphere_keys(keys, c.radius, density, c.motion.mass, true);
-  c.motion.moment_of_inertia = 0.4 * c.motion.mass * c.radius * c.radius;
+  c.motion.moment_of_inertia = 0.4 * c.motion.mass * c.radius * c.radius;  // homogeneous sphere
   keys.optional("moment_of_inertia", case_file::number(c.motion.moment_of_inertia, kPositive),
                 {"about an axis through the centre", "2 m r²/5"});
 }

@@ -1,7 +1,7 @@
-// The case of a sphere that moves along a plane and turns (TOML, docs/case-file.md). Lengths,
-// masses and times are in any consistent units. Keys are declared in rolling_case.cpp (keys.hpp).
-// The stage of a rolling sphere and its sweeps read it. A change must keep accepting the cases that
-// users have written.
+// The case of a sphere that moves along a plane in a viscous fluid and turns (TOML,
+// docs/case-file.md). Lengths, masses and times are in any consistent units. Keys are declared in
+// rolling_case.cpp (keys.hpp). rolling/, app/ and python/ read it. A change must keep accepting the
+// cases that users have written.
 #pragma once
 
 #include <filesystem>
@@ -28,9 +28,9 @@ struct RollingCase {
   RollingMotion motion;
   std::vector<std::string> models;  ///< names of rolling_models()
   // Exactly one of the next two exists.
-  /// The tables of the pair to be made, which are then fitted.
+  /// The tables of the drag on the sphere near the plane that are to be computed and then fitted.
   std::optional<freefem_axi::Tabulation> tabulation;
-  /// File with a fit of the pair that was made before.
+  /// File with a fit of that drag that was made before (motions/pair_fit.hpp).
   std::optional<std::filesystem::path> fit;
   /// What the section [sweep] asks for; nothing if the case has no such section.
   std::optional<case_file::SweepRequest> sweep;
@@ -42,8 +42,8 @@ struct RollingCase {
 /// value and what is allowed.
 RollingCase read_rolling_case(const std::filesystem::path& path);
 
-/// `fit`, scaled to radius and viscosity of the case. `file`, from which it was read, is named in
-/// messages. Throws Error(kBadInput) if the fit is not that of a sphere above a plane.
+/// `fit`, scaled to radius and viscosity of the case. Messages name `file`, from which it was read.
+/// Throws Error(kBadInput) if the fit is not that of a sphere above a plane.
 motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
                          const std::filesystem::path& file);
 

@@ -1,6 +1,7 @@
 // Computes the motions of a sweep of a rolling sphere (rolling_study.hpp). Numbers are in the units
-// of the case. A key that changes no row is an Error(kWrongUsage); a model that fails leaves its
-// columns empty. The names of the columns must stay, for users' scripts.
+// of the case. Used by the command `sweep`. A key that cannot be varied is an Error(kWrongUsage); a
+// model that fails leaves its columns empty. A change must keep the names of the columns, which
+// users' scripts read.
 #include "viscontact/rolling/case/rolling_study.hpp"
 
 #include <fmt/format.h>
@@ -20,8 +21,8 @@ constexpr std::array kRollingColumns = {"gap",   "smallest_gap", "position",
                                         "angle", "velocity",     "angular_velocity",
                                         "slip",  "contact",      "contact_time"};
 
-/// Throws Error(kWrongUsage) unless the key is one of [rolling] or of those on which the motion
-/// with a given fit depends.
+/// Throws Error(kWrongUsage) unless the key is one of [rolling] or of those that change the motion
+/// but not the tables from which the fit is made.
 void check_rolling_key(const std::string& key) {
   constexpr std::array kOther = {"fluid.viscosity", "fluid.density",  "sphere.radius",
                                  "sphere.mass",     "sphere.density", "sphere.moment_of_inertia"};

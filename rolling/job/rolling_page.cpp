@@ -1,6 +1,6 @@
 // The pictures and the page of a rolling sphere, in the units of the case. A gnuplot that fails is
-// an Error(kExternalProgram). kRollingPictures must contain the name of every picture, because it
-// decides which files in plots/ may be replaced or removed.
+// an Error(kExternalProgram). Used by rolling_stage.cpp. A change must list every picture in
+// kRollingPictures, which decides which files in plots/ may be replaced or removed.
 #include "viscontact/rolling/job/rolling_page.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 constexpr auto kRollingPictures =
     std::to_array<std::string_view>({"gap", "velocity", "rotation", "slip", "friction"});
 
-/// Place of a model's colour: its place among all models, so that it is the same in all runs.
+/// Index of the colour of a model: its place among all models, so that it is the same in all runs.
 std::size_t place_of(const std::string& model) {
   const auto& models = rolling_models();
   const auto found = std::ranges::find(models, model, [](const auto& m) { return m.name; });
@@ -50,7 +50,7 @@ const char* contact_in_words(SolidContact contact) {
   return "none";
 }
 
-/// The state of each model at the end.
+/// The table (HTML) of the state of each model at the end of the motion.
 std::string end_table(const RollingResults& results) {
   std::string rows =
       "<tr><th>model</th><th>gap [L]</th><th>velocity [L/T]</th><th>angular velocity [1/T]</th>"
@@ -86,7 +86,7 @@ std::string parameters_of_rolling(const RollingResults& results) {
       row("coefficient of friction", m.friction));
 }
 
-/// Gap, velocities and slip over time, with a curve for each model.
+/// Plots of gap, velocities, slip and friction over time, with a curve for each model.
 std::vector<report::Plot> rolling_plots(const RollingResults& results) {
   const double radius = results.c.radius, plane = results.c.motion.plane_velocity;
   const auto& units = results.c.units;
@@ -116,7 +116,8 @@ std::vector<std::string> rolling_warnings(const RollingResults& results) {
   const double low = results.fit.gap_interval[0];
   for (const auto& [model, rows] : results.trajectories) {
     const double thinnest = std::ranges::min_element(rows, {}, &RollingRow::gap)->gap;
-    constexpr double kRounding = 1e-9;  // of a contact at the smallest gap of the fit
+    // Relative rounding error of the gap of a sphere that rests at the smallest fitted gap.
+    constexpr double kRounding = 1e-9;
     if (thinnest < (1 - kRounding) * low)
       warnings.push_back(
           fmt::format("Extrapolation: {} gets down to a gap of {:.4g}, below the smallest fitted "

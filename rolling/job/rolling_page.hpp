@@ -1,6 +1,6 @@
 // The report of a sphere that moves along a plane and turns: a page with pictures and tables.
-// Lengths, masses and times are in the units of the case. The stage of a rolling sphere calls it. A
-// change must keep the names of the pictures, so that those of earlier runs are replaced.
+// Lengths, masses and times are in the units of the case. rolling_stage.cpp calls it. A change must
+// keep the names of the pictures, so that those of earlier runs are replaced.
 #pragma once
 
 #include <filesystem>
@@ -19,8 +19,8 @@ namespace viscontact::rolling {
 /// What a run has computed.
 struct RollingResults {
   RollingCase c;         ///< the case
-  motions::PairFit fit;  ///< the fit, scaled to its radius and viscosity
-  /// Name of the model, and its trajectory.
+  motions::PairFit fit;  ///< fit of the drag, scaled to radius and viscosity of the case
+  /// Name and trajectory of each model that did not fail.
   std::vector<std::pair<std::string, RollingTrajectory>> trajectories;
   std::vector<results::FailedModel> failed;  ///< models without a trajectory
 };
@@ -29,11 +29,13 @@ struct RollingResults {
 /// the fit is continued although no row of a table supports it.
 std::vector<std::string> rolling_warnings(const RollingResults& results);
 
-/// Throws Error(kBadInput) if the report would replace a file in `folder` that is not Viscontact's.
+/// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not
+/// write.
 void check_rolling_report(const std::filesystem::path& folder);
 
 /// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no
-/// still pictures, and a warning says so; throws Error(kExternalProgram) if gnuplot fails.
+/// still pictures, and a warning says so. Throws Error(kExternalProgram) if gnuplot fails, and
+/// Error(kInterrupted) if `stop` requests a stop.
 void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop);
 

@@ -1,7 +1,8 @@
-// Runs the stages of a rolling sphere one after the other (rolling_stage.hpp). Numbers are in the
-// units of the case. A change must keep the keys of rolling.json and the columns of the
-// trajectories, which are in docs/file-formats.md. A model that fails is reported at the end; the
-// others are still written.
+// Runs the stages of a rolling sphere one after the other (rolling_stage.hpp): tables of the drag,
+// its fit, the motion by each model, the page. Numbers are in the units of the case. Used by app/.
+// A wrong case and a file of the user in the way are an Error(kBadInput); a model that fails is
+// reported at the end, and the others are still written. A change must keep the keys of
+// rolling.json and the columns of the trajectories, which are in docs/file-formats.md.
 #include "viscontact/rolling/job/rolling_stage.hpp"
 
 #include <fmt/format.h>
@@ -51,8 +52,8 @@ void check_rolling_files(const RollingFolder& folder) {
   check_rolling_report(folder.path);
 }
 
-/// Makes the fit of the tables, unless the case names a fit. Sets `failure` to the rows that
-/// failed.
+/// Computes the tables and fits them, unless the case names a fit. Sets `failure` to the error that
+/// names the rows that failed, if any did.
 void make_fit(const RollingCase& c, const RollingFolder& folder, const RollingRequest& request,
               pipeline::RowFailure& failure) {
   if (c.fit) return;
@@ -66,7 +67,7 @@ void make_fit(const RollingCase& c, const RollingFolder& folder, const RollingRe
   });
 }
 
-/// The fit that the case names, or that of its tables, scaled to the case.
+/// The fit that the case names, or the one in the folder, scaled to the case.
 motions::PairFit fit_of(const RollingCase& c, const RollingFolder& folder) {
   const auto file = c.fit.value_or(folder.fit());
   return fit_for(c, motions::read_pair_fit(file), file);
@@ -83,7 +84,7 @@ void tell_of_scaling(const RollingCase& c) {
         fit.radius, fit.viscosity, c.radius, c.viscosity));
 }
 
-/// The columns of a trajectory before `contact`.
+/// The columns of a trajectory but the last, `contact`.
 constexpr std::array<double RollingRow::*, 9> kColumns = {&RollingRow::time,
                                                           &RollingRow::gap,
                                                           &RollingRow::position,

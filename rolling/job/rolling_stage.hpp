@@ -1,6 +1,6 @@
-// The command `rolling`: tables, fit, trajectories and report of a sphere that moves along a plane.
-// Results are in the units of the case. A change must keep the names of the files, keys and
-// columns, which users' scripts read.
+// The command `rolling`: tables of the drag, their fit, trajectories and report of a sphere that
+// moves along a plane and turns. Results are in the units of the case. app/ calls it. A change must
+// keep the names of the files, keys and columns, which users' scripts read.
 #pragma once
 
 #include <filesystem>
@@ -21,13 +21,13 @@ struct RollingRequest {
 /// Writes the tables (tables/MOTION.csv) and their fit (fit.json) unless the case names a fit, then
 /// MODEL.csv for each model, rolling.json and the report into the folder (docs/file-formats.md).
 /// Tables that were made from the same inputs are kept. Throws Error(kBadInput) before anything is
-/// written if the case is wrong or a file must not be replaced, and the errors of tabulate_stage,
-/// fit_pair and of the models.
+/// written if the case is wrong or a file of the user would be replaced, and the errors of
+/// pipeline::tabulate_stage(), motions::fit_pair_stage() and the models.
 void run_rolling(const RollingRequest& request);
 
-/// Writes the report again from the files that run_rolling wrote into `folder`, and from the case
-/// and the fit that it names, which must not have changed since. Throws Error(kBadInput) if one of
-/// them is missing or damaged.
+/// Writes the report again from the files that run_rolling() wrote into `folder`, and from the case
+/// and the fit that they name, which must not have changed since. Throws Error(kBadInput) if one of
+/// them is missing, changed or damaged, and Error(kInterrupted) if `stop` requests a stop.
 void report_rolling(const std::filesystem::path& folder, const StopToken& stop);
 
 }  // namespace viscontact::rolling

@@ -1,7 +1,8 @@
-// Reads the case of a swimmer (swimmer_case.hpp): spheres and arms, and strokes given by corners,
-// an ellipse or a file of samples. Numbers are in the units of the case. A wrong value is an
-// Error(kBadInput) with its line. A change must keep the arms of a grid bit for bit, because
-// finished rows and tables are found by their gaps.
+// Reads the case of a swimmer (swimmer_case.hpp): its spheres and arms (distances of the centres of
+// neighbouring spheres), and strokes given by corners, an ellipse or a file of samples. Numbers are
+// in the units of the case. A wrong value is an Error(kBadInput) with its line. Used by swimmer/,
+// app/ and python/. A change must keep the arms of a table bit for bit, because its finished rows
+// are found by their gaps.
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ void read_radii(const case_file::TomlSection& section, std::string_view key,
                   kLargestRatio);
 }
 
-/// Lengths of an arm between two centres [L].
+/// Request for the lengths of an arm in the table [L]: `count` lengths from `from` to `to`.
 struct ArmGrid {
   double from = 0, to = 0;
   int count = 0;
@@ -45,7 +46,7 @@ void arm_keys(case_file::Keys& keys, ArmGrid& grid) {
   keys.required("count", case_file::count(grid.count, 3, 200), {"the number of arms between them"});
 }
 
-/// The gaps of arm k in the table.
+/// The gaps between the surfaces of spheres k and k + 1 in the table [L], rising.
 std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
                                   const std::vector<double>& radii, std::size_t k) {
   const double both_radii = radii[k] + radii[k + 1];
@@ -56,7 +57,7 @@ std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
                   "is {}; it must be greater than {}, the sum of the radii of spheres {} and {}, "
                   "which touch there",
                   from, both_radii, k + 1, k + 2);
-  constexpr double kLeastGap = 1e-6;  // divided by the smaller radius; the tests go down to it
+  constexpr double kLeastGap = 1e-6;  // of the smaller radius; tests go down to this value
   const double least = kLeastGap * std::min(radii[k], radii[k + 1]);
   section.require(
       from - both_radii >= least, "from",
@@ -64,7 +65,7 @@ std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
       "must be at least {}",
       from, from - both_radii, kLeastGap, both_radii + least);
   section.require(to > from, "to", "is {}; it must be greater than from, {}", to, from);
-  constexpr double kLargestArm = 1e4;  // divided by the sum of both radii
+  constexpr double kLargestArm = 1e4;  // times the sum of both radii
   section.require(to <= kLargestArm * both_radii, "to",
                   "is {}; it must be at most {} times the sum of both radii, {}", to, kLargestArm,
                   kLargestArm * both_radii);
@@ -91,14 +92,15 @@ void read_grid(const case_file::TomlSection& section, std::string_view key, Swim
                   "has {} tables; it must have {}, one for each arm, or be one table for all arms",
                   tables.size(), arms);
   for (std::size_t k = 0; k < arms; ++k) c.gaps.push_back(read_arm_gaps(tables[k], radii, k));
-  // Free choice: at the 2 to 17 s that a row of data/tables/three_spheres.csv took, days.
+  // Free choice: with 2 to 17 s for a row, as in data/tables/three_spheres.csv, these take days.
   constexpr double kMostRows = 100000;
   section.require(rows_of(c) <= kMostRows, key,
                   "makes a table of {} rows; at most {} are allowed, so take a smaller count",
                   rows_of(c), kMostRows);
 }
 
-/// Reads `table`: a file with a table of resistance matrices, which is scaled to the spheres.
+/// Reads `table`: a file with a table of resistance matrices, which is scaled to radii and
+/// viscosity of the case.
 void read_given_table(const case_file::TomlSection& section, std::string_view key, SwimmerCase& c) {
   for (const auto* other : {"arms", "relative_accuracy"})
     section.require(!section.has(other), other, "must be left out, because `table` gives a table");
@@ -131,7 +133,7 @@ void read_tube(const case_file::TomlSection& section, std::string_view key, Swim
   auto& tube = c.spheres.tube.emplace();
   case_file::read_keys(table, tube_keys, tube);
   const auto& radii = c.spheres.radii;
-  constexpr double kNarrowest = 1.01, kWidest = 1e3;  // divided by the largest radius
+  constexpr double kNarrowest = 1.01, kWidest = 1e3;  // times the largest radius
   const double largest = std::ranges::max(radii);
   table.require(tube.radius >= kNarrowest * largest && tube.radius <= kWidest * largest, "radius",
                 "is {}; it must be {} to {} times the largest radius of the spheres, {}, or the "
@@ -176,10 +178,11 @@ void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
                c.table.container, around);
 }
 
-/// What is wrong with the length [L] of arm k, if it leaves the table; empty if nothing is.
+/// What is wrong with the length [L] of arm k if it is outside the table; empty if it is inside.
 std::string fault_of_arm(double arm, std::size_t k, const SwimmerCase& c) {
   const double both_radii = c.spheres.radii[k] + c.spheres.radii[k + 1];
   const double from = c.gaps[k].front() + both_radii, to = c.gaps[k].back() + both_radii;
+  // Relative; an arm is a gap plus two radii, which may be rounded.
   constexpr double kRounding = 1e-12;
   if (arm >= from * (1 - kRounding) && arm <= to * (1 + kRounding)) return "";
   if (!(arm > both_radii))
@@ -193,7 +196,7 @@ std::string fault_of_arm(double arm, std::size_t k, const SwimmerCase& c) {
       k + 1, arm, from, to);
 }
 
-/// One number for each arm, or one number for all of them.
+/// Reads one number for each arm, or one number for all of them.
 void read_arms(const case_file::TomlSection& section, std::string_view key, Eigen::VectorXd& place,
                const SwimmerCase& c, const Allowed& allowed) {
   const auto arms = static_cast<Eigen::Index>(c.gaps.size());
@@ -213,7 +216,7 @@ void check_arms(const case_file::TomlSection& section, std::string_view key,
       section.fail(key, fault);
 }
 
-/// Reads a CSV file with the columns time, x1, x2, ...
+/// Reads a stroke from a CSV file with the columns time, x1, x2, ...
 void read_samples(const case_file::TomlSection& section, std::string_view key, double,
                   SwimmerCase& c) {
   section.require(!section.has("period"), "period",
@@ -269,8 +272,8 @@ void read_corners(const case_file::TomlSection& section, std::string_view key, d
   c.stroke = polygon_stroke(corners, period);
 }
 
-/// The loop of the arms centre + semi_axes cos(t + phases), with t from 0 to 2 pi; one number for
-/// each arm, [L] but for the phases [rad].
+/// The arms centre + semi_axes cos(t + phases), with t from 0 to 2 pi: one number for each arm, [L]
+/// and for the phases [rad].
 struct Ellipse {
   Eigen::VectorXd centre, semi_axes, phases;
 };

@@ -1,7 +1,7 @@
 // The case of a swimmer (TOML, docs/case-file.md): spheres on a line, the table of their resistance
-// matrices, and the strokes that are computed with it. Lengths, masses and times are in any
-// consistent units. Keys are declared in swimmer_case.cpp (keys.hpp). The stage of a swimmer and
-// its sweeps read it. A change must keep accepting the cases that users have written.
+// matrices (forces per velocity), and the strokes that are computed with it. Lengths, masses and
+// times are in any consistent units. Keys are declared in swimmer_case.cpp (keys.hpp). swimmer/,
+// app/ and python/ read it. A change must keep accepting the cases that users have written.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,8 @@
 
 namespace viscontact::swimmer {
 
-/// Content of a case file of a swimmer: spheres in a line, connected by arms.
+/// Content of a case file of a swimmer: spheres on a line, connected by arms that change their
+/// lengths.
 struct SwimmerCase {
   std::string title;  ///< a title for pages; may be empty
   Units units{};      ///< words for pages; may be empty
@@ -33,9 +34,9 @@ struct SwimmerCase {
   std::vector<std::vector<double>> gaps;
   /// The stroke that the swimmer makes; nothing if the file has no section [stroke].
   std::optional<Stroke> stroke;
-  /// What the optimal stroke must achieve; nothing if the file has no section [optimal].
+  /// What the stroke of least energy must achieve; nothing if the file has no section [optimal].
   std::optional<OptimalStrokeRequest> optimal;
-  double optimal_period = 1;                        ///< of the optimal stroke [T], > 0
+  double optimal_period = 1;                        ///< period of the optimal stroke [T], > 0
   std::string text;                                 ///< content of the file
   std::filesystem::path path;                       ///< the case file
   std::vector<std::filesystem::path> stroke_files;  ///< files from which the stroke was read

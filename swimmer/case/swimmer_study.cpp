@@ -1,6 +1,6 @@
-// Computes the strokes of a sweep (swimmer_study.hpp). Numbers are in the units of the case. A key
-// that changes no row is an Error(kWrongUsage); a stroke that fails leaves its columns empty. A
-// change must keep the names of the columns, which users' scripts read.
+// Computes the strokes of a sweep (swimmer_study.hpp). Numbers are in the units of the case. Used
+// by the command `sweep`. A key that cannot be varied is an Error(kWrongUsage); a stroke that fails
+// leaves its columns empty. A change must keep the names of the columns, which users' scripts read.
 #include "viscontact/swimmer/case/swimmer_study.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +27,8 @@ void add_sums(const std::string& prefix, const SwimSums& sums, sweep::RowResults
   results.values[prefix + "efficiency"] = sums.efficiency;
 }
 
-/// Throws Error(kWrongUsage) if the key is not one of a stroke or the viscosity.
+/// Throws Error(kWrongUsage) unless the key is the viscosity or one of [stroke] or [optimal]; other
+/// keys would need another fit.
 void check_swimmer_key(const std::string& key) {
   if (key.starts_with("stroke.") || key.starts_with("optimal.") || key == "fluid.viscosity") return;
   throw Error(ErrorKind::kWrongUsage,

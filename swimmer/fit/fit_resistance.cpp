@@ -1,7 +1,9 @@
-// Subtracts the lubrication from each resistance matrix R, and takes the logarithm S of the rest: R
-// = mu (R_lub + l exp S), with the viscosity mu and the largest radius l (resistance_fit.hpp).
+// Subtracts the lubrication R_lub between neighbouring spheres from each resistance matrix R of a
+// table, and takes the logarithm S of the rest: R = mu (R_lub + l exp S), with the viscosity mu and
+// the largest radius l (resistance_fit.hpp). The fit is the polynomial through the S of all rows.
 // Numbers are in the units of the table. Rows that are missing or stand twice are an
-// Error(kBadInput). A change must keep the random signs, and so the error estimates.
+// Error(kBadInput). Used by swimmer/job and python/. A change must keep the random signs of
+// change_by_estimates(), on which the error estimates depend.
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 
 #include <fmt/format.h>
@@ -25,9 +27,10 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr std::size_t kFewestNodes = 3;
+constexpr std::size_t kFewestNodes = 3;  // so that two remain if one is left out
 
-/// The values of each gap, rising.
+/// The values of each gap in the table, rising: the nodes of the polynomials. Throws
+/// Error(kBadInput) if a gap has fewer than three.
 std::vector<std::vector<double>> nodes_of(const ResistanceTable& table) {
   auto nodes = gap_grid(table);
   for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -39,7 +42,8 @@ std::vector<std::vector<double>> nodes_of(const ResistanceTable& table) {
   return nodes;
 }
 
-/// The rows in the order of the fit's nodes. Throws Error(kBadInput) if one is missing or too many.
+/// The rows in the order of ResistanceFit::logarithms. Throws Error(kBadInput) if a combination of
+/// gaps is missing or stands twice.
 std::vector<ResistanceRow> sorted_rows(const ResistanceTable& table,
                                        const std::vector<std::vector<double>>& nodes) {
   std::map<std::vector<double>, ResistanceRow> rows;
@@ -56,7 +60,8 @@ std::vector<ResistanceRow> sorted_rows(const ResistanceTable& table,
   return sorted;
 }
 
-/// S, the logarithm of R/(mu l) - R_lub/l. Nothing if this matrix is not positive definite.
+/// S, the logarithm of R/(mu l) - R_lub/l, where R_lub has `terms` terms. Nothing if this matrix is
+/// not positive definite.
 std::optional<MatrixXd> logarithm_of(const ResistanceRow& row, const ResistanceTable& table,
                                      int terms) {
   const double unit_length = std::ranges::max(table.radii);
@@ -69,6 +74,7 @@ std::optional<MatrixXd> logarithm_of(const ResistanceRow& row, const ResistanceT
                   eigen.eigenvectors().transpose());
 }
 
+/// R = mu (R_lub + l exp S) for S = `logarithm`.
 MatrixXd matrix_from(const MatrixXd& logarithm, const std::vector<double>& gaps,
                      const ResistanceTable& table, int terms) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(logarithm);
@@ -80,13 +86,14 @@ MatrixXd matrix_from(const MatrixXd& logarithm, const std::vector<double>& gaps,
                   .eval());
 }
 
-/// The value to which the relative error of R_ij refers (ResistanceRow::relative_error_estimates).
+/// The value of which the relative error of R_ij is a fraction
+/// (ResistanceRow::relative_error_estimates).
 double entry_scale(const MatrixXd& matrix, Index i, Index j) {
-  constexpr double kLeastShare = 1e-3;
+  constexpr double kLeastShare = 1e-3;  // of sqrt(R_ii R_jj)
   return std::max(std::abs(matrix(i, j)), kLeastShare * std::sqrt(matrix(i, i) * matrix(j, j)));
 }
 
-/// The largest relative difference of an entry.
+/// The largest relative difference of an entry of two matrices.
 double relative_difference(const MatrixXd& fitted, const MatrixXd& exact) {
   double largest = 0;
   for (Index i = 0; i < exact.rows(); ++i)
@@ -95,7 +102,7 @@ double relative_difference(const MatrixXd& fitted, const MatrixXd& exact) {
   return largest;
 }
 
-/// Adds to each entry of the matrices its error estimate with a random sign.
+/// Adds to each entry of the row's matrix its error estimate with a random sign.
 void change_by_estimates(ResistanceRow& row, SplitMix64& random) {
   const std::size_t spheres = row.gaps.size() + 1;
   const MatrixXd matrix = matrix_of(row, spheres);
@@ -108,7 +115,8 @@ void change_by_estimates(ResistanceRow& row, SplitMix64& random) {
     }
 }
 
-/// Barycentric weights of the nodes 1/(gap + a + b), with the radii a and b.
+/// Barycentric weights of the inverse distances of centres 1/(gap + a + b) at the nodes of gap k,
+/// with the radii a and b.
 Eigen::VectorXd weights_of(const ResistanceFit& fit, std::size_t k) {
   Eigen::VectorXd inverse(static_cast<Index>(fit.gaps[k].size()));
   for (std::size_t i = 0; i < fit.gaps[k].size(); ++i)
@@ -116,7 +124,7 @@ Eigen::VectorXd weights_of(const ResistanceFit& fit, std::size_t k) {
   return barycentric_weights(inverse);
 }
 
-/// Calls `use` with the numbers of the logarithms on each line of nodes along gap k.
+/// Calls `use` with the indices of the matrices S on each line of the grid of nodes along gap k.
 template <class Use>
 void for_each_line(const ResistanceFit& fit, std::size_t k, const Use& use) {
   std::size_t inner = 1;
@@ -130,7 +138,7 @@ void for_each_line(const ResistanceFit& fit, std::size_t k, const Use& use) {
     }
 }
 
-/// sum_i weights_i S_i on a line: 0 for polynomials of a degree below the number of nodes less one.
+/// sum_i weights_i S_i on a line of n nodes. It is 0 if S is a polynomial of degree n - 2 or less.
 MatrixXd weighted_sum(const ResistanceFit& fit, const Eigen::VectorXd& weights,
                       const std::vector<std::size_t>& line) {
   MatrixXd sum = MatrixXd::Zero(fit.logarithms[0].rows(), fit.logarithms[0].cols());
@@ -139,8 +147,8 @@ MatrixXd weighted_sum(const ResistanceFit& fit, const Eigen::VectorXd& weights,
   return sum;
 }
 
-/// Sets the residual and the leave-one-out errors. The polynomial through all nodes of a line but i
-/// has at node i the value S_i - sum_j w_j S_j / w_i, with the barycentric weights w.
+/// Sets the residual of the fit and its leave-one-out errors. The polynomial through all nodes of a
+/// line but i has at node i the value S_i - (sum_j w_j S_j)/w_i, with the barycentric weights w.
 void measure_errors(ResistanceFit& fit, const ResistanceTable& table,
                     const std::vector<ResistanceRow>& rows) {
   const std::size_t spheres = fit.radii.size();
@@ -171,8 +179,8 @@ void measure_errors(ResistanceFit& fit, const ResistanceTable& table,
   fit.rms_left_one_out_error = std::sqrt(squares / static_cast<double>(count));
 }
 
-/// The fit with `terms` terms of lubrication, without its errors. Nothing if a matrix minus its
-/// lubrication is not positive definite.
+/// The fit with `terms` terms of lubrication, without its errors. Nothing if a matrix of the table
+/// minus its lubrication is not positive definite.
 std::optional<ResistanceFit> fit_with(const ResistanceTable& table, int terms,
                                       const std::vector<ResistanceRow>& rows) {
   ResistanceFit fit;
@@ -207,8 +215,8 @@ ResistanceFit fit_resistance(const ResistanceTable& table) {
 
 PerturbedFits perturbed_fits(const ResistanceTable& table, const ResistanceFit& fit) {
   PerturbedFits perturbed;
-  // With the barycentric weights w, S - w (w.S)/(w.w) is the least-squares polynomial whose degree
-  // is one less, because on the nodes w is orthogonal to all polynomials of that degree.
+  // With the barycentric weights w, S - w (w.S)/(w.w) is the least-squares polynomial of one degree
+  // less, because on the nodes w is orthogonal to all polynomials of that degree.
   for (std::size_t k = 0; k < fit.gaps.size(); ++k) {
     const auto weights = weights_of(fit, k);
     auto lower = fit;
@@ -226,7 +234,8 @@ PerturbedFits perturbed_fits(const ResistanceTable& table, const ResistanceFit& 
     SplitMix64 random(draw);
     auto changed = rows;
     for (auto& row : changed) change_by_estimates(row, random);
-    // An error as large as an eigenvalue leaves no fit; then the error estimates say nothing.
+    // Errors as large as an eigenvalue make the matrix indefinite; then there is no fit, and this
+    // draw is left out.
     if (auto fitted = fit_with(table, fit.lubrication_terms, changed))
       perturbed.table_errors.push_back(std::move(*fitted));
   }

@@ -1,7 +1,8 @@
-// The page of a swimmer: tables, curves over time, and loops over the map of the displacement per
-// area. Numbers are in the units of the case. A gnuplot that fails is an Error(kExternalProgram).
-// kPictureNames must contain the name of every picture, because it decides which files in plots/
-// may be replaced or removed.
+// The page of a swimmer: tables, curves over time, and the loops of strokes in the plane of two
+// arms, over a map of the displacement per area (displacement_curl). Numbers are in the units of
+// the case. A gnuplot that fails is an Error(kExternalProgram). Used by swimmer_stage.cpp. A change
+// must list every picture in kPictureNames, which decides which files in plots/ may be replaced or
+// removed.
 #include "viscontact/swimmer/job/swimmer_page.hpp"
 
 #include <fmt/format.h>
@@ -25,8 +26,8 @@ constexpr auto kPictureNames = std::to_array<std::string_view>(
 
 using Points = std::vector<std::pair<double, double>>;
 
-// Places of the curves of the page in kCurveColours: the two strokes, then the arms, of which there
-// is one less than spheres, the spheres, and other curves.
+// Indices of the colours of curves in kCurveColours: the two strokes, then the arms, of which there
+// is one less than spheres, then the spheres, then other curves.
 constexpr std::size_t kStroke = 0, kOptimalStroke = 1, kFirstArm = 2;
 std::size_t first_sphere(const SwimmerResults& results) {
   return kFirstArm + results.c.spheres.radii.size() - 1;
@@ -35,9 +36,9 @@ std::size_t place_after_spheres(const SwimmerResults& results) {
   return first_sphere(results) + results.c.spheres.radii.size();
 }
 
-/// log10 of the displacement per area on the whole table.
+/// log10 of the displacement per area of a small loop, for all pairs of arms of the table.
 report::ColourField curl_field(const Swimmer& swimmer) {
-  constexpr std::size_t kPixels = 200;  // each way; finer than the eye sees in a smooth field
+  constexpr std::size_t kPixels = 200;  // along each axis; a smooth field needs no more
   const auto [left, right] = swimmer.arm_interval(0);
   const auto [bottom, top] = swimmer.arm_interval(1);
   report::ColourField field{kPixels, kPixels, left, right, bottom, top, {}};
@@ -73,7 +74,8 @@ std::vector<ShownStroke> strokes_of(const SwimmerResults& results) {
   return strokes;
 }
 
-/// A curve over time for each stroke: the time is in periods, so that strokes can be compared.
+/// A panel with a curve over time for each stroke. Time is divided by the period, so that strokes
+/// can be compared.
 template <class Value>
 report::PlotPanel panel_of_strokes(const SwimmerResults& results, const std::string& title,
                                    const std::string& label, const Value& value) {
@@ -87,8 +89,8 @@ report::PlotPanel panel_of_strokes(const SwimmerResults& results, const std::str
   return panel;
 }
 
-/// Panels with a curve for each component of a vector, one panel for each stroke. `place` is the
-/// place of the first component's colour.
+/// A plot with one panel for each stroke, which has a curve for each component of a vector. `place`
+/// is the index of the first component's colour.
 template <class Values>
 report::Plot plot_of_components(const SwimmerResults& results, const std::string& name,
                                 const std::string& title, const std::string& label,
@@ -115,8 +117,9 @@ report::Plot plot_of_components(const SwimmerResults& results, const std::string
   return plot;
 }
 
-/// By how much the energy with fewer polynomials exceeds that with most of them, and the residuals
-/// of Euler and Lagrange's equation. `place` is the place of the first curve's colour.
+/// A plot of the relative excess of the energy with fewer polynomials over that with the most, and
+/// of the residuals of Euler and Lagrange's equation. `place` is the index of the first curve's
+/// colour.
 report::Plot plot_convergence(const std::vector<OptimalStrokeStep>& steps, std::size_t place) {
   report::PlotPanel panel{"Convergence of the optimal stroke",
                           {"polynomials for each arm"},
@@ -131,7 +134,7 @@ report::Plot plot_convergence(const std::vector<OptimalStrokeStep>& steps, std::
   for (const auto& step : steps) {
     const double excess = step.energy / steps.back().energy - 1;
     const auto count = static_cast<double>(step.polynomials);
-    // Differences below this are round-off, which a logarithmic axis would show as noise.
+    // Smaller differences are round-off, which a logarithmic axis would show as noise.
     constexpr double kRoundOff = 1e-13;
     if (excess > kRoundOff) energy.points.emplace_back(count, excess);
     residual.points.emplace_back(count, step.euler_lagrange_residual);
@@ -140,8 +143,8 @@ report::Plot plot_convergence(const std::vector<OptimalStrokeStep>& steps, std::
   return {"convergence", 400, {panel}};
 }
 
-/// The distance of tics, 1, 2 or 5 times a power of ten, so that at most seven are in the range.
-/// gnuplot's own tics are so close that their numbers overlap if they have many digits.
+/// The distance of tics, 1, 2 or 5 times a power of ten, with which at most seven tics are in the
+/// range. gnuplot's own tics are so close that their numbers overlap if they have many digits.
 double tic_step(double range) {
   const double least = range / 6;
   const double power = std::pow(10, std::floor(std::log10(least)));
@@ -150,8 +153,8 @@ double tic_step(double range) {
   return 10 * power;
 }
 
-/// The loops in the plane of the two arms, over the displacement of a small loop there per area
-/// (displacement_curl), as an SVG.
+/// The loops in the plane of the two arms, over a map of the displacement per area of a small loop
+/// there, as an SVG.
 std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
   const Swimmer swimmer(results.fit);
   const auto length = results.c.units.in_brackets(0, 1, 0);
@@ -181,8 +184,8 @@ std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
   return report::draw_svg({panel}, 760, 700, stop);
 }
 
-/// Position of the middle sphere, arms, power and forces over time, for each stroke that there is,
-/// and the convergence of the optimal one.
+/// Plots of the position of the middle sphere, power, arms and forces over time, for each stroke
+/// that there is, and of the convergence of the optimal one.
 std::vector<report::Plot> swimmer_plots(const SwimmerResults& results) {
   std::vector<report::Plot> plots;
   if (strokes_of(results).empty()) return plots;
@@ -212,7 +215,7 @@ std::string with_error(double value, double error) {
   return fmt::format("{:.9g} &plusmn; {:.1g}", value, error);
 }
 
-/// The sums of all strokes, one column each.
+/// The table (HTML) of displacement, energy and efficiency, with a column for each stroke.
 std::string strokes_table(const SwimmerResults& results) {
   const auto strokes = strokes_of(results);
   std::string head = "<tr><th></th>";
@@ -299,7 +302,7 @@ std::string files_words(const SwimmerResults& results) {
   return text + ".</p>\n";
 }
 
-/// The section with the loops; empty if they are not drawn.
+/// The section (HTML) with the loops; empty if they are not drawn.
 std::string loops_section(const report::Report& report) {
   const auto loops = report.figures({"loops"});
   return report::section("Loops in the plane of the arms",

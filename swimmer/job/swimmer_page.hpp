@@ -1,6 +1,6 @@
-// The report of a swimmer: a page with pictures and tables. Lengths, masses and times are in the
-// units of the case. The stage of a swimmer calls it. A change must keep the names of the pictures,
-// so that those of earlier runs are replaced.
+// The report of a swimmer (spheres on a line that change their distances): a page with pictures and
+// tables. Lengths, masses and times are in the units of the case. swimmer_stage.cpp calls it. A
+// change must keep the names of the pictures, so that those of earlier runs are replaced.
 #pragma once
 
 #include <filesystem>
@@ -22,28 +22,30 @@ struct StrokeResult {
   double period = 0;          ///< [T], > 0
   SwimSums sums;              ///< displacement, energy and efficiency of a period
   SwimErrors errors;          ///< estimates of their errors
-  std::vector<SwimRow> rows;  ///< over one period, in order of time
+  std::vector<SwimRow> rows;  ///< state at times of one period, in order of time
 };
 
 /// What a run of a swimmer has computed.
 struct SwimmerResults {
-  SwimmerCase c;
-  ResistanceTable table;
-  ResistanceFit fit;
+  SwimmerCase c;                        ///< the case
+  ResistanceTable table;                ///< resistance matrices of its spheres
+  ResistanceFit fit;                    ///< fit of the table
   std::optional<StrokeResult> stroke;   ///< of the section [stroke]; nothing if there is none
   std::optional<StrokeResult> optimal;  ///< of the section [optimal]; nothing if there is none
-  /// How the search for the optimal stroke converged, with the energies of the case's period; empty
-  /// without an optimal stroke.
+  /// How the search for the stroke of least energy converged, with energies in the period of the
+  /// case; empty without an optimal stroke.
   std::vector<OptimalStrokeStep> convergence;
   /// Derivative of the least energy by the displacement [M L/T^2]; 0 without an optimal stroke.
   double energy_per_displacement = 0;
 };
 
-/// Throws Error(kBadInput) if the report would replace a file in `folder` that is not Viscontact's.
+/// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not
+/// write.
 void check_swimmer_report(const std::filesystem::path& folder);
 
 /// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no
-/// still pictures, and a warning says so; throws Error(kExternalProgram) if gnuplot fails.
+/// still pictures, and a warning says so. Throws Error(kExternalProgram) if gnuplot fails, and
+/// Error(kInterrupted) if `stop` requests a stop.
 void write_swimmer_report(const SwimmerResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop);
 

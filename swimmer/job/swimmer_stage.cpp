@@ -1,6 +1,7 @@
-// Runs the stages of a swimmer one after the other (swimmer_stage.hpp). Numbers are in the units of
-// the case. A change must keep the keys of swimmer.json and the columns of stroke.csv, which are in
-// docs/file-formats.md. Errors are those of swimmer_stage.hpp.
+// Runs the stages of a swimmer one after the other (swimmer_stage.hpp): the table of resistance
+// matrices, its fit, the strokes, the page. Numbers are in the units of the case. A wrong case and
+// a file of the user in the way are an Error(kBadInput). Used by app/ and python/. A change must
+// keep the keys of swimmer.json and the columns of stroke.csv, which are in docs/file-formats.md.
 #include "viscontact/swimmer/job/swimmer_stage.hpp"
 
 #include <fmt/format.h>
@@ -64,8 +65,10 @@ ResistanceFit fit_table(const SwimmerFolder& folder, const ResistanceTable& tabl
   return fit;
 }
 
+/// What a stroke does. `multiplier` [M L/T^2] is that of swim_errors(), 0 unless the stroke is
+/// optimal.
 StrokeResult result_of(const SwimmerResults& results, const Stroke& stroke, double multiplier) {
-  constexpr int kIntervals = 400;  // rows of stroke.csv, for smooth curves
+  constexpr int kIntervals = 400;  // about as many rows of stroke.csv; enough for smooth curves
   const Swimmer swimmer(results.fit);
   const auto sums = swim_sums(swimmer, stroke);
   const auto perturbed = perturbed_fits(results.table, results.fit);
@@ -122,7 +125,7 @@ std::string results_json(const SwimmerResults& results) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// Computes the strokes of the case.
+/// Computes the given and the optimal stroke of the case, if it has them.
 void compute_strokes(SwimmerResults& results, const StopToken& stop) {
   const std::string place = results.c.path.string();
   if (results.c.stroke)
@@ -132,7 +135,7 @@ void compute_strokes(SwimmerResults& results, const StopToken& stop) {
   terminal::show_progress("swimmer: searching for the optimal stroke");
   results.optimal = with_place(place + ": [optimal]", [&] {
     const auto search = find_optimal_stroke(Swimmer(results.fit), *results.c.optimal, stop);
-    // The search has the period 1. With another period an energy is divided by the period.
+    // The search is for a period of 1. An energy in another period is that divided by the period.
     const double period = results.c.optimal_period;
     results.energy_per_displacement = search.multiplier / period;
     results.convergence = search.convergence;
@@ -151,7 +154,7 @@ void write_stroke(const fs::path& path, const std::optional<StrokeResult>& strok
     remove_file(path);
 }
 
-/// Reads what json_of and stroke_csv wrote for a swimmer with this number of spheres.
+/// Reads what json_of() and stroke_csv() wrote for a swimmer with this number of spheres.
 StrokeResult read_stroke(const Json& json, const fs::path& path, std::size_t spheres) {
   StrokeResult stroke{json.at("period"),
                       {json.at("displacement"), json.at("energy"),
@@ -225,7 +228,7 @@ void run_swimmer(const SwimmerRequest& request) {
   if (results.c.table_file)
     results::write_output(folder.table(), TextKind::kHashComment,
                           write_resistance_table(results.c.table), of_fit);
-  else  // A table of matrices is written whole or not at all, so that no failure is returned.
+  else  // tabulate_stage() throws if a row fails, because the table needs all its rows
     (void)pipeline::tabulate_stage({case_table(results.c, folder.table())}, request.jobs,
                                    request.stop);
   request.stop.throw_if_stop_requested();

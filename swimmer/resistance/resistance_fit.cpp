@@ -1,6 +1,7 @@
 // Evaluates the lubrication of pairs, and R = mu (R_lub + l exp(S)) with its derivatives
 // (resistance_fit.hpp). mu is the viscosity, l the largest radius. Numbers are in the units of the
-// fit. Gaps outside the table are an Error(kBadInput). Slopes must stay the derivatives of R.
+// fit. Gaps outside the table are an Error(kBadInput). Used by shape_mechanics.cpp and swimmer/fit.
+// A change must keep that the slopes are the derivatives of R.
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +17,8 @@
 namespace viscontact::swimmer {
 namespace {
 
-/// g1, g2, g3 for the ratio of radii beta (Jeffrey & Onishi 1984).
+/// The coefficients g1, g2, g3 of pair_lubrication() for the ratio of radii `beta` > 0 [1] (Jeffrey
+/// & Onishi 1984).
 std::array<double, kLubricationTerms> coefficients(double beta) {
   const double sum3 = std::pow(1 + beta, 3);
   return {2 * beta * beta / sum3, beta * (1 + 7 * beta + beta * beta) / (5 * sum3),
@@ -24,7 +26,8 @@ std::array<double, kLubricationTerms> coefficients(double beta) {
               (42 * sum3)};
 }
 
-/// Adds what spheres k and k + 1 resist a change of their gap to the matrix of all spheres.
+/// Adds to the matrix of all spheres the resistance of spheres k and k + 1 against a change of
+/// their gap.
 void add_pair(Eigen::MatrixXd& matrix, std::size_t k, double resistance) {
   const auto i = static_cast<Eigen::Index>(k);
   matrix(i, i) += resistance;
@@ -79,7 +82,7 @@ std::vector<Eigen::VectorXd> inverse_distances(const ResistanceFit& fit) {
   return nodes;
 }
 
-/// The entries on and above the diagonal of each matrix, one column for each.
+/// The entries on and above the diagonal of each matrix; column m belongs to matrix m.
 Eigen::MatrixXd columns_of(const std::vector<Eigen::MatrixXd>& matrices) {
   const auto spheres = matrices.front().rows();
   Eigen::MatrixXd columns(spheres * (spheres + 1) / 2, static_cast<Eigen::Index>(matrices.size()));
@@ -100,7 +103,8 @@ Eigen::MatrixXd symmetric_matrix(const Eigen::VectorXd& entries, Eigen::Index sp
   return matrix;
 }
 
-/// The divided difference (exp a - exp b)/(a - b) of exp, which is exp a for a = b.
+/// The divided difference (exp a - exp b)/(a - b) of exp, which is exp a for a = b. For |a - b| <
+/// 2e-4 the next term of the series of sinh is below round-off.
 double divided_difference_of_exp(double a, double b) {
   const double half = (a - b) / 2;
   const double ratio = std::abs(half) < 1e-4 ? 1 + half * half / 6 : std::sinh(half) / half;
@@ -119,7 +123,7 @@ FittedResistance::FittedResistance(const ResistanceFit& fit)
 }
 
 bool FittedResistance::contains(std::span<const double> gaps) const {
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = 1e-12;  // relative; gaps are rounded differences of arms and radii
   for (std::size_t k = 0; k < gaps.size(); ++k)
     if (!(gaps[k] >= intervals_[k][0] * (1 - kRounding) &&
           gaps[k] <= intervals_[k][1] * (1 + kRounding)))
@@ -160,7 +164,7 @@ ResistanceWithSlopes FittedResistance::operator()(std::span<const double> gaps) 
        unit_length_ * (q * s.array().exp().matrix().asDiagonal() * q.transpose()).eval());
   for (std::size_t k = 0; k < gaps.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k) + 1;
-    // The polynomials are in t = 1/(distance of centres), so that d/dgap = -t^2 d/dt.
+    // The polynomials are functions of t = 1/(distance of centres), so that d/dgap = -t^2 d/dt.
     const Eigen::MatrixXd slope =
         -inverse[k] * inverse[k] * symmetric_matrix(logarithm.col(column), spheres);
     Eigen::MatrixXd matrix =

@@ -1,8 +1,8 @@
-// A fit of the resistance matrix R of spheres on a line as a function of the gaps between them
-// (physics.md, section 7), the formula of the lubrication between neighbours that is a part of R,
-// and the evaluation of R. Lengths, masses and times are in the units of the table.
-// swimmer/fit/fit_resistance.hpp makes a fit, and the mechanics of the swimmer evaluates it. A
-// change must keep
+// A fit of the resistance matrix R (forces on the fluid per velocity) of spheres on a line, as a
+// function of the gaps between them (physics.md, section 7), the formula of the lubrication between
+// neighbours that is a part of R, and the evaluation of R. Lengths, masses and times are in the
+// units of the table. swimmer/fit/fit_resistance.hpp makes a fit, and shape_mechanics.hpp evaluates
+// it. A change must keep
 // - the keys of the file, which other programs may read;
 // - the formula of the lubrication, because files of fits contain only the rest of R;
 // - R symmetric and positive definite.
@@ -23,17 +23,17 @@
 
 namespace viscontact::swimmer {
 
-/// The most terms of pair_lubrication.
+/// The largest number of terms of pair_lubrication().
 inline constexpr int kLubricationTerms = 3;
 
-/// The singular part of the resistance of two spheres, radii a and b [L] > 0 and surfaces at the
-/// distance gap [L] > 0, against a change of their distance, over the viscosity [L]:
+/// The singular part of the resistance of two spheres of radii a and b [L] > 0, whose surfaces are
+/// at the distance gap [L] > 0, against a change of this gap, over the viscosity [L]:
 ///
 ///   6 pi a [ g1/xi + g2 ln(1 + 1/xi) + g3 xi ln(1 + 1/xi) ],   xi = 2 gap/(a + b),
 ///
 /// with g1, g2, g3 of Jeffrey & Onishi 1984 (J. Fluid Mech. 139, 261, equation (3.17) for X11A).
 /// Their ln(1/xi) is replaced by ln(1 + 1/xi), which has the same singularity and stays positive.
-/// The value is symmetric in a and b. The first `terms` of the three are added, 0 to
+/// The value is symmetric in a and b. It is the sum of the first `terms` of the three terms, 0 to
 /// kLubricationTerms.
 double pair_lubrication(double a, double b, double gap, int terms);
 
@@ -47,11 +47,10 @@ Eigen::MatrixXd lubrication_matrix(std::span<const double> radii, std::span<cons
 double pair_lubrication_slope(double a, double b, double gap, int terms);
 
 /// R = mu (R_lub + l exp(S)), physics.md (7.2), with the viscosity mu and the largest radius l.
-/// R_lub [L] is the lubrication between neighbours, lubrication_matrix(), which is known: singular
-/// at contact and positive semidefinite. S [1] is symmetric, and each of its entries is a
-/// polynomial in t_k = 1/(gap_k + a_k + a_{k+1}), the inverse distance of the centres of spheres k
-/// and k + 1 with radii a_k and a_{k+1}. Therefore R is symmetric and positive definite for any
-/// polynomials.
+/// R_lub [L] is lubrication_matrix(), which is known: singular at contact and positive
+/// semidefinite. S [1] is symmetric, and each of its entries is a polynomial in t_k = 1/(gap_k +
+/// a_k + a_{k+1}), the inverse distance of the centres of spheres k and k + 1 with radii a_k and
+/// a_{k+1}. Therefore R is symmetric and positive definite for any polynomials.
 struct ResistanceFit {
   double viscosity = 0;       ///< mu [M/(L T)], > 0
   std::vector<double> radii;  ///< of the spheres along the line [L], > 0
@@ -65,19 +64,19 @@ struct ResistanceFit {
   /// S at all combinations of nodes [1]; the last gap changes fastest.
   std::vector<Eigen::MatrixXd> logarithms;
   /// Largest |R_ij fitted / R_ij - 1| of the table's rows, >= 0. It is round-off, because the
-  /// polynomials interpolate. The error of an entry below 1e-3 sqrt(R_ii R_jj) is relative to this
-  /// value instead, as in ResistanceRow::relative_error_estimates.
+  /// polynomials go through all rows. The error of an entry below 1e-3 sqrt(R_ii R_jj) is relative
+  /// to this value instead, as in ResistanceRow::relative_error_estimates.
   double largest_relative_residual = 0;
-  /// Relative errors with which the fit would predict a row if the row were left out of it, >= 0.
-  /// A row is predicted from the rows that differ from it in one gap only.
-  double largest_left_one_out_error = 0,        ///< the largest
-      rms_left_one_out_error = 0;               ///< the root mean square
+  /// Relative errors with which a fit of the other rows would predict a row, >= 0. Only those rows
+  /// are used that differ from it in one gap.
+  double largest_left_one_out_error = 0,        ///< the largest such error
+      rms_left_one_out_error = 0;               ///< their root mean square
   std::string table_sha256;                     ///< checksum of the table file; may be empty
   std::map<std::string, std::string> versions;  ///< program name to version
 };
 
 /// The fit for spheres of other radii [L] > 0 in the same ratios, and another viscosity [M/(L T)] >
-/// 0. R/(mu l) depends on the gaps in units of l alone. Throws Error(kBadInput) if the ratios
+/// 0: R/(mu l) depends on the gaps in units of l alone. Throws Error(kBadInput) if the ratios
 /// differ.
 ResistanceFit scaled_to(ResistanceFit fit, double viscosity, const std::vector<double>& radii);
 
@@ -88,8 +87,8 @@ std::string write_resistance_fit(const ResistanceFit& fit);
 ResistanceFit read_resistance_fit(const std::filesystem::path& path);
 
 /// `count` >= 2 rising distances of centres from `from` to `to` [L], 0 < from < to: the extrema of
-/// a Chebyshev polynomial in 1/distance, at which polynomials in 1/distance interpolate well
-/// (ResistanceFit). Both ends are among them.
+/// a Chebyshev polynomial in 1/distance, at which polynomials in 1/distance (ResistanceFit)
+/// interpolate well. Both ends are among them.
 inline std::vector<double> chebyshev_arms(double from, double to, int count) {
   std::vector<double> arms;
   for (int i = 0; i < count; ++i) {
@@ -101,7 +100,7 @@ inline std::vector<double> chebyshev_arms(double from, double to, int count) {
   return arms;
 }
 
-/// R and its derivatives.
+/// R and its derivatives by the gaps.
 struct ResistanceWithSlopes {
   Eigen::MatrixXd value;                ///< R [M/T], symmetric and positive definite
   std::vector<Eigen::MatrixXd> slopes;  ///< dR/dgap_k [M/(L T)] for each gap

@@ -1,6 +1,7 @@
-// The fields of the file of a ResistanceFit (docs/file-formats.md). Lengths, masses and times are
-// in the units of the table. Every fault is an Error(kBadInput) with line and key. A change must
-// keep earlier files readable. Used by swimmer/job/.
+// The fields of the file of a ResistanceFit (docs/file-formats.md), and the fit of scaled spheres.
+// Lengths, masses and times are in the units of the table. Every fault of a file is an
+// Error(kBadInput) with line and key. The functions are declared in resistance_fit.hpp;
+// swimmer/job, app/ and python/ use them. A change must keep earlier files readable.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // The columns of a table of resistance matrices (resistance_table.hpp, docs/file-formats.md).
 // Numbers are in the units of the table. A matrix that is not positive definite is an
-// Error(kBadInput). A change must keep the names of the columns.
+// Error(kBadInput). Used by the other folders of swimmer/. A change must keep the names of the
+// columns, which published tables have.
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +21,8 @@ using lubrication::Column;
 using lubrication::IfAbsent;
 using lubrication::TableHead;
 
-/// "12", or "9_10" if a number has two digits. i and j count from 0.
+/// The numbers of two spheres in the name of a column: "12", or "9_10" if one has two digits. The
+/// arguments i and j count from 0, the numbers from 1.
 std::string pair_name(std::size_t i, std::size_t j) {
   return fmt::format("{}{}{}", i + 1, std::max(i, j) >= 9 ? "_" : "", j + 1);
 }

@@ -1,7 +1,7 @@
 // The table of resistance matrices of rigid spheres on a line, over the gaps between them
-// (physics.md, section 7). Lengths, masses and times are in the units of the table. The tabulation
-// writes it and fit_resistance.hpp reads it. A change must keep the names of the columns, which
-// published tables have.
+// (physics.md, section 7). Lengths, masses and times are in the units of the table.
+// swimmer/tabulation writes it and the other folders of swimmer/ read it. A change must keep the
+// names of the columns, which published tables have.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,8 +16,8 @@
 
 namespace viscontact::swimmer {
 
-/// The matrix at one set of gaps: F_i = sum_j R_ij U_j, with F_i the force of sphere i on the fluid
-/// [M L/T^2] and U_j the velocity of sphere j [L/T], both along the line.
+/// The matrix R at one set of gaps: F_i = sum_j R_ij U_j, with F_i the force of sphere i on the
+/// fluid [M L/T^2] and U_j the velocity of sphere j [L/T], both along the line.
 struct ResistanceRow {
   static constexpr bool kIsOfLine = true;  ///< the head of the table has several radii
   std::vector<double> gaps;  ///< gaps[i] [L], > 0: between the surfaces of spheres i and i + 1
@@ -28,8 +28,9 @@ struct ResistanceRow {
   /// smaller than 1e-3 sqrt(R_ii R_jj) are relative to this value instead.
   std::vector<double> relative_error_estimates;
   double degrees_of_freedom = 0;  ///< unknowns on the finest mesh
-  double seconds = 0;             ///< wall time of the row [s]
-  /// Observed order of convergence [1] of the entry with the largest estimate, as in MotionRow.
+  double seconds = 0;             ///< computing time of the row on a clock [s]
+  /// Order of convergence in the mesh size [1], observed in the entry with the largest estimate: 4
+  /// in theory, 0 if it was not observed.
   double observed_order = 0;
   double relative_error_estimate = 0;  ///< largest of relative_error_estimates
 };
@@ -39,17 +40,18 @@ using lubrication::kMostSpheres;
 /// A table of resistance matrices.
 using ResistanceTable = lubrication::Table<ResistanceRow>;
 
-/// Position of R_ij in ResistanceRow::entries of `spheres` spheres; i, j from 0, in any order.
+/// Position of R_ij in ResistanceRow::entries of `spheres` spheres; i and j count from 0, in any
+/// order.
 std::size_t entry_position(std::size_t i, std::size_t j, std::size_t spheres);
 
-/// The number of entries on and above the diagonal.
+/// The number of entries on and above the diagonal of the matrix of `spheres` spheres.
 inline std::size_t entry_count(std::size_t spheres) { return spheres * (spheres + 1) / 2; }
 
 /// The symmetric matrix R [M/T] of a row for `spheres` spheres.
 Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres);
 
 /// The columns of a row: gap12, gap23, ..., R11, R12, ..., R11_relative_error_estimate, ..., and
-/// how the row was computed. Two numbers of spheres are separated by "_" if one of them is 10.
+/// how the row was computed. The numbers of two spheres are separated by "_" if one of them is 10.
 std::vector<lubrication::Column> columns_of(const lubrication::TableHead& head, ResistanceRow& row);
 
 /// Gives the vectors of a row the sizes that belong to the number of radii in the head.
@@ -65,8 +67,8 @@ void check(const lubrication::TableHead& head, const ResistanceRow& row, const F
 /// The largest of the error estimates of the entries [1], 0 if there are none.
 double largest_estimate(const ResistanceRow& row);
 
-/// Reads a table, of which gaps and entries are required. Throws the errors of read_table()
-/// (table_codec.hpp) and check().
+/// Reads a table, in which the columns of gaps and entries are required. Throws the errors of
+/// read_table() (lubrication/table_codec.hpp) and check().
 ResistanceTable read_resistance_table(const std::filesystem::path& path);
 
 /// The gaps of each pair of neighbours in the table [L], rising, without repetition.
@@ -78,8 +80,8 @@ std::vector<std::vector<double>> gap_grid(const ResistanceTable& table);
 double ratio_of_radii(const std::vector<double>& radii, const std::vector<double>& other,
                       std::string_view what);
 
-/// The table for spheres of other radii [L], in a fluid of another viscosity mu' [M/(L T)] > 0.
-/// Stokes flow has no length of its own: with r' = ratio r, the matrix at the gaps ratio q is
+/// The table for spheres of other radii r' [L] > 0, in a fluid of another viscosity mu' [M/(L T)] >
+/// 0. Stokes flow has no length of its own: with r' = ratio r, the matrix at the gaps ratio q is
 /// (mu'/mu) ratio R(q). The container grows with the spheres. Throws the error of ratio_of_radii().
 ResistanceTable scaled_to(ResistanceTable table, double viscosity,
                           const std::vector<double>& radii);

@@ -1,5 +1,6 @@
-// Interpolates by the barycentric formula. Numbers have any dimension; nothing is checked or
-// thrown. A change must keep that the values at the nodes are met exactly.
+// Interpolation on a grid by the barycentric formula (tensor_polynomial.hpp). Numbers have any
+// dimension; nothing is checked or thrown. Used by resistance_fit.cpp and swimmer/fit. A change
+// must keep that the values at the nodes are met exactly.
 #include "viscontact/swimmer/resistance/tensor_polynomial.hpp"
 
 #include <cmath>
@@ -22,7 +23,8 @@ Eigen::MatrixXd differentiation_matrix(const Eigen::VectorXd& nodes,
   return matrix;
 }
 
-/// The values at x of the polynomials that are 1 at one node and 0 at the others.
+/// The values at x of the polynomials that are 1 at one node and 0 at the others, one for each
+/// node.
 Eigen::VectorXd basis_at(double x, const Eigen::VectorXd& nodes, const Eigen::VectorXd& weights) {
   Eigen::VectorXd basis(nodes.size());
   for (Eigen::Index i = 0; i < nodes.size(); ++i) {
@@ -32,7 +34,8 @@ Eigen::VectorXd basis_at(double x, const Eigen::VectorXd& nodes, const Eigen::Ve
   return basis / basis.sum();
 }
 
-/// Derivatives by variable k of values on the grid.
+/// Derivatives by variable k, at the nodes, of the polynomial through `values` on the grid.
+/// `matrix` is the differentiation matrix of variable k.
 Eigen::MatrixXd derivative_by(std::size_t k, const std::vector<Eigen::VectorXd>& nodes,
                               const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& values) {
   // A combination of nodes has the number (outer * nodes[k].size() + i) * inner + rest.

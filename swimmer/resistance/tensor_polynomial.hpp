@@ -1,6 +1,6 @@
-// Polynomials of several variables that interpolate values on a grid, with their derivatives. Fits
-// of resistance matrices are such polynomials. Numbers have any dimension; nothing is checked or
-// thrown. A change must keep that the values at the nodes are met exactly.
+// Polynomials of several variables that interpolate values on a grid, with their derivatives.
+// resistance_fit.hpp uses them. Numbers have any dimension; nothing is checked or thrown. A change
+// must keep that the values at the nodes are met exactly.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,15 +13,16 @@ namespace viscontact::swimmer {
 /// 1 (Berrut & Trefethen 2004, SIAM Review 46, 501, equation (3.2)). The nodes must differ.
 Eigen::VectorXd barycentric_weights(const Eigen::VectorXd& nodes);
 
-/// Interpolates vectors of values at all combinations of the nodes of each variable. The degree of
-/// the polynomial in a variable is one less than the number of that variable's nodes.
+/// The polynomial that has given vectors as values at all combinations of the nodes of each
+/// variable. Its degree in a variable is one less than the number of that variable's nodes.
 class TensorPolynomial {
  public:
-  /// `nodes[k]` are those of variable k, and a column of `values` belongs to each combination; the
-  /// last variable changes fastest.
+  /// `nodes[k]` are the nodes of variable k. A column of `values` belongs to each combination of
+  /// nodes; the last variable changes fastest.
   TensorPolynomial(const std::vector<Eigen::VectorXd>& nodes, const Eigen::MatrixXd& values);
 
-  /// Column 0: the values at a point; column 1 + k: their derivatives by variable k.
+  /// The values at a point, which has a number for each variable, in column 0; their derivatives by
+  /// variable k in column 1 + k.
   Eigen::MatrixXd operator()(std::span<const double> point) const;
 
  private:

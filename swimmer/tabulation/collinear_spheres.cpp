@@ -1,6 +1,8 @@
-// Calls the script collinear_spheres.edp and reads its answer. Lengths are in the unit of the case;
-// the script computes with viscosity 1, so that the matrix is multiplied by that of the case. A
-// failure of FreeFEM is an Error(kExternalProgram). A change must agree with the script.
+// Calls the FreeFEM script collinear_spheres.edp and reads its answer. Lengths are in the unit of
+// the case; the script computes with viscosity 1, so that its matrix is multiplied by the viscosity
+// of the case. A failure of FreeFEM is an Error(kExternalProgram). Used by swimmer/case and
+// resistance_table_plan.cpp. A change of the arguments or of the lines that are read must be made
+// in the script, too.
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +35,7 @@ std::vector<std::string> arguments_of(const CollinearSpheres& spheres,
   return arguments;
 }
 
-/// Reads the lines "viscontact-entry I J VALUE ESTIMATE" into `row`. False if one is missing.
+/// Reads the lines "viscontact-entry I J VALUE ESTIMATE" into `row`. False if an entry is missing.
 bool read_entries(const std::string& output, double viscosity, ResistanceRow& row) {
   std::istringstream lines(output);
   std::size_t found = 0;

@@ -1,8 +1,9 @@
 // Rigid spheres on a line in a viscous fluid: the inputs of a table of their resistance matrices,
-// and the solution of one row by FreeFEM (physics.md, section 7). R [M/T] gives the forces on the
-// spheres by their velocities along the line. Lengths, masses and times are in any consistent
-// units. The commands `tabulate` and `swimmer` use it. A change must keep the words of
-// surroundings_in_words(), because lubrication/scaling.hpp finds the lengths in them.
+// and the solution of one row by FreeFEM (physics.md, section 7). A resistance matrix R [M/T] maps
+// the velocities of the spheres along the line to their forces on the fluid. Lengths, masses and
+// times are in any consistent units. app/ and the other folders of swimmer/ use it. A change must
+// keep the words of surroundings_in_words(), because lubrication/scaling.hpp finds the lengths in
+// them.
 #pragma once
 
 #include <optional>
@@ -16,23 +17,24 @@ namespace viscontact::swimmer {
 
 /// A cylinder without slip whose axis is the line of the spheres [L].
 struct Tube {
-  double radius = 0;  ///< larger than all spheres
-  /// Distance of the closed ends, with the row of spheres in the middle; longer than the longest
-  /// row. Nothing: the tube is so long that its ends do not matter.
+  double radius = 0;  ///< [L], larger than the radii of all spheres
+  /// Distance of the closed ends [L], with the row of spheres in the middle; longer than the
+  /// longest row. Nothing: the tube is so long that its ends do not matter.
   std::optional<double> height{};
 };
 
 /// The inputs of a table of resistance matrices R.
 struct CollinearSpheres {
   double viscosity = 0;        ///< mu [M/(L T)], > 0
-  std::vector<double> radii;   ///< along the line [L], 2 to 10 of them, > 0
+  std::vector<double> radii;   ///< radii along the line [L], 2 to 10 of them, > 0
   std::optional<Tube> tube{};  ///< nothing: unbounded fluid
   /// Meshes are refined until the estimated relative error of each entry of R is at most this [1],
   /// in (0, 1).
   double relative_accuracy = 0;
 };
 
-/// "unbounded", "tube of radius 3", or "closed cylinder, radius 3, height 40".
+/// What surrounds the spheres, in words: "unbounded", "tube of radius 3", or "closed cylinder,
+/// radius 3, height 40".
 std::string surroundings_in_words(const CollinearSpheres& spheres);
 
 /// Solves for the matrix at these gaps [L] > 0, one less than there are spheres. Throws
@@ -40,9 +42,9 @@ std::string surroundings_in_words(const CollinearSpheres& spheres);
 ResistanceRow solve_resistance(const freefem_axi::FreeFem& freefem, const CollinearSpheres& spheres,
                                const std::vector<double>& gaps);
 
-/// The table of all combinations of the gaps grid[k] between spheres k and k + 1 [L], > 0 and
-/// rising. The point of a row (TablePlan) is the list of its gaps. If the line of spheres is its
-/// own mirror image and the grids are equal, only one of each two mirrored rows of the table is
+/// The plan of the table of all combinations of the gaps grid[k] between spheres k and k + 1 [L], >
+/// 0 and rising. The point of a row (TablePlan) is the list of its gaps. If the line of spheres is
+/// its own mirror image and the grids are equal, only one of each two mirrored rows of the table is
 /// computed, and the other one is its reflection.
 freefem_axi::TablePlan resistance_table_plan(const CollinearSpheres& spheres,
                                              const std::vector<std::vector<double>>& grid);

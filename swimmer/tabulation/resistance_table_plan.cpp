@@ -1,6 +1,7 @@
-// The table of resistance matrices as a TablePlan: its rows and their reflections. Lengths are in
-// the unit of the case. Errors are those of solve_resistance(). A change of the text of inputs
-// makes every earlier table out of date. Used by swimmer/job/.
+// The table of resistance matrices of spheres on a line as a TablePlan (how rows are computed,
+// written and read): its rows and their reflections. Lengths are in the unit of the case. Errors
+// are those of solve_resistance(). Used by swimmer/job. A change of the text of inputs_of() makes
+// every earlier table out of date.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,8 +16,8 @@ namespace {
 
 using Grid = std::vector<std::vector<double>>;
 
-// Revision of the scripts. Raise it when a change of the scripts changes their results: tables of
-// another revision are then computed again.
+// Revision of the FreeFEM scripts that compute the matrices. Raise it when a change of the scripts
+// changes their results; tables of another revision are then computed again.
 constexpr int kMatrixMethod = 1;
 
 bool is_mirror_image(const CollinearSpheres& spheres, const Grid& grid) {
@@ -72,9 +73,9 @@ std::string inputs_of(const CollinearSpheres& spheres, const Grid& grid) {
   return text;
 }
 
-/// The time of a row on one core [s], from measurements at an accuracy of 1e-5: 2 to 6 s for three
-/// spheres, 12 to 37 s for ten. It grows as for one sphere (freefem_axi/motion_table_plan.cpp) if
-/// more accuracy is asked.
+/// The time of a row on one core [s], from measurements at a relative accuracy of 1e-5: 2 to 6 s
+/// for three spheres, 12 to 37 s for ten. If more accuracy is asked for, it grows as for one sphere
+/// (freefem_axi/motion_table_plan.cpp).
 double typical_seconds_of(const CollinearSpheres& spheres) {
   constexpr double kSecondsPerSphere = 1.5, kKnee = 1e-5, kPower = 0.45;
   return kSecondsPerSphere * static_cast<double>(spheres.radii.size()) *
@@ -96,7 +97,7 @@ freefem_axi::TablePlan resistance_table_plan(const CollinearSpheres& spheres, co
     if (!has_mirror || point <= reflected(point)) parts.points.push_back(point);
   parts.relative_accuracy = spheres.relative_accuracy;
   parts.typical_seconds = typical_seconds_of(spheres);
-  parts.needs_all_rows = true;  // its fit is a polynomial through all of them
+  parts.needs_all_rows = true;  // because its fit is a polynomial through all of them
   parts.solve = [spheres](const freefem_axi::FreeFem& freefem, const freefem_axi::RowPoint& gaps) {
     return std::vector{solve_resistance(freefem, spheres, gaps)};
   };

@@ -1,7 +1,8 @@
-// The loop over time of the contact models: the resolved drag in a step, the budget, and the
-// contact interval. The equations are those of contact_step.hpp. Numbers are in any consistent
-// units. Errors are those of the model and of motion.hpp. A change of results must raise
-// kModelsRevision.
+// The loop over time of the contact models (contact_model.hpp): it makes the steps of
+// contact_step.hpp and rebound.hpp, adds up the impulses and works, and finds when contact begins
+// and ends. gamma [M L/T] is minus the impulse that the film in the contact has absorbed. Numbers
+// are in any consistent units. Too many steps are an Error(kBadInput). Used by models.cpp. A change
+// of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 #include <algorithm>
@@ -19,7 +20,8 @@
 namespace viscontact::reduced_model {
 namespace {
 
-/// A ResolvedDrag as a function of the distance D [L] from contact, in the form of NoDrag.
+/// A ResolvedDrag as functions of the distance D [L], the gap less the gap of contact, in the form
+/// that contact_step() needs (NoDrag in contact_step.hpp).
 class DragAtDistance {
  public:
   static constexpr bool kResolved = true;
@@ -32,10 +34,11 @@ class DragAtDistance {
   }
 
   double velocity(const ContactSetting& setting, double distance, double momentum) const {
-    // m v + Gamma_res(D + h v) - Gamma_res(D) increases with v, so the root is between 0 and the
-    // velocity without drag. Where the resistance falls with the gap, the function is concave, and
-    // Newton's method from rest converges to the root from below. The bracket makes the method safe
-    // for fits without this property.
+    // With the primitive Gamma_res of the resistance, m v + Gamma_res(D + h v) - Gamma_res(D)
+    // increases with v, so the root is between 0 and the velocity without drag. Where the
+    // resistance falls with the gap, the function is concave, and Newton's method from v = 0
+    // converges to the root from below. The bracket makes the method safe for fits whose resistance
+    // does not fall.
     const double free = momentum * setting.per_mass;
     const double low = std::max(-distance * setting.per_step, std::min(0.0, free));
     const double high = std::max(0.0, free);
@@ -45,7 +48,8 @@ class DragAtDistance {
                        setting.mass + setting.step * drag_.resistance(contact_gap_ + distance +
                                                                       setting.step * v));
     };
-    // A change of the velocity below its own rounding does not change the gap after the step.
+    // A smaller change of the velocity is within its rounding error, and does not change the next
+    // gap.
     const auto settled = [](double v, double next) {
       constexpr double kRoundOff = 4 * std::numeric_limits<double>::epsilon();
       return std::abs(next - v) <= kRoundOff * std::abs(next);
@@ -58,15 +62,16 @@ class DragAtDistance {
   double contact_gap_;
 };
 
-/// The times of a step [T]: it lasts from `begin` to `end`, and its impulse of the external force
-/// is that from `kick_begin` to `kick_end`, which differ from the former only if steps are
-/// staggered.
+/// The times of a step [T]: it lasts from `begin` to `end`, and the external force acts in it by
+/// its impulse from `kick_begin` to `kick_end`. These differ from `begin` and `end` only if the
+/// model is staggered (ContactModel::is_staggered).
 struct StepTimes {
   double begin = 0, end = 0, kick_begin = 0, kick_end = 0;
 };
 
-/// Adds a step to the budget. The work of each impulse is the impulse times the mean velocity of
-/// the step, so that the works add up to the change of kinetic energy exactly.
+/// Adds a step to the budget; `push` [M L/T] is the impulse of the external force. The work of each
+/// impulse is the impulse times the mean velocity of the step, so that the works add up to the
+/// change of kinetic energy exactly.
 void add_to(MomentumEnergyBudget& budget, double velocity_before, double push,
             const ContactStep& step) {
   const double velocity = (velocity_before + step.state.velocity) / 2;
@@ -83,7 +88,7 @@ void add_to(MomentumEnergyBudget& budget, double velocity_before, double push,
   }
 }
 
-/// Finds within the steps when contact begins and ends.
+/// Finds the times [T] at which contact begins first and ends last, within steps.
 class ContactClock {
  public:
   explicit ContactClock(double mass) : mass_(mass) {}
@@ -96,21 +101,23 @@ class ContactClock {
     const auto [time, next, kick_begin, kick_end] = times;
     const double h = next - time;
     if (contact && !touching_) {
-      // Without contact the sphere would reach the contact gap after this share of the step.
+      // Without contact the sphere would reach the gap of contact after this fraction of the step.
       const double fall = -(before.velocity + push / mass_) * h;
       if (!interval_) interval_ = {time + h * (before.gap < fall ? before.gap / fall : 0), next};
     }
     if (contact) {
       (*interval_)[1] = next;
     } else if (touching_) {
-      // The momentum that the step brings raises gamma to 0 after this share of the step.
+      // The momentum at the beginning and the impulse of the force raise gamma to 0 after this
+      // fraction of the impulse.
       const double rise = mass_ * before.velocity + push;
       const double share = before.gamma < 0 && rise > 0 ? -before.gamma / rise : 0;
       (*interval_)[1] = kick_begin + (kick_end - kick_begin) * std::min(1.0, share);
     }
     touching_ = contact;
   }
-  /// Takes the times of contact from a step with impacts. look_at() then ignores this step.
+  /// Takes the times of contact from a step of rebound.hpp. The next call of look_at(), for the
+  /// same step, then does nothing.
   void strike(const StepTimes& times, const ReboundStep& step) {
     if (!interval_) interval_ = {times.begin + step.first_impact, 0};
     touching_ = step.state.gap == 0;
@@ -125,11 +132,12 @@ class ContactClock {
   bool touching_ = false, is_struck_ = false;
 };
 
-/// When the solids touch in a step in which they carry a load for the first time. Before the step
-/// gamma is above gamma_min. `landing` is the time at which contact began.
+/// When the solids touch, and how fast, in the first step in which they carry a load. Before it
+/// gamma is above model.gamma_min. `landing` [T] is the time at which contact began, `push` [M L/T]
+/// the impulse of the external force.
 SolidTouch touch_in(const ContactModel& model, double mass, double landing, const StepTimes& times,
                     const ContactState& before, double push, const ContactStep& step) {
-  // An impact: the film takes a part of the momentum, and the solids the rest.
+  // The sphere landed in this step: the film takes a part of its momentum, and the solids the rest.
   if (!(before.gamma < 0)) return {landing, step.state.velocity - step.solid / mass};
   const double rest = before.gamma + mass * before.velocity - model.gamma_min;
   if (rest <= 0) return {times.kick_begin, rest / mass};
@@ -138,7 +146,8 @@ SolidTouch touch_in(const ContactModel& model, double mass, double landing, cons
           push / (duration * model.solid_resistance)};
 }
 
-/// The step that an impulse of the force makes without a displacement.
+/// The change of state by the impulse `push` [M L/T] of the external force at one instant, at which
+/// the sphere does not move.
 ContactStep kicked(const ContactState& state, double push, const ContactSetting& setting) {
   ContactStep step{state};
   const double momentum = setting.mass * state.velocity + push;
@@ -154,18 +163,18 @@ ContactStep kicked(const ContactState& state, double push, const ContactSetting&
   return step;
 }
 
-/// A step with impacts in the form in which rows take a step.
+/// A step of rebound.hpp in the form of contact_step.hpp, which rows of the trajectory need.
 ContactStep as_contact_step(const ReboundStep& step) {
   return {step.state, step.budget.film_impulse, step.budget.drag_impulse,
           step.budget.solid_impulse};
 }
 
 /// Makes the steps from the start to the end. Calls `rebound(times, step)` for each step with
-/// impacts, `kick(velocity before, push, step)` for each other impulse of the force, and
-/// `add(times, setting, state before, push, step, state at the end)` after each step. `turns` are
-/// the times at which the force changes its sign. In staggered steps the impulses before and after
-/// such a time act one after the other, because an impulse that the solids carry before it must not
-/// be given back after it.
+/// impacts, `kick(velocity before, push, step)` for each other impulse `push` of the external
+/// force, and `add(times, setting, state before, push, step, state at the end)` after each step.
+/// `turns` are the times [T] at which the force changes its sign. In a staggered model the impulses
+/// before and after such a time act one after the other, because the solids must not give back
+/// after it what they carry before it.
 template <class Drag, class Rebounding, class Kick, class Add>
 void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag,
                std::span<const double> turns, const Rebounding& rebound, const Kick& kick,
@@ -175,8 +184,8 @@ void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag
   const int steps = step_count(end, h);
   ContactSetting setting(motion.mass, model.gamma_min, h);
   ContactState state{motion.initial_gap - model.contact_gap, motion.initial_velocity, 0};
-  // Means over half steps and whole steps are asked in turn, and a ForceWalk cannot go back in
-  // time. Therefore each has a walk of its own.
+  // A ForceWalk is asked for times that do not decrease. Means over half steps and over whole steps
+  // are asked for in turn, so each kind has its own walk.
   ForceWalk force(motion.external_force), force_of_half(motion.external_force),
       force_of_step(motion.external_force);
   auto turn = turns.begin();
@@ -231,8 +240,8 @@ void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag
   }
 }
 
-/// The times at which the force changes its sign. Nothing if there are too many such times to find;
-/// the lowest gamma is then taken from the ends of the steps.
+/// The times [T] at which the force changes its sign. Nothing if there are too many of them to
+/// find; the lowest gamma is then that at the ends of the steps.
 std::vector<double> turns_of(const Motion& motion) {
   try {
     return motion.external_force.sign_changes(motion.end_time);
@@ -274,7 +283,8 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
           touch_in(model, motion.mass, clock.interval().value()[0], times, before, push, step);
     is_rebound = false;
     lowest_gamma = std::min(lowest_gamma, end.gamma);
-    // If contact lasts through a step in which the force changes its sign, gamma is lowest then.
+    // If contact lasts through a step in which the force changes its sign, gamma is lowest at that
+    // time.
     const double begin = times.kick_begin;
     for (; turn != turns.end() && *turn < times.kick_end; ++turn)
       if (*turn > begin && before.gamma < 0 && step.state.gamma < 0)

@@ -1,7 +1,9 @@
-// The loop over time that all contact models with a time step share (physics.md (4.5) to (4.7)). A
-// model supplies its resolved drag and the gap at which it makes contact. gamma is minus the
-// impulse that the film has absorbed. Lengths, masses and times are in any consistent units. A
-// change must keep the budget balanced to round-off, and raise kModelsRevision if results change.
+// The loop over time that all contact models with a time step share (physics.md (4.5) to (4.7)).
+// Such a model does not resolve the thin film of fluid between sphere and wall, but replaces it by
+// contact with a memory gamma, minus the impulse that the film has absorbed. It may resolve the
+// drag at larger gaps. Lengths, masses and times are in any consistent units. The files of this
+// folder and models.cpp use it. A change must keep the budget of impulses and works balanced to
+// round-off, and raise kModelsRevision if results change.
 #pragma once
 
 #include <functional>
@@ -14,9 +16,9 @@
 
 namespace viscontact::reduced_model {
 
-/// A drag that acts at a distance, as functions of the gap q [L].
+/// The drag of the fluid at gaps q [L] above that of contact, where the model resolves it.
 struct ResolvedDrag {
-  /// Resistance [M/T].
+  /// Resistance: the drag over the velocity [M/T], > 0.
   std::function<double(double gap)> resistance;
   /// A primitive of the resistance [M L/T].
   std::function<double(double gap)> impulse;
@@ -26,35 +28,39 @@ struct ResolvedDrag {
 struct ContactModel {
   /// Gap at which the sphere is in contact [L], >= 0.
   double contact_gap = 0;
-  /// Value of gamma at which the solids touch [M L/T], <= 0. -infinity: no solid contact. 0: no
-  /// film, which is plain inelastic contact.
+  /// Value of gamma at which the solids touch [M L/T], <= 0. -infinity: never. 0: there is no film,
+  /// which is plain inelastic contact.
   double gamma_min = 0;
-  /// Resistance of the film where the solids touch [M/T]: the rate of gamma over that of the film.
-  /// 0 without a film.
+  /// Resistance of the film at the thickness at which the solids touch [M/T], > 0: the rate of
+  /// gamma over the rate of the thickness. 0 if the solids never touch or there is no film.
   double solid_resistance = 0;
-  /// The resolved drag; nothing if only f_ext acts at a distance.
+  /// The resolved drag; nothing if only the external force acts outside contact.
   std::optional<ResolvedDrag> drag{};
-  /// Thickness [L] of the film that is recovered from gamma [M L/T].
+  /// Thickness [L] that the film has at a value of gamma [M L/T]; empty if there is no film.
   std::function<double(double gamma)> film_thickness{};
-  /// The function film_thickness as a formula, for the header of trajectory files.
+  /// The function film_thickness as a formula, for the head of trajectory files; may be empty.
   std::string film_law{};
   /// Coefficient e_d of restitution of the solids [1], 0 to 1; run_contact_model sets it.
   double restitution = 0;
-  /// True: the velocity and gamma of a step are those in its middle (leapfrog), so that the gap is
-  /// of second order. Allowed only without resolved drag.
+  /// True: a step computes velocity and gamma in its middle (leapfrog), so that the error of the
+  /// gap is of second order in the step. Allowed only without resolved drag.
   bool is_staggered = false;
 };
 
 /// Makes the steps of contact_step.hpp from the start of the motion to its end, and those of
-/// rebound.hpp if there is a restitution and the sphere flies into contact. The forces in a row are
-/// means over the step before it; the lubrication force is that of film and resolved drag together.
-/// The beginning and the end of contact are found within the steps of impact and release, as if the
-/// force were constant in each step; the error of these times is of the order of the scheme. With
-/// `is_staggered` the force acts for half a step first and at the end, and a row has the velocity
-/// and gamma that the force of another half step gives at the time of the row. The lowest gamma,
-/// and thus the recovered film, includes the values at which the force changes its sign within a
-/// step. The time at which the solids touch is found in the same way. Their velocity is what the
-/// film leaves of an impact, or, if a load closes the film, the load over `solid_resistance`.
+/// rebound.hpp if there is a restitution and the sphere flies into contact.
+///
+/// The forces in a row of the trajectory are means over the step before it; its lubrication force
+/// is that of film and resolved drag together. The beginning and the end of contact, and the time
+/// at which the solids touch, are found within a step as if the force were constant in it; their
+/// error has the order of the scheme. The velocity at which the solids touch is what the film
+/// leaves of an impact or, if a load closes the film, the load over `solid_resistance`. The lowest
+/// gamma, and thus the smallest film, includes the values at the times at which the force changes
+/// its sign. If the model is staggered, a row has the velocity and gamma that half a step of the
+/// force gives from the middle of the step to the time of the row.
+///
+/// Throws Error(kBadInput) if the motion has more than 1e8 steps, Error(kInterrupted) if
+/// `motion.stop` requests a stop, and the errors of the drag.
 Trajectory run_contact_model(const Motion& motion, ContactModel model);
 
 /// A function that makes a contact model for a motion and a force.

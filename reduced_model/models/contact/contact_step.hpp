@@ -1,11 +1,11 @@
 // One time step of viscous contact of a sphere (physics.md (4.5) to (4.7)). m is the mass, u the
-// velocity, D the gap less the gap at which contact begins, and f the external force. The film in
-// the contact absorbs the impulse -gamma >= 0 when the sphere lands, and gives it back before the
-// sphere is released. Gamma_res(D) is the primitive of the resistance that the model resolves, so
-// that its difference is the impulse of the drag. Lengths, masses and times are in any consistent
-// units. All contact models with a time step, and rolling/, use it. Nothing is checked or thrown. A
-// change must keep m u + Gamma_res(D) + gamma - int f dt constant to round-off as long as no solid
-// carries load.
+// velocity, D the gap less the gap at which contact begins, h the step, and f the external force.
+// The film of fluid in the contact absorbs the impulse -gamma >= 0 when the sphere lands, and gives
+// it back before the sphere is released. Gamma_res(D) is the primitive of the resistance that the
+// model resolves, so that its difference is the impulse of the drag. The index n marks values at
+// the end of step n. Lengths, masses and times are in any consistent units. All contact models with
+// a time step, and rolling/, use it. Nothing is checked or thrown. A change must keep m u +
+// Gamma_res(D) + gamma - int f dt constant to round-off as long as no solid carries load.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,12 @@ namespace viscontact::reduced_model {
 struct ContactState {
   double gap = 0;       ///< D [L]; 0 in contact
   double velocity = 0;  ///< u [L/T]
-  double gamma = 0;     ///< of the film [M L/T], gamma_min <= gamma <= 0; 0 if D > 0
+  double gamma = 0;     ///< memory of the film [M L/T], gamma_min <= gamma <= 0; 0 if D > 0
 };
 
 /// The constants of all steps of one length.
 struct ContactSetting {
-  /// Computes per_mass and per_step from the other constants; ranges are those of the members.
+  /// Computes `per_mass` and `per_step`; the ranges of the arguments are those of the members.
   ContactSetting(double mass_, double gamma_min_, double step_)
       : mass(mass_), gamma_min(gamma_min_), step(step_), per_mass(1 / mass_), per_step(1 / step_) {}
   double mass;  ///< m [M], > 0
@@ -36,19 +36,19 @@ struct ContactSetting {
 struct ContactStep {
   /// The state at the end of the step.
   ContactState state;
-  /// From the film: gamma^n - gamma^{n+1}; < 0 while the film pulls.
+  /// From the film: gamma^n - gamma^{n+1}; < 0 while the film pulls the sphere to the wall.
   double film = 0;
   double drag = 0;   ///< from the resolved drag
   double solid = 0;  ///< from the solid contact, >= 0
 };
 
-/// The drag in problem (P) of viscous_contact.hpp, where none is resolved. A type `Drag` of
-/// contact_step() needs the functions of this one.
+/// The drag of a model that resolves none. A type `Drag` of contact_step() needs the functions of
+/// this one.
 struct NoDrag {
   /// False: there is no resolved drag.
   static constexpr bool kResolved = false;
-  /// The velocity v with m v + Gamma_res(D + h v) - Gamma_res(D) = momentum, where D + h v >= 0.
-  /// Gamma_res is the impulse of the drag, so dGamma_res/dD is its resistance.
+  /// The velocity v [L/T] with m v + Gamma_res(D + h v) - Gamma_res(D) = momentum [M L/T], where D
+  /// + h v >= 0. The second argument is D.
   static double velocity(const ContactSetting& setting, double, double momentum) {
     return momentum * setting.per_mass;
   }
@@ -58,7 +58,7 @@ struct NoDrag {
 
 /// One step of viscous contact (Maury 2007, "A gluey particle model"; Lefebvre 2009, "Numerical
 /// simulation of gluey particles"). `push` = h f^n is the impulse of the external force in the
-/// step, and Gamma_res(D) the impulse of the resolved drag, which is 0 in problem (P):
+/// step, lambda the force of the contact on the sphere, and Gamma_res is 0 without resolved drag:
 ///
 ///     m (u^{n+1} - u^n) = h f^n - (Gamma_res(D^{n+1}) - Gamma_res(D^n)) + h lambda,
 ///     D^{n+1} = D^n + h u^{n+1},   gamma^{n+1} = gamma^n - h lambda,
@@ -70,24 +70,23 @@ struct NoDrag {
 ///     u^{n+1} = argmin { m |v - u^n - h f^n/m|^2 : D^n + h v >= 0 if gamma^n = 0,
 ///                                                  D^n + h v  = 0 if gamma^n < 0 }.
 ///
-/// The drag enters by its impulse, so the impulse that the film absorbs at impact and gives back at
-/// release is exact for every step length: the balance m u + Gamma_res(D) + gamma = int f is exact
-/// to round-off as long as no solid carries load. A step that would raise gamma above 0 sets it to
-/// 0 and releases the sphere with the rest of the impulse. A step that would lower gamma below
-/// `gamma_min` sets it to `gamma_min`, and the solid carries the rest.
+/// The drag enters by its impulse. Therefore the impulse that the film absorbs in an impact and
+/// gives back before the release is exact for every step length. A step that would raise gamma
+/// above 0 sets it to 0 and releases the sphere with the rest of the impulse. A step that would
+/// lower gamma below `gamma_min` sets it to `gamma_min`, and the solid carries the rest.
 template <class Drag>
 ContactStep contact_step(const ContactState& state, double push, const ContactSetting& setting,
                          const Drag& drag) {
   const double momentum = setting.mass * state.velocity + push;
-  // Impulse of the drag in the step. It is the change of the momentum, because a difference of two
-  // values of Gamma_res would contain the rounding errors of both gaps.
+  // Impulse of the drag in the step, computed as the change of the momentum, because a difference
+  // of two values of Gamma_res would contain the rounding errors of both gaps.
   const auto drag_impulse_of_step = [&](double velocity, double before) {
     return Drag::kResolved ? setting.mass * velocity - before : 0.0;
   };
   if (!(state.gamma < 0)) {
     const double to_contact = -state.gap * setting.per_step;
     const double of_drag = -drag.impulse(state.gap, 0);
-    // The impulse h lambda that the contact needs if the step ends in contact.
+    // The impulse h lambda of the contact if the step ends at D = 0.
     const double needed = setting.mass * to_contact - of_drag - momentum;
     if (!(needed > 0)) {
       const double velocity = drag.velocity(setting, state.gap, momentum);

@@ -1,8 +1,9 @@
-// Rebound of the sphere from the solid contact below its film (physics.md (4.12), (4.13)), for
-// contact_model.cpp and viscous_contact_exact.cpp. m is the mass, u the velocity, gamma minus the
-// impulse that the film has absorbed, D the gap minus that at contact, h the step. Lengths, masses
-// and times are in any consistent units. Nothing is thrown. A change must keep that an impact takes
-// place at its time within a step, for heights of rebounds to converge.
+// Rebound of the sphere from the solid wall through the film of fluid (physics.md (4.12), (4.13)),
+// for contact_model.cpp and viscous_contact_exact.cpp. m is the mass, u the velocity, gamma minus
+// the impulse that the film has absorbed, gamma_min its value at which the solids touch, D the gap
+// less that at contact, h the step; u+ and gamma+ are values after an impact. Lengths, masses and
+// times are in any consistent units. Nothing is thrown. A change must keep that an impact takes
+// place at its time within a step; otherwise heights of rebounds do not converge as h tends to 0.
 #pragma once
 
 #include <algorithm>
@@ -22,21 +23,23 @@ struct Impact {
   double momentum = 0;       ///< after the impact, m u+ >= 0; 0: the film keeps the sphere
   double gamma = 0;          ///< after the impact, <= 0; 0 if the sphere leaves the film
   double lowest_gamma = 0;   ///< lowest value of gamma in the impact
-  double solid_impulse = 0;  ///< that the solids took up in the compression, s >= 0
-  double restitution = 0;    ///< that the solids gave back: e_d s, or less if the sphere stays
+  double solid_impulse = 0;  ///< impulse that the solids took up in the compression, s >= 0
+  /// Impulse that the solids gave back: e_d s, or less if the sphere stays.
+  double restitution = 0;
 };
 
 /// The impact of a sphere with the momentum `momentum` = m u < 0 on a film with gamma = 0 (4.12).
-/// The film takes the momentum until gamma = gamma_min, the solids take the rest s and give back
+/// The film takes the momentum until gamma = gamma_min; the solids take the rest s, and give back
 /// e_d s (Poisson's law). The sphere must then pull the film open, which takes the impulse that the
 /// film has absorbed:
 ///
-///     s = max(-m u + gamma_min, 0),   m u+ = max(gamma_c + e_d s, 0),   gamma+ = min(gamma_c + e_d
-///     s, 0),
+///     s = max(-m u + gamma_min, 0),   m u+ = max(gamma_c + e_d s, 0),
+///     gamma+ = min(gamma_c + e_d s, 0),
 ///
 /// where gamma_c = m u + s is gamma at the end of the compression. `gamma_min` <= 0 may be
 /// -infinity; `restitution` = e_d is 0 to 1 [1]. If m u+ is below `least` >= 0 [M L/T], the sphere
-/// stays and the solids keep the rest, so that the infinitely many bounces of a dry sphere end.
+/// stays, and the solids give back that much less, so that the infinitely many bounces of a dry
+/// sphere end.
 inline Impact impact_through_film(double momentum, double gamma_min, double restitution,
                                   double least) {
   Impact impact;
@@ -51,13 +54,13 @@ inline Impact impact_through_film(double momentum, double gamma_min, double rest
 }
 
 /// Adds the impulses and works of an impact with the velocity `velocity` < 0 [L/T] of a sphere of
-/// mass `mass` to the budget. The work of each impulse is the impulse times half that velocity in
-/// the compression, and times half the velocity at the end in the restitution: film and solids
-/// share the energy as they share the impulse.
+/// mass `mass` to the budget. The work of each impulse is the impulse times half of `velocity` in
+/// the compression, and times half the velocity after the impact in the restitution, so that film
+/// and solids share the energy as they share the impulse.
 inline void add_impact(MomentumEnergyBudget& budget, double mass, double velocity,
                        const Impact& impact) {
   const double leaving = impact.momentum / mass;
-  const double pulled = impact.gamma - impact.lowest_gamma;  // impulse of the film on its way back
+  const double pulled = impact.gamma - impact.lowest_gamma;  // what the film takes back, >= 0
   budget.film_impulse -= impact.lowest_gamma + pulled;
   budget.film_work -= impact.lowest_gamma * velocity / 2 + pulled * leaving / 2;
   budget.solid_impulse += impact.solid_impulse + impact.restitution;
@@ -66,23 +69,25 @@ inline void add_impact(MomentumEnergyBudget& budget, double mass, double velocit
 
 /// A step with impacts, and what happened in it.
 struct ReboundStep {
-  ContactState state;             ///< at its end
-  std::vector<Rebound> rebounds;  ///< impacts on the solids, with times from the step's beginning
+  ContactState state;             ///< state at the end of the step
+  std::vector<Rebound> rebounds;  ///< impacts on the solids; times are from the step's beginning
   /// Impulses and works in the step, without the impulse of the external force.
   MomentumEnergyBudget budget;
-  double lowest_gamma = 0;   ///< [M L/T]
+  double lowest_gamma = 0;   ///< lowest gamma in the step [M L/T]
   double first_impact = -1;  ///< time of the first impact from the step's beginning [T]; < 0: none
-  double last_impact = -1;   ///< time of the last impact [T]; < 0: none
+  double last_impact = -1;   ///< the same of the last impact [T]; < 0: none
 };
 
-/// The first time after 0 and until `end` [T] at which D + w t + a t^2/2 = 0 and falls, for D >= 0;
-/// infinity if there is none. D [L], w [L/T] and a [L/T^2] are those at time 0; D = 0 needs w > 0.
+/// The first time after 0 and until `end` [T] at which D + w t + a t^2/2 = 0 and falls; infinity if
+/// there is none. D = `gap` >= 0 [L], w = `velocity` [L/T] and a = `acceleration` [L/T^2] are the
+/// values at time 0; if D = 0, w must be > 0.
 inline double time_of_fall(double gap, double velocity, double acceleration, double end) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double discriminant = velocity * velocity - 2 * acceleration * gap;
   if (discriminant < 0) return kNever;
   const double root = std::sqrt(discriminant);
-  // The fall passes 0 with the velocity -root. Neither form cancels digits.
+  // At the root the velocity is -sqrt(discriminant). Of the two forms of each root of the quadratic
+  // equation, these lose no digits by cancellation.
   double time = kNever;
   if (velocity < 0)
     time = 2 * gap / (root - velocity);
@@ -91,12 +96,13 @@ inline double time_of_fall(double gap, double velocity, double acceleration, dou
   return time <= end ? time : kNever;
 }
 
-/// Makes the impact of a sphere with the velocity `velocity` < 0 [L/T] at the time `time` of a step
-/// and records it. `acceleration` [L/T^2] is that of the external force. Returns the velocity u+
-/// after it; 0 if the sphere stays. A flight of less than 1e-3 steps counts as rest.
+/// Makes the impact of a sphere with the velocity `velocity` < 0 [L/T] at the time `time` [T] of a
+/// step and records it. `acceleration` [L/T^2] is that by the external force. Returns the velocity
+/// u+ after it; 0 if the sphere stays.
 inline double strike(ReboundStep& step, double time, double velocity, double acceleration,
                      const ContactSetting& setting, double restitution) {
-  constexpr double kShortestFlight = 1e-3;  // of the step
+  // Fraction of the step; a shorter flight counts as rest, so that bounces end.
+  constexpr double kShortestFlight = 1e-3;
   const double least =
       setting.mass * kShortestFlight * setting.step * std::max(0.0, -acceleration) / 2;
   const auto impact =
@@ -131,16 +137,16 @@ void stay(ReboundStep& step, double push, const ContactSetting& setting, const D
   step.lowest_gamma = std::min(step.lowest_gamma, end.state.gamma);
 }
 
-/// A step in which the sphere flies at its beginning, from `state` with gamma = 0 and with D > 0 or
-/// u > 0. `push` [M L/T] is the impulse of the force in the step, and `acceleration` = a [L/T^2]
-/// the mean force over m. Nothing if the sphere does not reach contact.
+/// A step that begins in flight, from `state` with gamma = 0 and with D > 0 or u > 0. `push` [M
+/// L/T] is the impulse of the external force in the step, and `acceleration` = a [L/T^2] the mean
+/// force over m. Nothing if the sphere does not reach contact.
 ///
-/// Without resolved drag, the places of the scheme, D^{n+1} = D^n + h u^{n+1}, lie on the parabola
+/// Without resolved drag, the gaps of the scheme, D^{n+1} = D^n + h u^{n+1}, lie on the parabola
 /// with the acceleration a that begins with the velocity w = u^n + push/m - a h/2. The impacts are
 /// those of this parabola, at their times, and u^{n+1} = w^{n+1} - a h/2 follows from its velocity
-/// w^{n+1} at the end of the step. With drag, the velocity at the impact follows from the impulse
-/// of the drag on the way there, which is exact, and its time from the mean velocity; there is at
-/// most one impact in a step.
+/// w^{n+1} at the end of the step. With drag there is at most one impact in a step. Its velocity
+/// follows from the impulse of the drag on the way to contact, which is exact, and its time from
+/// the mean velocity on this way.
 template <class Drag>
 std::optional<ReboundStep> rebound_step(const ContactState& state, double push, double acceleration,
                                         const ContactSetting& setting, double restitution,
@@ -154,7 +160,7 @@ std::optional<ReboundStep> rebound_step(const ContactState& state, double push, 
       return state.velocity + (push * time / h + of_drag) * setting.per_mass;
     };
     double time = h, velocity = velocity_at(h);
-    constexpr int kCorrections = 4;  // each gains the factor h a/u
+    constexpr int kCorrections = 4;  // each divides the error of the time by about u/(h a)
     for (int n = 0; n < kCorrections && velocity < 0; ++n) {
       time = std::min(h, -2 * state.gap / (std::min(0.0, state.velocity) + velocity));
       velocity = velocity_at(time);

@@ -1,10 +1,10 @@
 // The models `viscous_contact` and `viscous_contact_leapfrog` (physics.md (4.4) to (4.6)), and the
 // two that differ from them by one term: `viscous_contact_regular_drag` (4.7), and plain inelastic
 // contact for comparison. q is the gap, u the velocity, m the mass, f_ext the external force,
-// lambda the force of the contact, gamma minus the impulse that the film has absorbed, k the
-// coefficient of 1/q in the resistance R; - and + mark values before and after an impact. Lengths,
-// masses and times are in any consistent units. models.cpp lists the models. A change of results
-// must raise kModelsRevision.
+// lambda the force of the contact on the sphere, gamma minus the impulse that the film of fluid has
+// absorbed, k the coefficient of 1/q in the resistance R(q); - and + mark values before and after
+// an impact. Lengths, masses and times are in any consistent units. models.cpp lists the models. A
+// change of results must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
@@ -16,38 +16,38 @@ namespace viscontact::reduced_model {
 /// particles"),
 ///
 ///     q >= 0,  gamma <= 0,  q gamma = 0,
-///     m d^2q/dt^2 = f_ext + lambda,  supp lambda in {q = 0},  dgamma/dt = -lambda,
-///     u+ = projection of u- on {0} if gamma- < 0,  on R+ if gamma- = 0 and q = 0,  on R otherwise.
+///     m d^2q/dt^2 = f_ext + lambda,  lambda = 0 where q > 0,  dgamma/dt = -lambda,
+///     u+ = 0 if gamma- < 0,  u+ = max(u-, 0) if gamma- = 0 and q = 0,  u+ = u- otherwise.
 ///
-/// Only f_ext acts at a distance. The scheme is that of contact_step.hpp with the free velocity u^n
-/// + h f^n/m, where f^n is the mean of f_ext over the step and h = viscous_contact.time_step. The
-/// first integral k ln q = k ln q0 + gamma, with the initial gap q0, gives the thickness q0
-/// exp(gamma/k) of the film that the model does not resolve. The solids touch when this thickness
-/// is the height r1 + r2 of the roughness of both surfaces: gamma >= gamma_min = k ln((r1 + r2)/q0)
-/// (Maury 2007 and Lefebvre 2008, who take the radius for q0). Throws Error(kBadInput) if the fit's
-/// resistance has no positive coefficient k of 1/q.
+/// Only f_ext acts before contact. The scheme is that of contact_step.hpp with the step h =
+/// viscous_contact.time_step, in which f_ext acts by its mean f^n over the step. With the initial
+/// gap q0, the first integral k ln q = k ln q0 + gamma gives the thickness q0 exp(gamma/k) of the
+/// film that the model does not resolve. The solids touch when this thickness is the height r1 + r2
+/// of the roughness of both surfaces: gamma >= gamma_min = k ln((r1 + r2)/q0) (Maury 2007 and
+/// Lefebvre 2008, who take the radius for q0). Throws Error(kBadInput) if the fit's resistance has
+/// no positive coefficient k of 1/q.
 ContactModel viscous_contact(const Motion& motion, const lubrication::LubricationForce& force);
 
-/// The same model with a leapfrog: u^n and gamma^n are the values at the time t^n - h/2, so that
-/// the force of a step is the mean of f_ext from t^n - h/2 to t^n + h/2 (in the first step from 0).
-/// The gap then is of second order in h away from impacts.
+/// The same model with leapfrog steps h: u^n and gamma^n are the values at the time t^n - h/2, so
+/// that the force of a step is the mean of f_ext from t^n - h/2 to t^n + h/2 (in the first step
+/// from 0). The error of the gap is then of second order in h away from impacts.
 ContactModel viscous_contact_leapfrog(const Motion& motion,
                                       const lubrication::LubricationForce& force);
 
-/// The lecture's splitting (Lefebvre 2008, "Methode de splitting") for a fluid solver that resolves
-/// the drag without its singular part k/q. Each step is that of contact_step.hpp, with the step h,
-/// the mean external force f^n and the force lambda of the contact,
+/// The splitting of Lefebvre 2008 ("Methode de splitting", a lecture) for a fluid solver that
+/// resolves the drag without its singular part k/q. Each step is that of contact_step.hpp, with the
+/// step h and the mean external force f^n,
 ///
 ///     m (u^{n+1} - u^n) = h f^n - (Gamma_res(q^{n+1}) - Gamma_res(q^n)) + h lambda,
 ///     Gamma_res(q) = int_0^q (R(q') - k/q') dq'.
 ///
 /// The lecture instead projects u^{n+1/2}, the velocity after a step with drag and lambda = 0. The
 /// drag then acts even on a sphere at rest in contact, and in each step gamma lacks the fraction h
-/// (R - k/q)/m of the load. Here the drag enters by its impulse along the path of the sphere. Film
-/// and gamma therefore agree with the first integral for every step length: m u + Gamma_res(q) +
-/// gamma is the impulse of the external force plus a constant. Below the fit's interval R - k/q is
-/// constant. `force` must outlive the model. Throws Error(kBadInput) if the fit's resistance has no
-/// positive coefficient of 1/q, or if the motion goes above the fit's interval.
+/// (R - k/q)/m of the load. Here the drag enters by its impulse along the path of the sphere.
+/// Therefore film and gamma agree with the first integral for every step length: m u + Gamma_res(q)
+/// + gamma is the impulse of the external force plus a constant. Below the fit's interval R - k/q
+/// is constant. `force` must outlive the model. Throws Error(kBadInput) if the fit's resistance has
+/// no positive coefficient of 1/q; a run throws it if the sphere goes above the fit's interval.
 ContactModel viscous_contact_regular_drag(const Motion& motion,
                                           const lubrication::LubricationForce& force);
 

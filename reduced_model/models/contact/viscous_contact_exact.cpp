@@ -1,7 +1,8 @@
-// Finds the events of problem (P), which are landing, release and change to solid contact, and
-// computes the budget between them. The equations are those of viscous_contact_exact.hpp. Numbers
-// are in any consistent units. Errors are those of viscous_contact_exact.hpp. A change of results
-// must raise kModelsRevision.
+// Finds the events of viscous contact (landing, release, and the instant at which the solids
+// touch), and computes the budget between them. The equations are those of
+// viscous_contact_exact.hpp. Numbers are in any consistent units. A fit without a positive
+// coefficient of 1/q is an Error(kBadInput). Used by models.cpp. A change of results must raise
+// kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 
 #include <algorithm>
@@ -45,8 +46,8 @@ class EventDriven {
     return contact_ ? std::clamp(gamma_ + push_until(t), gamma_min_, 0.0) : 0;
   }
 
-  /// Goes to the next event, but not beyond `to`, and returns its time. From the last event to
-  /// `to`, f_ext must have the constant sign `sign`, or be 0 if `sign` is 0.
+  /// Goes to the next event, but not beyond the time `to` [T], and returns its time. From the last
+  /// event to `to`, f_ext must have the constant sign `sign`, or be 0 if `sign` is 0.
   double advance(double to, double sign) { return contact_ ? carry(to, sign) : fly(to); }
 
  private:
@@ -54,7 +55,7 @@ class EventDriven {
 
   double fly(double to) {
     const auto falls = [&](double t) { return velocity(t) < 0; };
-    // The velocity is monotone, so it changes its sign at most once.
+    // The velocity is monotone, because f_ext keeps its sign, so it changes its sign at most once.
     const double turn =
         falls(from_) == falls(to)
             ? to
@@ -115,7 +116,8 @@ class EventDriven {
     return t;
   }
 
-  // Fraction of the motion: a shorter flight counts as rest, so that dry bounces end.
+  // Fraction of the duration of the motion; a shorter flight counts as rest, so that the infinitely
+  // many bounces of a dry sphere end.
   static constexpr double kShortestFlight = 1e-6;
 
   double m_;

@@ -1,19 +1,20 @@
 // Viscous contact without a time step, from event to event (physics.md (4.4), (4.6)). q is the gap,
 // u the velocity, m the mass and f_ext the external force; -gamma >= 0 is the impulse that the film
-// has absorbed, and the solids touch at gamma = gamma_min. Lengths, masses and times are in any
-// consistent units. models.cpp lists the model; studies and tests use it as the reference for the
-// models with a time step. A change of results must raise kModelsRevision.
+// of fluid has absorbed, and the solids touch at gamma = gamma_min. Lengths, masses and times are
+// in any consistent units. models.cpp lists the model; studies and tests use it as the reference
+// for the models with a time step. A change of results must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 namespace viscontact::reduced_model {
 
-/// The exact solution of problem (P) of viscous_contact.hpp. With I(t) = int f_ext, S(t) = int I,
-/// and the index 0 for values at the last event (landing, release, or contact of the solids):
+/// The exact solution of viscous contact, problem (P) of viscous_contact.hpp. With I(t) = int
+/// f_ext, S(t) = int I, and the index 0 for values at the last event (landing, release, or the
+/// instant at which the solids touch):
 ///
 ///     free:        q = q_0 + (t - t_0) u_0 + (S - S_0 - (t - t_0) I_0)/m,  u = u_0 + (I - I_0)/m,
-///                  until q = 0 in a fall; then gamma = m times the velocity before, u = 0;
+///                  until q = 0 in a fall; then the impact of rebound.hpp gives u and gamma,
 ///     in contact:  q = u = 0,  gamma = max(gamma_0 + I - I_0, gamma_min),
 ///                  until gamma = 0 under a pull.
 ///
@@ -23,7 +24,8 @@ namespace viscontact::reduced_model {
 /// missed (ExternalForce::sign_changes()). The rows are at the multiples of
 /// viscous_contact.time_step, at the jumps of the force, and at the events, where a row has the
 /// state after the event. Throws Error(kBadInput) if the fit's resistance has no positive
-/// coefficient k of 1/q.
+/// coefficient k of 1/q, Error(kNotConverged) if f_ext has too many periods (sign_changes()), and
+/// Error(kInterrupted) if `motion.stop` requests a stop.
 Trajectory simulate_viscous_contact_exact(const Motion& motion,
                                           const lubrication::LubricationForce& force);
 

@@ -1,6 +1,6 @@
 // The model `viscous_contact_threshold` (viscous_contact_threshold.hpp): contact at the gap q_c [L]
-// and the whole drag R(q) [M/T] above it. A q_c or roughness outside the allowed range is an
-// Error(kBadInput). A change of results must raise kModelsRevision.
+// and the whole drag above it. A q_c or roughness outside the allowed range is an Error(kBadInput).
+// Used by models.cpp. A change of results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,8 @@
 // Viscous contact at a threshold gap q_c, with the whole fitted resistance R(q) at gaps q above it
 // (physics.md (4.7)). Gamma is the primitive of R, gamma minus the impulse that the film below q_c
-// has absorbed, m the mass, u the velocity. Lengths, masses and times are in any consistent units.
-// models.cpp lists the model. A change of results must raise kModelsRevision.
+// has absorbed, gamma_min its value at which the solids touch, m the mass, u the velocity. Lengths,
+// masses and times are in any consistent units. models.cpp lists the model. A change of results
+// must raise kModelsRevision.
 #pragma once
 
 #include <algorithm>
@@ -23,15 +24,15 @@ inline constexpr ModelParameter kThresholdGap = {
 /// The parameters of viscous_contact_threshold().
 inline constexpr std::array kThresholdParameters = {kContactTimeStep, kThresholdGap, kRestitution};
 
-/// The lecture's splitting (Lefebvre 2008, "Methode de splitting") for a fluid solver that resolves
-/// the film down to the threshold gap q_c. The whole drag R(q) acts for q > q_c, and the sphere is
-/// in contact at q_c, with Gamma in place of k ln q. The film thickness is Gamma^{-1}(Gamma(q_c) +
-/// gamma), and gamma_min = Gamma(r1 + r2) - Gamma(q_c), which is minus infinity for smooth
-/// surfaces; r1 + r2 is the height of the roughness of both surfaces. The drag enters by its
-/// impulse (contact_step.hpp), so that in every step m u + Gamma(q) + gamma is the impulse of the
-/// external force plus a constant, and the film of a sphere at rest is exact for every step length.
-/// `force` must outlive the model. Throws Error(kBadInput) unless r1 + r2 < q_c < initial gap, or
-/// if q_c or the roughness is outside the fit's interval.
+/// The splitting of Lefebvre 2008 ("Methode de splitting", a lecture) for a fluid solver that
+/// resolves the film down to the threshold gap q_c. The whole drag R(q) acts for q > q_c, and the
+/// sphere is in contact at q_c. The film thickness is Gamma^{-1}(Gamma(q_c) + gamma), and gamma_min
+/// = Gamma(r1 + r2) - Gamma(q_c), which is minus infinity for smooth surfaces; r1 + r2 is the
+/// height of the roughness of both surfaces. The drag enters by its impulse (contact_step.hpp), so
+/// that in every step m u + Gamma(q) + gamma is the impulse of the external force plus a constant,
+/// and the film of a sphere at rest is exact for every step length. `force` must outlive the model.
+/// Throws Error(kBadInput) unless r1 + r2 < q_c < initial gap, or if q_c or the roughness is
+/// outside the fit's interval.
 ContactModel viscous_contact_threshold(const Motion& motion,
                                        const lubrication::LubricationForce& force);
 
