@@ -393,9 +393,9 @@ void move_to_spines(const Playback& playback, const Frame& frame, std::size_t fi
   from = {near.first[0], near.first[1], 0};
   to = {near.second[0], near.second[1], 0};
 }
+
 /// The line of a contact: between the centres of two particles (with plates, between their spines),
 /// or from a particle to the nearest point of an obstacle.
-
 ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentContact& contact) {
   const auto second = static_cast<std::size_t>(contact.second);
   Vector to = position(d.scene.playback, frame, second);
@@ -425,14 +425,14 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentCon
   if (contact.image != 0) line.path += path_of({from - shift, to}, d.view);
   return line;
 }
-/// True if the particles of a contact are drawn.
 
+/// True if the particles of a contact are drawn.
 bool drawn(const PanelSettings& d, const CurrentContact& contact) {
   const auto shown = [&](std::int32_t k) { return static_cast<std::size_t>(k) % d.every == 0; };
   return shown(contact.second) && (contact.first < 0 || shown(contact.first));
 }
-/// The panel of a motion in the plane; `behind` is SVG that is drawn first.
 
+/// The panel of a motion in the plane; `behind` is SVG that is drawn first.
 std::string discs(const PanelSettings& d, const Frame& frame, const std::string& behind) {
   std::string text = behind + plane_2d_solids(d, frame);
   const bool is_in_fluid = d.scene.is_in_fluid;
@@ -456,10 +456,10 @@ std::string discs(const PanelSettings& d, const Frame& frame, const std::string&
     text += fmt::format("<path stroke=\"{}\" stroke-width=\"{:.1f}\" d=\"{}\"/>\n", kind.second,
                         static_cast<double>(kind.first) / 10, path);
   return text + "</g>\n" + link_marks(d, frame);
-  /// The panel of a motion in space. A contact is drawn just after the nearer of its two particles:
-  /// over this particle and those behind it, and under those in front of it.
 }
 
+/// The panel of a motion in space. A contact is drawn just after the nearer of its two particles:
+/// over this particle and those behind it, and under those in front of it.
 std::string spheres(const PanelSettings& d, const Frame& frame) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < d.scene.playback.radii.size(); k += d.every)

@@ -239,8 +239,8 @@ void append_levels(Bytes& bytes, const std::vector<float>& field, std::size_t co
                                       : static_cast<unsigned char>(std::lround(
                                             kLevels * std::clamp(share(value), 0.0, 1.0))));
 }
-/// Appends the streamlines of a flow in the form that flow_blocks() says.
 
+/// Appends the streamlines of a flow in the form that flow_blocks() says.
 void append_lines(Bytes& bytes, const FlowFrame& frame, const report::Window& window) {
   const auto write = [&](std::size_t number) { append(bytes, static_cast<std::uint16_t>(number)); };
   const auto step = [](double share) {

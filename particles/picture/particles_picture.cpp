@@ -144,10 +144,10 @@ std::string arrow_head(const report::Polyline& line, std::size_t at, const Proje
                      x - a - c, y - b - d);
 }
 
+/// The flow on its grid: colours for the speed, and streamlines with arrows.
 std::string half_picture(const FlowFrames& flows, const FlowFrame& frame, const Projection& view) {
   const auto& window = flows.grid.window;
   const double left = view.x({window.left, 0, 0}), top = view.y({0, window.top, 0});
-  /// The flow on its grid: colours for the speed, and streamlines with arrows.
   auto text = fmt::format(
       "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", left,
       top, view.scale * window.width(), view.scale * window.height(), report::speed_colour(0));

@@ -46,8 +46,8 @@ const quantities = {
     },
   },
 };
-// The name of the choice (empty: none), the ends of its scale, and its values in a frame.
 
+// The name of the choice (empty: none), the ends of its scale, and its values in a frame.
 const colouring = {name: '', low: 0, high: 0, frame: -1, values: new Float32Array(count)};
 const colourChoice = document.getElementById('colour');
 const particleScale = document.getElementById('particle-scale');

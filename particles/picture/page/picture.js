@@ -10,7 +10,8 @@ const kLargestSprite = 512;  // largest diameter of a copied picture (sprites) [
 const disc = motion.flow ? style.discInFluid : style.disc;
 const isInBody = k => bodies !== null && bodies[k] >= 0;
 
-// Paints a particle as a disc or a sphere; `look` is lookOf() of colouring.js, as below.
+// Paints a particle as a disc or a sphere. Its colour `look` is a result of lookOf()
+// (colouring.js).
 function paintParticle(p, x, y, r, look) {
   const rim = Math.min(2 * dots, Math.max(0.5, 0.07 * r));
   if (flat) {
@@ -300,9 +301,9 @@ function drawLinks() {
 
 let withContacts = true;  // whether the reader wants to see contacts
 
-// The colours of contacts: first those without a film (gamma = 0) from no friction to sliding, then
-// those with a film, from little to much absorbed impulse. Indices i of contacts are those of
-// `lines`.
+// The colours of contacts: first those without a film of fluid, from no friction to sliding, then
+// those with one, from little to much impulse that it has absorbed. An index i of a contact is one
+// of `lines`.
 const ofFriction = motion.friction.length ? motion.friction : [motion.touching];
 const colours = [...ofFriction, ...motion.colours];
 const slides = i => lines.friction[i] === 255;
