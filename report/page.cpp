@@ -1,8 +1,7 @@
 // Draws plots by gnuplot and writes the page around them (page.hpp). Sizes are in pixels; numbers
-// of plots have no units here. If gnuplot is missing, the user is warned; if it fails,
-// Error(kExternalProgram) is thrown. The keys of the JSON and the names of PointKind must agree
-// with the scripts in report/page. Every text of a user must pass through escaped(), because it
-// could contain markup.
+// of plots have no units here. A missing gnuplot is a warning, a failing one an
+// Error(kExternalProgram). The keys of the JSON and the names of PointKind must agree with the
+// scripts in report/page. Texts of users may contain markup and must pass through escaped().
 #include "viscontact/report/page.hpp"
 
 #include <fmt/format.h>
@@ -23,8 +22,8 @@
 
 namespace viscontact::report {
 
-// The texts of the files in report/page, which the build puts into the program (CMakeLists.txt
-// lists which; report/embed_texts.cmake), so that a page loads nothing from elsewhere.
+// The texts of the files in report/page, from which CMakeLists.txt makes these functions, so that a
+// page loads nothing from elsewhere.
 std::string_view uplot_script();
 std::string_view uplot_style();
 std::string_view uplot_licence();
@@ -42,8 +41,7 @@ std::string doubled_percent(const std::string& text) {
 
 constexpr int kWidth = 860;  // of still pictures [pixels], a free choice
 
-/// The names of a kind of point in gnuplot (pointtype) and in report/page/axes.js. The rows must be
-/// in the order of PointKind.
+/// A kind of point in gnuplot (pointtype) and page/axes.js. The rows are in the order of PointKind.
 struct PointName {
   PointKind kind;
   int gnuplot;

@@ -116,9 +116,8 @@ class Report {
   Report(std::filesystem::path folder, std::span<const std::string_view> names);
 
   /// Draws the still pictures of these plots at the same time, each in a process of gnuplot,
-  /// because most of the time of such a process is its start. If gnuplot is missing or fails for
-  /// one of them, no plot has a still picture; write() tells the user. Throws Error(kInterrupted)
-  /// if `stop` requests a stop.
+  /// because most of the time of such a process is its start. If gnuplot is missing or fails, no
+  /// plot has a still picture (see write()). Throws Error(kInterrupted) if `stop` requests a stop.
   void draw(std::vector<Plot> plots, const StopToken& stop);
 
   /// False if gnuplot was missing or failed in draw().

@@ -31,8 +31,8 @@ namespace {
 constexpr auto kPlotNames = std::to_array<std::string_view>(
     {"thinnest_film", "gap", "gap_logarithmic", "external_force", "lubrication_force", "gamma",
      "solid_force", "fit", "uncertainty"});
-/// How well the fit predicts rows of the table that it did not use, as HTML; empty if not known.
 
+/// How well the fit predicts rows of the table that it did not use, as HTML; empty if not known.
 std::string trust(const lubrication::FitDiagnostics& d) {
   std::string text;
   if (d.leave_one_out_rms)
@@ -44,8 +44,7 @@ std::string trust(const lubrication::FitDiagnostics& d) {
   if (d.left_out_end)
     text += fmt::format(", beyond an end (an extrapolation) {:.3g} at gap {:.4g}",
                         d.left_out_end->relative_residual, d.left_out_end->gap);
-  // A fit file of an earlier version has one value for rows between others and rows at an end
-  // together.
+  // A fit file of an earlier version has one value for inner rows and end rows together.
   if (d.leave_one_out_rms && !d.left_out_inner && !d.left_out_end)
     text += fmt::format(", largest {:.3g} at gap {:.4g}", d.leave_one_out_largest.value(),
                         d.leave_one_out_gap.value());
@@ -144,8 +143,7 @@ std::string in_brackets(const results::RunResults& run, int mass, int length, in
   return escaped(run.c.units.in_brackets(mass, length, time));
 }
 
-/// For each model its smallest gap, the times of contact, when the solids touch, and its distance
-/// to the model of reference.
+/// For each model: smallest gap, times of contact, touch of the solids, distance to the reference.
 std::string models_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models)
@@ -320,8 +318,8 @@ void add_unit(std::string& label, const Units& units) {
 std::vector<Plot> plots_of(const results::RunResults& run) {
   const auto& motion = case_file::required_motion(run.c);
   // Below the smallest fitted gap q1, the drag is continued as k/q + constant with the fitted k,
-  // whatever the case says, because only pictures depend on it: a trajectory has such gaps only if
-  // the user has allowed them.
+  // whatever the case says, as only pictures depend on it; trajectories go there only if the case
+  // allows it.
   const lubrication::LubricationForce force(run.fit,
                                             {lubrication::BelowInterval::kLubricationLimit});
   std::vector<Plot> plots = {plot_minimal_gaps(run.comparison, run.c.published),
@@ -402,8 +400,7 @@ bool report_is_current(const std::filesystem::path& folder) {
     if (page.find(kStillPicture) == std::string::npos) return false;
     const auto provenance = results::provenance_in(page, run.report().string());
     if (!provenance) return false;
-    // An input without a hash was a pipe. It is skipped, because its content is in the copy of the
-    // case.
+    // An input without a hash was a pipe. It is skipped: its content is in the copy of the case.
     for (const auto& input : provenance->inputs)
       if (!input.sha256.empty() && !results::change_of(input, provenance->folder).empty())
         return false;

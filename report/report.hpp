@@ -26,8 +26,7 @@ void write_report(const std::filesystem::path& folder,
 void check_report_files(const std::filesystem::path& folder);
 
 /// True if the report and its plots exist and the inputs of the report have not changed since.
-/// False for a report without still pictures, because gnuplot may have been installed since, and if
-/// a file cannot be read.
+/// False without still pictures, because gnuplot may be there now, and if a file cannot be read.
 bool report_is_current(const std::filesystem::path& folder);
 
 }  // namespace viscontact::report

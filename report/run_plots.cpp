@@ -1,8 +1,7 @@
 // Makes the plots of the report of one sphere (run_plots.hpp): trajectories, their comparison, the
 // fit, and the effect of its errors. Gaps [L], times [T], gamma [M L/T] and forces [M L/T^2] are in
 // the units of the case. Errors are those of run_plots.hpp. Heights [pixels], margins, and numbers
-// of points are free choices. A change must keep the names of the plots, which are names of files
-// in kPlotNames of report.cpp.
+// of points are free choices. Names of plots must be in kPlotNames of report.cpp.
 #include "viscontact/report/run_plots.hpp"
 
 #include <fmt/format.h>
@@ -28,8 +27,7 @@ using Value = double (*)(const reduced_model::TrajectoryRow&);
 
 /// The style of the line of a model, or with `film` of the film recovered from its gamma. The place
 /// of the model in the registry of models decides which row of kLines it gets; models beyond the
-/// last row begin again with the first, with longer dashes. Widths differ, so that curves that lie
-/// on each other can be seen.
+/// last row begin again with the first, with longer dashes. Widths differ, to show equal curves.
 CurveStyle line_style(std::string_view model, bool film = false) {
   struct Line {
     const char* colour;
@@ -119,8 +117,7 @@ Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& traject
   PlotPanel panel{"Gap, logarithmic", {"time t"}, {"gap q", true}, {}};
   std::vector<std::pair<double, double>> through;
   // The axis must show the gaps of models without contact and the recovered films. The gaps of
-  // contact models do not count, because they are very small in the first step after the sphere has
-  // left the plane.
+  // contact models do not count, because they are very small just after the release.
   double thinnest = std::numeric_limits<double>::infinity();
   for (const auto& trajectory : trajectories) {
     PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
@@ -148,8 +145,7 @@ Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& traject
     if (!contact)
       for (const auto& row : trajectory.rows)
         if (row.gap > 0) thinnest = std::min(thinnest, row.gap);
-    // A cross near the lower end of the axis marks where a model without contact goes through the
-    // plane.
+    // A cross at the lower end marks where a model without contact goes through the plane.
     if (!contact && trajectory.rows.back().gap == 0)
       through.emplace_back(trajectory.rows.back().time, 0);
     panel.curves.push_back(curve);
@@ -238,8 +234,7 @@ Plot plot_solid_force(const std::vector<reduced_model::Trajectory>& trajectories
 }
 
 Plot plot_external_force(const reduced_model::ExternalForce& force, double end_time) {
-  // At a jump of the force there are two points, before and after it, so that it is drawn as a
-  // step.
+  // A jump of the force has two points, before and after it, so that it is drawn as a step.
   PlotPanel panel{"External force", {"time t"}, {"f"}, {}};
   PlotCurve curve{"external force", {kBlack}, {}};
   auto stops = force.jumps();

@@ -49,8 +49,7 @@ Plot plot_external_force(const reduced_model::ExternalForce& force, double end_t
 Plot plot_minimal_gaps(const reduced_model::Comparison& comparison,
                        const std::optional<case_file::PublishedGap>& published);
 
-/// How uncertain the gap is over time in the motion without inertia: intervals relative to the gap
-/// that the fit gives.
+/// The uncertainty of the gap over time without inertia: intervals relative to the fit's gap.
 Plot plot_uncertainty(const reduced_model::FitUncertainty& uncertainty);
 
 }  // namespace viscontact::report

@@ -1,7 +1,6 @@
 // Finds what the report of a run of one sphere must warn of (run_warnings.hpp). Gaps and films [L]
 // are in the unit of the case; residuals and error estimates are relative [1]. Errors are those of
-// run_warnings.hpp. A change of a limit changes the reports of earlier runs when they are made
-// again.
+// run_warnings.hpp. A change of a limit alters reports of earlier runs that are made again.
 #include "viscontact/report/run_warnings.hpp"
 
 #include <fmt/format.h>
@@ -17,8 +16,7 @@
 namespace viscontact::report {
 namespace {
 
-/// The report warns if a larger share of the random draws of coefficients was refused; a free
-/// choice.
+/// Share of the random draws that may be refused without a warning; a free choice.
 constexpr double kManyRefused = 0.01;
 
 /// The warnings so far.
@@ -32,8 +30,7 @@ struct Warnings {
   }
 };
 
-/// Warns of gaps and of films recovered from gamma outside the fit's interval, where the table has
-/// no row.
+/// Warns of gaps, and of films recovered from gamma, outside the fit's interval.
 void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
   if (run.fit.terms.empty()) return;  // the exact drag is valid at all gaps
   const auto [low, high] = run.fit.gap_interval;
@@ -129,8 +126,7 @@ void add_passage_through_plane(Warnings& warnings, const results::RunResults& ru
   }
 }
 
-/// Warns of models without solid contact if their gaps are so small that rough surfaces would
-/// touch.
+/// Warns of models without solid contact if the rough surfaces would touch at their gaps.
 void add_roughness(Warnings& warnings, const results::RunResults& run) {
   const auto& motion = run.c.motion.value();
   const double roughness = motion.roughness[0] + motion.roughness[1];

@@ -1,7 +1,6 @@
 // Writes the columns and words of the summaries, and draws their pictures (summaries.hpp). Gaps,
 // times and velocities are in the units of the case, sizes of pictures in pixels. A gnuplot that is
-// missing or fails is an Error(kExternalProgram). A change must keep the keys of the JSON, which
-// users' scripts read.
+// missing or fails is an Error(kExternalProgram). A change must keep the keys of the JSON.
 #include "viscontact/report/summaries.hpp"
 
 #include <fmt/format.h>
@@ -101,8 +100,7 @@ std::string plot_bases(const lubrication::MotionTable& table,
               true,
               {"set format y '1e%T'", "set key below Left reverse noopaque"},
               {}};
-  // Of a table with 2000 rows or more, only every n-th row is drawn, because a picture could not
-  // show more points.
+  // Of a long table only every n-th row is drawn, because a picture cannot show more points.
   constexpr std::size_t kMostPoints = 2000;
   const std::size_t stride = 1 + table.rows.size() / kMostPoints;
   std::size_t place = 0;

@@ -15,8 +15,7 @@
 
 namespace viscontact::report {
 
-/// One or a few lines: basis, residuals, the cause of the misfit, outliers. The fit must have
-/// diagnostics.
+/// Lines on basis, residuals, cause of the misfit and outliers. The fit must have diagnostics.
 std::string fit_in_words(const lubrication::Fit& fit);
 
 /// A table with a line for each basis (of a failed fit, with the reason), and a last line that

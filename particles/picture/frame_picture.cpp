@@ -42,8 +42,7 @@ bool is_seen(const PanelSettings& panel, double x, double y, double r) {
   return x > -r && x < panel.width + r && y > -r && y < panel.height + r;
 }
 
-/// Vector from the centre of particle `first` to the nearest of the images of particle `second`
-/// [L].
+/// Vector from the centre of particle `first` to the nearest image of particle `second` [L].
 Vector apart(const PanelSettings& panel, const Frame& frame, std::size_t first,
              std::size_t second) {
   Vector w =
@@ -109,8 +108,7 @@ std::string circle(const PanelSettings& panel, const Vector& at, double radius) 
              : "";
 }
 
-/// Particle k with its centre at `at` [L], as a disc, an ellipse or a plate with round ends; empty
-/// if the panel does not show it.
+/// Particle k with the centre `at` [L], a disc, ellipse or plate; empty if it is not seen.
 std::string disc(const PanelSettings& panel, const Frame& frame, std::size_t k, const Vector& at) {
   const auto& playback = panel.scene.playback;
   if (playback.semi_axes.empty()) return circle(panel, at, playback.radii[k]);
@@ -129,9 +127,8 @@ std::string disc(const PanelSettings& panel, const Frame& frame, std::size_t k, 
       scale * a, scale * b, x, y, -frame.angles[k] * 180 / std::numbers::pi);
 }
 
-/// Dots that show how far discs and ellipses have turned: each dot lies from the centre in the
-/// direction of the particle's angle. Particles that are too small for a dot have none. Empty if
-/// the frame has no angles.
+/// Dots that show how far discs and ellipses have turned: each dot lies in the direction of the
+/// particle's angle. Very small particles have none. Empty if the frame has no angles.
 std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
   constexpr double kSmallest = 0.5;  // least radius of a dot that is seen [page units]
   if (frame.angles.size() != panel.scene.playback.radii.size()) return "";
@@ -187,7 +184,7 @@ std::string body_discs(const PanelSettings& panel, const Frame& frame) {
       text += circle(panel, centre, panel.scene.playback.radii[k]);
   });
   text += fmt::format("</g>\n<g fill=\"none\" stroke=\"{}\" stroke-linecap=\"round\">\n", edge);
-  std::map<std::int32_t, std::size_t> before;  // by body: its last disc so far
+  std::map<std::int32_t, std::size_t> before;  // for each body its last disc so far
   for (std::size_t k = 0; k < panel.scene.playback.radii.size(); k += panel.every) {
     if (!is_in_body(panel.scene.playback, k)) continue;
     const auto [last, is_first] = before.emplace(panel.scene.playback.bodies[k], k);
@@ -307,9 +304,8 @@ std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
 }
 
 /// Motions in space: the parts of planes in the box. The free side of a plane is the one on which
-/// the particles are. With `from_free_side` the result has the planes that are seen from that side,
-/// filled. Otherwise it has the other planes, of which only the edges are drawn, because the
-/// particles are behind them.
+/// the particles are. With `from_free_side`: the planes that are seen from there, filled.
+/// Otherwise: the other planes, of which only edges are drawn, as particles are behind them.
 std::string plane_3d_patches(const PanelSettings& d, const Frame& frame, bool from_free_side) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
@@ -368,8 +364,7 @@ double width_of(const PanelSettings& d, const CurrentContact& contact, double ra
   return width(is_wide ? kStyle.film_line : kStyle.touching_line, radius);
 }
 
-/// The line of a contact as it is drawn: its colour "#rrggbb", its width [page units] and its SVG
-/// path.
+/// The line of a contact: its colour "#rrggbb", its width [page units] and its SVG path.
 struct ContactLine {
   std::string colour;
   double width = 0;

@@ -51,7 +51,7 @@ void choose_position_bytes(PageData& data, const Playback& playback) {
   const auto smallest = std::ranges::min_element(playback.radii);
   const double largest_step =
       *std::max_element(data.step.begin(), data.step.begin() + playback.dimension);
-  // If a position is not finite, nor is the step; the comparison is then false, and floats are
+  // With an infinite position the step is infinite or NaN: the comparison is false, floats are
   // used.
   if (smallest == playback.radii.end() || largest_step <= kSmall * *smallest) return;
   data.position_bytes = 4;
@@ -76,7 +76,7 @@ void choose_frames(PageData& data, const Playback& playback, std::size_t every_f
 /// - in a motion with forces: 255 times force_share().
 struct Contacts {
   Bytes pairs;    ///< int32: both particles, counted among the shown; -1 - j: obstacle j
-  Bytes images;   ///< int8: the number of the image of each second particle
+  Bytes images;   ///< int8: image of the second particle, as image_number() in periods.hpp
   Bytes offsets;  ///< uint32: where each frame begins in `frames`, then the end
   Bytes frames;   ///< the bytes of all contacts, frame by frame
 };
@@ -155,14 +155,14 @@ std::size_t numbers_of_turn(const Playback& playback) {
 Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_bytes) {
   const auto& playback = scene.playback;
   constexpr std::size_t kMostBytes = 24'000'000, kMostParticles = 200'000;
-  constexpr std::size_t kRest = 200'000;  // more than script, style and words have
+  constexpr std::size_t kRest = 200'000;  // bytes, more than script, style and words have
   data.every_particle = playback.radii.size() / (kMostParticles + 1) + 1;
   const auto particles = (playback.radii.size() + data.every_particle - 1) / data.every_particle;
   const auto planes = playback.frames.empty() ? 0 : playback.frames.front().planes.size();
   const auto positions =
       particles * static_cast<std::size_t>(playback.dimension * data.position_bytes);
   const auto angles = particles * numbers_of_turn(playback) * sizeof(float);
-  // The third term is for the speeds, a byte each.
+  // The term `particles` is for the speeds, a byte each.
   const auto bytes_of_frame =
       base64_size(positions + angles + particles + planes * 6 * sizeof(float) + sizeof(double));
   const auto of_particles = static_cast<std::size_t>(1 + (playback.ids.empty() ? 0 : 1) +
@@ -221,7 +221,7 @@ Bytes speeds_of(PageData& data, const Playback& playback) {
 
 constexpr double kLevels = 254;            // byte of the upper end of a scale; the lower end has 0
 constexpr unsigned char kNothing = 255;    // byte of a point without flow
-constexpr std::uint16_t kNoArrow = 65535;  // in place of an arrow
+constexpr std::uint16_t kNoArrow = 65535;  // in place of the number of an arrow's point: no arrow
 constexpr double kLineSteps = 65535;       // a coordinate at the right or upper side of the grid
 
 /// Appends a byte for each point of the field. share(value) is the place of a value on its scale,
@@ -246,8 +246,8 @@ void append_lines(Bytes& bytes, const FlowFrame& frame, const report::Window& wi
   const auto step = [](double share) {
     return static_cast<std::size_t>(std::lround(kLineSteps * std::clamp(share, 0.0, 1.0)));
   };
-  // A 16-bit number counts the points of a line, and another one the lines. Longer lines, and lines
-  // beyond this number, are left out. Any limit below 65535 works.
+  // A line with kMost points or more, and lines after the first kMost, are left out, because 16-bit
+  // numbers count them. Any limit below 65535 works.
   constexpr std::size_t kMost = 65000;
   const auto is_short = [&](const report::StreamLine& line) { return line.points.size() < kMost; };
   const auto count = static_cast<std::size_t>(std::ranges::count_if(frame.lines, is_short));

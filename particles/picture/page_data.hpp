@@ -28,7 +28,8 @@ std::string base64(const Bytes& bytes);
 /// The part of a motion that the page shows, and its encoding. Indices are those of the playback.
 struct PageData {
   std::vector<std::size_t> frames;  ///< indices of the shown frames, increasing
-  /// Every n-th frame and the last one, and every n-th particle, are shown; >= 1.
+  /// Shown are frames 0, every_frame, ... and the last one, and particles 0, every_particle, ...;
+  /// >= 1.
   std::size_t every_frame = 1, every_particle = 1;
   bool contacts = true;  ///< whether contacts are shown
   /// Bytes of a coordinate: 2 if it is a 16-bit number of steps from `low`, 4 if it is a float [L].

@@ -20,8 +20,8 @@
 
 namespace viscontact::particles {
 
-// The texts of the files in page/, which the build puts into the program (CMakeLists.txt lists
-// which; report/embed_texts.cmake), so that a page loads nothing from elsewhere.
+// The texts of the files in page/, from which CMakeLists.txt makes these functions, so that a page
+// loads nothing from elsewhere.
 std::string_view flow_script();
 std::string_view particles_script();
 std::string_view particles_style();

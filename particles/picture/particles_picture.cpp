@@ -2,8 +2,7 @@
 // and the scales of colours below (particles_picture.hpp). Sizes and coordinates on the page are in
 // page units, of which the picture is 1000 wide; sizes without a reason are free choices. Lengths
 // [L] and speeds [L/T] of the motion are in the units of the case. A flow that cannot be read is an
-// Error(kBadInput). frame_picture.cpp draws the particles. A change must keep the picture one
-// complete SVG.
+// Error(kBadInput). A change must keep the picture one complete SVG.
 #include "viscontact/particles/picture/particles_picture.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +19,7 @@
 namespace viscontact::particles {
 namespace {
 
-// Sizes of the picture, without the height of the scales below the panels [page units].
+// Width of the picture, largest height of all panels, margin, title and caption [page units].
 constexpr double kPictureWidth = 1000, kMostHeight = 900, kEdge = 16, kTitle = 44, kCaption = 30;
 
 /// The indices of the frames that are drawn, as particles_picture() says.
@@ -61,7 +60,7 @@ int columns_for(int panels, double width_over_height) {
   return best;
 }
 
-/// A scale of colours as a bar with numbers and words below it, from the point (left, top) on.
+/// A scale of colours as a bar with numbers and words below it; its place is in page units.
 std::string picture_of(const report::ColourScale& bar, double left, double top, double width) {
   constexpr int kHeight = 12;  // [page units]
   std::string text;
@@ -83,13 +82,11 @@ std::string picture_of(const report::ColourScale& bar, double left, double top, 
 
 constexpr int kBands = 20;  // number of colours of the speed, a free choice
 
-/// The speed [L/T] as a field on triangles, for level lines. Around the grid there is one more ring
-/// of points, at the places of the outermost points but with the speed -1, so that the level lines
-/// of all speeds > 0 are closed.
+/// The speed [L/T] as a field on triangles, for level lines. Around the grid is one more ring of
+/// points, at the places of the outermost points but with the speed -1, so that level lines close.
 report::LinearField closed_field(const report::Grid& grid, const FlowFrame& frame) {
   std::vector<double> speeds(frame.speed.begin(), frame.speed.end());
-  // Points without flow take the speed of their neighbours, layer by layer. They lie in solids,
-  // which are drawn over them.
+  // Points without flow, which are in solids, take the speed of their neighbours, layer by layer.
   const auto is_unknown = [](double v) { return std::isnan(v); };
   for (auto layer = std::max(grid.columns, grid.rows);
        layer > 0 && std::ranges::any_of(speeds, is_unknown); --layer)
@@ -174,8 +171,7 @@ std::string half_picture(const FlowFrames& flows, const FlowFrame& frame, const 
                     report::kStreamLineColour, lines, arrows);
 }
 
-/// The whole flow. If it has an axis, the grid covers only one half, and the other is its mirror
-/// image.
+/// The whole flow. If it has an axis, the grid covers one half, and the other is its mirror image.
 std::string flow_picture(const FlowFrames& flows, const FlowFrame& frame, const Projection& view) {
   auto half = half_picture(flows, frame, view);
   if (!flows.has_axis) return half;
@@ -225,8 +221,7 @@ std::string opening(const std::string& title, double height, bool has_bodies) {
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
       "<text x=\"{3:.0f}\" y=\"29\" font-size=\"{4:.1f}\" text-anchor=\"middle\">{2}</text>\n",
       kPictureWidth, height, report::escaped(title), kPictureWidth / 2,
-      // A long title gets a smaller font, so that it fits into the width; a character is on average
-      // about half as wide as high.
+      // A long title has a smaller font. A character is on average half as wide as high.
       std::min(20.0, 2 * (kPictureWidth - 2 * kEdge) / static_cast<double>(title.size() + 1)),
       gradient("ball", kStyle.ball), has_bodies ? gradient("body", kStyle.ball_of_body) : "");
 }
@@ -260,8 +255,7 @@ std::string panels_of(const PanelSettings& panel, const std::vector<std::size_t>
 }  // namespace
 
 std::string particles_picture(const Playback& original, const std::string& title, int panels) {
-  // More than 20000 particles, or more than 50000 points of a flow, could not be told apart in a
-  // panel.
+  // In a panel, more than 20000 particles or 50000 points of a flow could not be told apart.
   constexpr std::size_t kMostInPanel = 20000, kPointsOfFlow = 50000;
   const auto chosen = chosen_frames(original, panels);
   const int count = static_cast<int>(chosen.size());

@@ -15,15 +15,14 @@ namespace viscontact::particles {
 /// first and the last frame are among them; a single panel shows the last. Particles are drawn as
 /// discs in motions in the plane, and as spheres in motions in space, which are seen from a little
 /// above with the third axis upwards. `title` is plain text. Throws Error(kBadInput), which names
-/// the file, if the flow of a frame cannot be read.
+/// the file, if a frame's flow cannot be read.
 std::string particles_picture(const Playback& original, const std::string& title, int panels);
 
 /// The text of one HTML page that loads nothing from elsewhere and plays the motion. The size of
 /// the page is limited to about 24 MB. If the motion is too long for that, only every 2nd, 4th, ...
 /// frame is shown, and always the first and the last one; if two frames are still too large, no
 /// contacts are shown. Of more than 200 000 particles only every n-th is shown. The page says what
-/// it leaves out. `title` is plain text. Throws Error(kBadInput), which names the file, if the flow
-/// of a frame cannot be read.
+/// it leaves out. `title` is plain text. Throws the errors of particles_picture().
 std::string particles_page(const Playback& original, const std::string& title);
 
 }  // namespace viscontact::particles

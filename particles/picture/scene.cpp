@@ -44,8 +44,7 @@ double size_of(const ViewBox& box, int dimension) {
   return size;
 }
 
-/// Extends the box to a plane or circle that is near it, so that the picture shows that particles
-/// lie on it.
+/// Extends the box to a plane or circle near it, so that particles are seen to lie on it.
 void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
   constexpr double kNear = 0.5;  // largest distance over the longest side, a free choice
   const double size = size_of(box, dimension);
@@ -66,7 +65,7 @@ void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
   }
 }
 
-/// Scene::box for these frames and a flow that fills `domain`.
+/// Scene::box for these frames and for the flow that fills `domain`, if there is one.
 ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& frames,
                     const std::optional<report::Window>& domain) {
   // If all particles cover more than 1.5 times the interval that the central ones cover, some have
@@ -158,8 +157,7 @@ std::vector<char> points_in_bodies(const report::Grid& grid, const Playback& pla
   return is_body;
 }
 
-/// Collects values of points outside the particles, at most 4000 of each frame, which is enough for
-/// quantiles.
+/// Values of points outside the particles, at most 4000 of each frame: enough for quantiles.
 struct Samples {
   std::vector<double> values;
 
@@ -210,7 +208,7 @@ Playback in_plane(const Playback& playback) {
     std::vector<float> positions;
     for (const float z : frame.positions) positions.insert(positions.end(), {0, z});
     frame.positions = std::move(positions);
-    // A contact names a plane by its number. The mirror images come last, so that numbers stay.
+    // A contact names a plane by its number. Mirror images come last, so that no number changes.
     std::vector<PlanePosition> planes, images;
     for (const auto& wall : frame.planes) {
       planes.push_back(in_half_plane(wall, 1));
@@ -372,8 +370,7 @@ Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& norma
 
 Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
                         const std::vector<PlanePosition>& planes, std::size_t own, int dimension) {
-  // Planes may meet or coincide. Without the slack, round-off could remove a polygon in such a
-  // plane.
+  // Without the slack, round-off could remove a polygon in one of two planes that coincide.
   const double slack = 1e-4 * size_of(box, dimension);
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
     Vector axis{0, 0, 0};

@@ -54,8 +54,7 @@ struct FlowFrames {
   report::Grid grid;
   bool has_axis = false;          ///< whether the flow is symmetric about the line x = 0
   std::vector<FlowFrame> frames;  ///< in order of time; empty: there is no flow to draw
-  /// Speed at the upper end of the scale of colours [L/T], >= 0. One in a thousand points outside
-  /// the particles is faster.
+  /// Upper end of the scale of speeds [L/T], >= 0; one in a thousand points of the fluid is faster.
   double top_speed = 0;
   report::PressureColours pressure_colours;  ///< scale of colours of the pressure
 };
@@ -71,8 +70,7 @@ struct ShownFlows {
   std::vector<std::size_t> frames;  ///< indices in Playback::frames, increasing
   std::size_t points = 0;           ///< about how many points the grid has; 0 without a flow
 };
-/// Chooses these frames and the points so that the flows have at most kFlowBytesOfPage, with at
-/// most 60 000 points for each.
+/// These frames and points: at most 60 000, and so few that all flows fit into kFlowBytesOfPage.
 ShownFlows shown_flows(const Playback& playback);
 
 /// How wide a line is drawn: in proportion to a radius, but within limits [page units]. The still
@@ -96,9 +94,8 @@ struct SceneStyle {
       ball_of_body{"#f6ead0", "#dcc79c", "#a98d55", "#7a6231"};
   /// Colours of the marks of rotation on particles, and of springs.
   Colour mark = "#4a4a44", spring = "#2b6e3f";
-  /// A dot shows the angle of a disc: its distance from the centre and its radius, divided by the
-  /// radius of the disc. Dots show the axes of a sphere: their radius, divided by that of the
-  /// sphere.
+  /// The dot that shows the angle of a disc: its distance from the centre and its radius, over the
+  /// radius of the disc; and the radius of dots at the axes of a sphere, over that of the sphere.
   double mark_distance = 0.66, mark_radius = 0.13, axis_radius = 0.12;
   /// An axis of a sphere is marked where its component towards the reader is larger than this,
   /// because a dot nearer to the rim would be seen from the side.
@@ -115,7 +112,7 @@ struct SceneStyle {
   LineWidth force_line{0.9, 0, 12};
   LineWidth film_with_force{0.1, 0.8, 2};      ///< least of a film, by the smaller radius
   LineWidth touching_with_force{0, 0.3, 0.3};  ///< least of any other contact, likewise
-  double page_unit = 1.5;    ///< what the page takes for a page unit [CSS pixels], > 0
+  double page_unit = 1.5;    ///< what the page takes for one page unit [CSS pixels], > 0
   int spring_turns = 12;     ///< corners of the zigzag line of a spring, >= 1
   double spring_end = 0.12;  ///< length of each straight end over that of the spring, < 0.5
 };
@@ -129,8 +126,7 @@ struct Scene {
   Playback playback;
   bool has_axis = false;     ///< whether the particles are on an axis, the line x = 0
   bool is_in_fluid = false;  ///< whether there is a flow to draw
-  /// Whether forces, impulses and masses are per length normal to the plane, as they are for discs
-  /// in a fluid.
+  /// Whether forces, impulses and masses are per length normal to the plane (discs in a fluid).
   bool is_per_length() const {
     return playback.is_in_fluid && !has_axis && playback.dimension == 2;
   }
@@ -157,13 +153,11 @@ struct Scene {
 Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
                const std::vector<std::size_t>& flow_frames, std::size_t points);
 
-/// The size of the normal force of a contact divided by Scene::top_force, but at most 1; 0 if no
-/// contact has a force.
+/// The size of the normal force of a contact over Scene::top_force, from 0 to 1; 0 if that is 0.
 double force_share(const Scene& scene, const CurrentContact& contact);
 
-/// The share of Coulomb's bound that the friction of a contact has reached, from 0 to 1: the
-/// tangential force divided by friction coefficient times normal force. 1 if the contact slides, 0
-/// without friction or load.
+/// Friction of a contact over Coulomb's bound, from 0 to 1: the tangential force over the product
+/// of friction coefficient and normal force. 1 if the contact slides, 0 without friction or load.
 double mobilised_friction(const Playback& playback, const CurrentContact& contact);
 
 /// Words for the scale of colours of mobilised_friction().
@@ -175,10 +169,9 @@ using Polygon = std::vector<Vector>;  ///< corners in order [L]; two corners: a 
 /// The part of a convex polygon or of a line with normal.(x - point) >= 0.
 Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& normal);
 
-/// The part of a convex polygon or of a line that is in the box and, for each plane but number
-/// `own`, in which it lies, on the plane's free side (that of the particles). Planes are moved back
-/// by 1e-4 of the size of the box, so that a polygon in a coinciding plane is not lost. `dimension`
-/// is 2 or 3.
+/// The part of a convex polygon or line in the box and on the free side (that of the particles) of
+/// all planes but number `own`, which contains it. Planes are moved back by 1e-4 of the box's size,
+/// so that a polygon in two equal planes remains. `dimension` is 2 or 3.
 Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
                         const std::vector<PlanePosition>& planes, std::size_t own, int dimension);
 

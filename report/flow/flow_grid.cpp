@@ -1,8 +1,7 @@
 // Interpolates a flow at the points of a grid (flow_grid.hpp), in the units of the case. Which
 // triangle contains a point is decided as if its six nodes formed four straight triangles; the
 // value at the point then is that of the quadratic shape functions. A point without a triangle gets
-// NaN. A change must keep the numbering of nodes: three corners, then the middles of the sides 01,
-// 12 and 20.
+// NaN. A change must keep the numbering of nodes: corners, then the middles of sides 01, 12 and 20.
 #include "viscontact/report/flow/flow_grid.hpp"
 
 #include <algorithm>
@@ -46,8 +45,7 @@ void for_each_pixel(const std::array<double, 3>& x, const std::array<double, 3>&
   // A barycentric coordinate may be this far below 0, and the range of pixels is wider by this
   // share of a pixel, so that a centre on a side is in at least one triangle in spite of round-off.
   constexpr double kSlack = 1e-9;
-  // The first pixel in one direction whose centre is between two coordinates, and the one after the
-  // last.
+  // The first pixel with its centre from `low` to `high` in a row or column, and one past the last.
   const auto range = [](double low, double high, double start, double step, std::size_t count) {
     const auto clamp = [&](double place) {
       return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count)));

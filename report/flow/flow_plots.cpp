@@ -35,7 +35,7 @@ struct PlotView {
   double stretch() const { return plot_height / window.height() / (plot_width / window.width()); }
 };
 
-// Width, largest height, and height if heights are drawn larger than widths [pixels].
+// Of a plot: width, largest height, and height if heights are stretched [pixels].
 constexpr double kPlotWidth = 640;
 constexpr double kTallestPlot = 640;
 constexpr double kStretchedPlot = 360;
@@ -46,8 +46,7 @@ PlotView unstretched(const Window& window) {
   return {window, window.width() * scale, window.height() * scale};
 }
 
-/// Height of the lower side of the sphere over the plane z = 0 at the distance rho from the axis
-/// [L].
+/// Height z of the lower side of the sphere at the distance rho from the axis [L].
 double sphere_bottom(double radius, double gap, double rho) {
   return gap + radius - std::sqrt(std::max(0.0, radius * radius - rho * rho));
 }
@@ -108,8 +107,7 @@ PlotView surroundings(const QuadraticMesh& mesh, double radius, double gap) {
 }
 
 /// Half the width of the view of a gap, in units of sqrt(2 gap radius). At one such unit from the
-/// axis, the film between sphere and plane is twice as thick as on the axis, and at 2.5 units about
-/// 7 times. A free choice.
+/// axis, the film over a plane is twice as thick as on the axis, at 2.5 units 7 times.
 constexpr double kGapReach = 2.5;
 
 /// A view of the gap on both sides of the axis, whose half width is `reach` times that unit if the
@@ -158,8 +156,7 @@ std::vector<Polyline> sides(const QuadraticMesh& mesh, const Window& window, int
   return lines;
 }
 
-/// The sphere as a filled surface; the walls, the body beside the sphere, and surfaces without
-/// shear stress as lines.
+/// The sphere as a filled surface; walls and surfaces without shear stress as lines.
 std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotView& view,
                             double radius) {
   const double gap = picture.gap;
@@ -201,8 +198,7 @@ constexpr double kLeft = 110, kAbove = 66, kBelow = 106;
 constexpr double kColourBar = 165;  // at the right, with the numbers of the colours
 constexpr double kNoColourBar = 30;
 
-/// The command of gnuplot for an arrow on the visible part of the sphere in the direction of its
-/// velocity.
+/// gnuplot's command for an arrow on the visible part of the sphere, along its velocity.
 std::string velocity_arrow(const freefem_axi::RowPicture& row, double radius,
                            const Window& window) {
   constexpr double kLength = 0.4;  // over the height of the visible part
@@ -279,7 +275,7 @@ struct ViewedFlow {
 };
 
 Grid grid_of_view(const PlotView& view) {
-  // Size of a cell [pixels], a free choice: gnuplot takes as much longer as there are more cells.
+  // Size of a cell [pixels], a free choice. gnuplot's time is proportional to the number of cells.
   constexpr double kCell = 1.5;
   const auto columns = static_cast<std::size_t>(view.plot_width / 2 / kCell);
   const auto rows = static_cast<std::size_t>(view.plot_height / kCell);
@@ -360,14 +356,14 @@ std::string plot_pressure_and_streamlines(const std::string& what,
   return draw(panel, view, kColourBar, stop);
 }
 
-/// Arrows of the velocity in the plane through the axis and the direction of motion. The field on
-/// the grid is that at the right of the axis (angle phi = 0 about it); at the left (phi = pi), u_z
-/// has the other sign, while the component to the right is the same. `fastest` is the largest speed
-/// [L/T].
+/// Arrows of the velocity in the plane through the axis and the direction of motion. The grid has
+/// the velocity at the right of the axis, where the angle phi about the axis is 0. At the left,
+/// where phi = pi, u_z has the other sign; the component to the right is the same. `fastest`: top
+/// speed [L/T].
 Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
   const auto& view = viewed.view;
   constexpr std::size_t kColumns = 24;
-  constexpr double kHead = 0.35, kAngle = 0.45;  // head: over the arrow's length; [rad]
+  constexpr double kHead = 0.35, kAngle = 0.45;  // head: length over the arrow's, half angle [rad]
   const auto rows = static_cast<std::size_t>(
       std::lround(std::max(2.0, kColumns * view.plot_height / view.plot_width)));
   const auto& window = view.window;
@@ -387,8 +383,7 @@ Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
                                                 static_cast<double>(u_field.columns));
     const double u = u_field.values.at(pixel), w = w_field.values.at(pixel);
     if (!std::isfinite(u)) continue;
-    // The length of an arrow, over that of a cell, is proportional to the root of the speed, so
-    // that slow flow is seen, too.
+    // The length of an arrow is proportional to the root of the speed, so that slow flow is seen.
     const double speed = std::hypot(u, w);
     const double length = 0.9 * std::sqrt(speed / fastest);
     const double dx = length * u / speed, dy = length * (x < 0 ? -w : w) / speed;

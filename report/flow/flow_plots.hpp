@@ -13,8 +13,8 @@ namespace viscontact::report {
 
 // `picture` is the flow of a row of the table that `tabulation` describes. It is computed in the
 // half-plane of the distance from the axis and the height; the pictures show the mirror image, too.
-// If the gap is thin, heights are drawn larger than widths, and the title says so. The functions
-// throw Error(kExternalProgram) if gnuplot is missing or fails, and Error(kInterrupted) if `stop`
+// If the gap is thin, heights are drawn larger than widths, and the title says so. All throw
+// Error(kExternalProgram) if gnuplot is missing or fails, and Error(kInterrupted) if `stop`
 // requests a stop.
 
 /// The finest mesh in the gap, and on it the coarsest mesh, whose triangles were each divided into
@@ -22,9 +22,8 @@ namespace viscontact::report {
 std::string plot_mesh(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop = {});
 
-/// The flow of an approaching sphere, within about three radii of its centre or, if the fluid is
-/// not much larger, all of it: pressure as colours, and streamlines between which equal amounts
-/// flow.
+/// The flow of an approaching sphere within about three radii of its centre (all of the fluid if it
+/// is not much larger): pressure as colours, and streamlines between which equal amounts flow.
 std::string plot_flow(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop = {});
 

@@ -133,8 +133,7 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
         arrows.push_back(line[i]);
         break;
       }
-  // The parts before and after the arrow are simplified separately, so that the place of the arrow
-  // remains a point of the line.
+  // The parts before and after the arrow are simplified separately, so that it stays at a point.
   const double tolerance = 0.1 * std::min(grid.step_x(), grid.step_y());
   const auto middle = line.begin() + static_cast<std::ptrdiff_t>(arrow);
   result.points = simplified({line.begin(), middle + 1}, tolerance);
@@ -204,8 +203,7 @@ std::vector<Polyline> level_lines(const LinearField& field, double level) {
   return lines;
 }
 
-/// The factorised normal equations of the least squares, and the points that were in the fluid
-/// then.
+/// The factor of the normal equations, and the points in the fluid for which it was computed.
 struct StreamLines::Equations {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
   std::vector<char> is_fluid;
@@ -226,7 +224,7 @@ struct StreamLines::Equations {
     is_fluid = std::move(points);
     using Entry = Eigen::Triplet<double>;
     std::vector<Entry> entries;
-    entries.emplace_back(0, 0, 1);  // fixes the free constant of psi
+    entries.emplace_back(0, 0, 1);  // fixes psi, which is determined up to a constant only
     for_each_side(grid, [&](std::size_t a, std::size_t b, bool) {
       const double w = weight(is_fluid[a] != 0 && is_fluid[b] != 0);
       const auto i = static_cast<int>(a), j = static_cast<int>(b);
@@ -240,8 +238,7 @@ struct StreamLines::Equations {
     factor.factorize(matrix);
   }
 
-  /// Calls visit(a, b, is_horizontal) for each pair of neighbouring points a, b in a row or a
-  /// column.
+  /// Calls visit(a, b, is_horizontal) for each two neighbours a, b in a row or a column.
   template <class Visit>
   static void for_each_side(const Grid& grid, const Visit& visit) {
     for (std::size_t row = 0; row < grid.rows; ++row)

@@ -36,16 +36,14 @@ struct StreamLine {
 /// Streamlines at equal steps of the stream function.
 struct StreamLineSet {
   std::vector<StreamLine> lines;
-  /// Difference of the stream function between neighbouring lines [L^2/T], with an axis [L^3/T], >
-  /// 0; 0 if there are no lines.
+  /// Step of psi between neighbouring lines [L^2/T], with an axis [L^3/T]; 0 without lines.
   double step = 0;
 };
 
 /// Computes streamlines as level lines of the stream function psi of the velocity (u, v) along (x,
 /// y): u = dpsi/dy, v = -dpsi/dx in the plane [L^2/T]; with an axis, where x is the distance from
 /// it, x u = dpsi/dy, x v = -dpsi/dx [L^3/T] (Batchelor 1967, "An Introduction to Fluid Dynamics",
-/// 2.2). psi is the least-squares solution of these equations between neighbouring points of the
-/// grid.
+/// 2.2). psi solves these equations between neighbouring points of the grid by least squares.
 class StreamLines {
  public:
   /// For flows on `grid`. With `has_axis` they are symmetric about x = 0, and the grid has x >= 0.

@@ -12,8 +12,8 @@ const kBlank = '\u2013';  // a dash, shown in place of a missing number
 
 // `described` is an axis as page.cpp writes it: label, logarithmic, and the ends low and high
 // (outer values). If an end is null, it is that of `values` with a margin of 4 %, a free choice.
-// The result has the functions inner() and outer() between both kinds of values, and the ends
-// `full` (inner).
+// The result has functions inner() and outer() from one kind to the other, and the ends `full`
+// (inner).
 function axisOf(described, values) {
   const finite = values.filter(v => Number.isFinite(v) && (!described.logarithmic || v > 0));
   let low = Infinity, high = -Infinity;
@@ -52,7 +52,7 @@ function ticksOf(axis, low, high, count) {
 const kSuperscripts = '\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079';
 const raised = n => String(n).replace('-', '\u207b').replace(/\d/g, d => kSuperscripts[d]);
 
-// A number as a text with that many significant digits: 0.002, 150, 3·10⁻⁷.
+// A number as a text with `digits` significant digits: 0.002, 150, 3·10⁻⁷.
 function short(value, digits) {
   if (value === 0 || !Number.isFinite(value)) return value === 0 ? '0' : kBlank;
   const size = Math.abs(value);
@@ -76,9 +76,8 @@ function tickLabels(axis, ticks) {
   return values.map(v => short(v, digits));
 }
 
-// The inner values x of a curve, made strictly increasing, as uPlot needs them: at a jump of the
-// curve two points have the same x, and the second is moved by 1e-12 of `span`, the length of the
-// axis.
+// The inner values x of a curve, made strictly increasing, as uPlot needs them: at a jump two
+// points have the same x, and the second is moved by 1e-12 of the axis (`span`).
 function separated(x, span) {
   const result = x.slice();
   for (let i = 1; i < result.length; ++i)
@@ -119,8 +118,7 @@ function outline(kind, x, y, r) {
   return path;
 }
 
-// Draws the marked points of a curve, which is number `series` of uPlot's object u, because uPlot
-// itself can draw circles only.
+// Draws the marked points of curve number `series` of uPlot's object u, which draws circles only.
 function drawPoints(u, curve, series) {
   if (!curve.point || !u.series[series].show) return;
   const ratio = devicePixelRatio, box = u.bbox, context = u.ctx;

@@ -37,8 +37,7 @@ function addTouch(u, reset) {
       const now = [spot(event.touches[0]), spot(event.touches[1])];
       const along = (name, values, positions, length, upward) => {
         const apart = positions[1] - positions[0];
-        // Fingers less than 40 pixels apart in this direction do not zoom in it: the scale would
-        // jump.
+        // Fingers less than 40 pixels apart in this direction do not zoom in it.
         if (Math.abs(apart) < 40) return;
         const slope = (values[1] - values[0]) / apart, start = values[0] - slope * positions[0];
         const ends = [start, start + slope * length];
@@ -197,8 +196,7 @@ function makePanel(parent, panel, height) {
   reset();
   addTouch(u, reset);
   const fit = () => { if (chart.clientWidth && chart.clientWidth !== u.width) u.setSize(size()); };
-  // A change of the size within the observer would call the observer again without end. Therefore
-  // it is done in the next frame.
+  // A change of size within the observer would call the observer again without end.
   new ResizeObserver(() => requestAnimationFrame(fit)).observe(chart);
   place.uplot = u;  // tests of reports in a browser read this and the next member
   place.full = {x: x.full, y: y.full};

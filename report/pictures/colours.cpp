@@ -57,8 +57,7 @@ std::vector<std::pair<double, std::string>> round_ticks(double top) {
   return ticks;
 }
 
-/// The colour at a place from -1 to 1 of ColorBrewer's scale RdBu, whose colours colour-blind
-/// readers can tell apart.
+/// The colour at a place from -1 to 1 of ColorBrewer's scale RdBu, safe for colour-blind readers.
 std::string red_blue(double place) {
   static const std::vector<ColourNode> kRedBlue = {
       {-1, {33, 102, 172}}, {-0.66, {103, 169, 207}}, {-0.3, {209, 229, 240}},
@@ -104,8 +103,7 @@ PressureColours widened(PressureColours colours) {
 }  // namespace
 
 std::string film_colour(double share) {
-  // Colour-blind readers, and readers of a grey print, can tell the colours of the scale viridis
-  // apart.
+  // Colour-blind readers, and those of a grey print, can tell the colours of viridis apart.
   static const std::vector<ColourNode> kViridis = {
       {0, {253, 231, 37}},     {0.125, {173, 220, 48}}, {0.25, {94, 201, 98}},
       {0.375, {40, 174, 128}}, {0.5, {33, 145, 140}},   {0.625, {44, 114, 142}},
@@ -215,8 +213,7 @@ std::vector<std::string> PressureColours::settings() const {
     ticks = "set cbtics (" + places + ")";
     words += fmt::format("\\nlogarithmic beyond {}", short_number(linear_below));
   }
-  // The words say so if a pressure is more than 1.2 times the end of the scale; nearer ones look
-  // alike.
+  // The words name a pressure beyond 1.2 times the end of the scale; nearer ones look alike.
   constexpr double kWorthAWord = 1.2;
   if (largest > kWorthAWord * high && largest > 0)
     words += fmt::format("{} above {} one colour (largest {})", linear_below > 0 ? ";" : "\\n",

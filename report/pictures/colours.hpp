@@ -41,8 +41,7 @@ struct ColourScale {
   std::vector<std::pair<double, std::string>> ticks;  ///< shares of the width with their texts
 };
 
-/// The colour "#rrggbb" of gamma; `share` is gamma over the lowest gamma, from 0 (light) to 1
-/// (dark).
+/// The colour "#rrggbb" for share = gamma/(lowest gamma), from 0 (light) to 1 (dark).
 std::string film_colour(double share);
 
 /// The scale of gamma from `lowest` < 0 (left) to 0, with `colours` >= 2 colours and these words.
@@ -55,13 +54,11 @@ inline constexpr const char* kSlidingColour = "#d55e00";   ///< for contacts tha
 /// (kTouchingColour) to 1 (kSlidingColour).
 std::string friction_colour(double share);
 
-/// The scale of friction over Coulomb's bound from 0 to 1, with `colours` >= 2 colours and these
-/// words.
+/// The scale of this friction from 0 to 1 with `colours` >= 2 colours and these words.
 ColourScale friction_scale(int colours, const std::string& words);
 
 /// The colour "#rrggbb" of a speed; `share` is the speed over that at the end of the scale, from 0
-/// (nearly white) to 1 (blue). The steps of lightness are even, and dark lines can be seen on all
-/// colours.
+/// (nearly white) to 1 (blue). Lightness has even steps; dark lines can be seen on all.
 std::string speed_colour(double share);
 
 /// The scale of the speed of a fluid from 0 to `top` >= 0 [L/T], with `colours` >= 2 colours.

@@ -1,7 +1,6 @@
 // Reads the columns to draw from a sweep's CSV file and draws them (sweep_plot.hpp). Values are in
 // the units of the case, sizes in pixels. A column that is missing or has no number is an
-// Error(kBadInput). A change must keep that the file is read row by row, because it may be larger
-// than the memory.
+// Error(kBadInput). The file must be read row by row: it may be larger than the memory.
 #include "viscontact/report/pictures/sweep_plot.hpp"
 
 #include <fmt/format.h>
@@ -191,8 +190,7 @@ struct MapAxis {
   double low = 0, high = 0;
 };
 
-/// The axis of these values, at least two. At each end it extends half the mean distance of two
-/// values beyond the last one.
+/// The axis of these values, at least two. It extends beyond both ends by half the mean step.
 MapAxis axis_of(const std::set<double>& values) {
   const bool logarithmic = is_logarithmic({values.begin(), values.end()});
   const double first = scaled(*values.begin(), logarithmic);
@@ -201,11 +199,9 @@ MapAxis axis_of(const std::set<double>& values) {
   return {values, logarithmic, first - margin, last + margin};
 }
 
-/// For each pixel along the axis, the nearest of the values, so that values with unequal distances
-/// are at the right places.
+/// For each pixel along the axis, the nearest of the values, so that uneven steps are seen.
 std::vector<double> values_of_pixels(const MapAxis& axis) {
-  // Some programs smooth a picture of few pixels. With eight pixels for each value, the edges
-  // between values stay sharp.
+  // Some programs smooth a picture of few pixels; with eight for each value, edges stay sharp.
   const auto pixels = 8 * axis.values.size();
   std::vector<double> found;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -222,8 +218,7 @@ std::vector<double> values_of_pixels(const MapAxis& axis) {
 std::vector<std::string> map_colours(double low, double high) {
   const double reach = std::max(-low, high);
   if (low < -reach / 10 && high > reach / 10)
-    // Values of both signs, none of which is negligible: from blue over grey at 0 to red (Moreland
-    // 2009).
+    // Values of both signs: from blue over grey at 0 to red (Moreland 2009).
     return {"set palette defined (-1 '#3b4cc0', 0 '#dddddd', 1 '#b40426')",
             fmt::format("set cbrange [{}:{}]", -reach, reach)};
   // The lightness of this scale (cividis, Nunez et al. 2018) increases from end to end, so that

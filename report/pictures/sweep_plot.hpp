@@ -1,6 +1,5 @@
 // The picture of a sweep, in which keys of a case are varied, from the sweep's CSV file. Values are
-// in the units of the case. `sweep --plot` makes it. A change must keep that files larger than the
-// memory can be drawn.
+// in the units of the case. `sweep --plot` makes it. It must draw files larger than the memory.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +11,7 @@
 
 namespace viscontact::report {
 
-/// What to draw. A column is named "COLUMN", as in the file, or "COLUMN/KEY" for its quotient by a
-/// key that the sweep varies.
+/// What to draw. A column is "COLUMN" of the file, or "COLUMN/KEY", its quotient by a varied key.
 struct SweepPlot {
   std::string x;                     ///< varied key on the horizontal axis
   std::string y;                     ///< key on the vertical axis of a map; empty: lines over x

@@ -1,8 +1,7 @@
 // The address of the page keeps what the reader sees, so that a copied address shows the same:
 // after # it has the time, the view as far as it was moved, and the choice of colours. The file
 // also saves the motion as a film. A change must keep the keys, because readers have saved
-// addresses. controls.js, the last file of the same script, calls showAddress(); nothing is thrown
-// but by makeFilm().
+// addresses. controls.js, the last file of the script, calls showAddress(). Only makeFilm() throws.
 
 // What the reader sees, as key=value pairs: the time t [unit of the case], the shift x, y of the
 // view in widths of the canvas, `zoom` (the diagonal of the motion's box in widths of the canvas),
@@ -42,8 +41,7 @@ function showAddress() {
 
 let shownAddress = '';
 let addressTimer = 0;
-// Changes the address 0.3 s after the last change of what the reader sees, but not while the motion
-// plays.
+// Changes the address 0.3 s after the last change of the picture, if the motion does not play.
 function keepAddress() {
   clearTimeout(addressTimer);
   addressTimer = setTimeout(() => {

@@ -2,14 +2,12 @@
 // contacts), which the reader chooses in the list #colour of the page. Values are in the units of
 // the case. The scale of speeds and forces goes from 0 to the value that 98 % of the particles do
 // not exceed, that of radii and masses from the least to the largest. Nothing is thrown.
-// picture.js, address.js and controls.js use this file, particles/picture/page_data.cpp writes the
-// blocks `masses` and `speeds`, and particles_page.cpp the list and the element #particle-scale; a
-// change must agree with them.
+// picture.js, address.js and controls.js use this file. A change must agree with particles/picture:
+// page_data.cpp writes the blocks `masses` and `speeds`, particles_page.cpp the elements.
 
 // Number of colours; any number >= 2 works.
 const kColours = 64;
-// The colour at level 0 to kColours - 1, mixed with black by the share -light or with white by the
-// share `light`.
+// The colour at level 0 to kColours - 1; light < 0 mixes in |light| of black, light > 0 of white.
 function scaleColour(level, light = 0) {
   // The lightness of this scale (cividis, Nunez et al. 2018) rises from end to end, so that
   // colour-blind readers can read it.
@@ -93,8 +91,7 @@ function readColours() {
   colouring.frame = lines.frame;
 }
 
-// The colour of particle k: its level on the scale; if nothing is chosen, -1, or -2 in a rigid
-// body.
+// The colour of particle k: its level on the scale; if none is chosen, -1, or -2 in a rigid body.
 function lookOf(k) {
   if (!colouring.name) return isInBody(k) ? -2 : -1;
   const share = (colouring.values[k] - colouring.low) / (colouring.high - colouring.low || 1);
@@ -103,8 +100,7 @@ function lookOf(k) {
 // Colours of the fill and the edge of a disc for a result of lookOf().
 const discColours = look =>
   look >= 0 ? [scaleColour(look), scaleColour(look, -0.45)] : look === -2 ? style.discOfBody : disc;
-// Colours of a sphere for a result of lookOf(): three from its brightest point to its rim, then the
-// edge.
+// Likewise for a sphere: three colours from its brightest point to its rim, then its edge.
 const ballColours = look =>
   look >= 0 ? [scaleColour(look, 0.6), scaleColour(look), scaleColour(look, -0.3), scaleColour(look, -0.5)]
             : look === -2 ? style.ballOfBody : style.ball;

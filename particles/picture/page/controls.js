@@ -2,9 +2,8 @@
 // one pointer moves or turns the view (view.js), and two pointers or a wheel zoom. The controls
 // under the picture, and keys, change the time of the motion and what is drawn. Places of pointers
 // are in device pixels of the canvas, times in the unit of the case. Speeds of pointers and the
-// wheel are free choices. particles/picture/particles_page.cpp writes the elements that are found
-// by their ids here. This file is the last of the script and starts the page. Tests use `player` as
-// window.viscontactPlayer.
+// wheel are free choices. particles/picture/particles_page.cpp writes the elements with these ids.
+// This file ends the script and starts the page. Tests use window.viscontactPlayer.
 
 const readout = document.getElementById('readout');
 const pointer = {x: 0, y: 0, inside: false};
@@ -101,8 +100,7 @@ const kSeconds = 10;  // [s] for the whole motion at speed 1, a free choice
 const slider = document.getElementById('time'), clock = document.getElementById('clock');
 const button = document.getElementById('play');
 const speed = document.getElementById('speed');
-// Digits after the point of a time, so that the whole motion has at least 100 steps of the last
-// one.
+// Digits after the point of a shown time; the motion is at least 100 steps of the last digit long.
 const digits = Math.min(9, Math.max(0, 2 - Math.floor(Math.log10((lastTime - firstTime) || 1))));
 let lastTick = 0;
 
@@ -143,7 +141,7 @@ const player = {
 
 function tick(now) {
   if (!player.playing) return;
-  // A step takes at most 0.25 s, so that a page that was hidden goes on where it was hidden.
+  // A step is at most 0.25 s long, so that a page that was hidden goes on where it was hidden.
   const seconds = Math.min(0.25, Math.max(0, (now - lastTick) / 1000));
   lastTick = now;
   player.seek(player.time + seconds * Number(speed.value) * (lastTime - firstTime) / kSeconds);

@@ -6,7 +6,7 @@
 'use strict';
 const viscontactFlow = (() => {
   const kNothing = 255, kLevels = 254;  // level of a point without flow; highest level of others
-  // In place of the arrow of a line that has none; steps of a coordinate across the window.
+  // Marks a line without an arrow; the number of steps of a coordinate across the window.
   const kNoArrow = 65535, kSteps = 65535;
 
   const rgb = text => [1, 3, 5].map(at => parseInt(text.slice(at, at + 2), 16));
@@ -40,7 +40,7 @@ const viscontactFlow = (() => {
     image.height = rows;
     let painted = '';  // the field and the number of the flow that the image shows
 
-    // The number of the flow whose time is nearest.
+    // The number of the flow whose time is nearest to `time`.
     function nearest(time) {
       let best = 0;
       for (let i = 1; i < times.length; ++i)
@@ -48,8 +48,7 @@ const viscontactFlow = (() => {
       return best;
     }
 
-    // Paints `field` ("speed" or "pressure") of a flow into `image`, a pixel for each point of the
-    // grid.
+    // Paints `field` ("speed" or "pressure") of a flow into `image`, a pixel for each point.
     function paint(flow, field) {
       if (painted === field + flow) return;
       painted = field + flow;
@@ -131,8 +130,8 @@ const viscontactFlow = (() => {
     }
 
     return {
-      // `pen` is the context of the canvas; `field` is "speed", "pressure" or "none"; `dots` are
-      // device pixels in a CSS pixel.
+      // `field`: "speed", "pressure" or "none"; `dots`: device pixels in a CSS pixel; `pen`: of the
+      // canvas.
       draw(pen, time, field, withLines, dots) {
         if (!times.length || (field === 'none' && !withLines)) return;
         const flow = nearest(time);

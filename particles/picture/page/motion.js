@@ -28,7 +28,7 @@ const ids = document.getElementById('ids') ? new Int32Array(bytes('ids')) : null
 const written = motion.bytes === 2 ? new Uint16Array(bytes('positions'))
                                    : new Float32Array(bytes('positions'));
 // For each frame and plane six numbers: a point of the plane and its unit normal into the side of
-// the particles. A circle has its centre, 0, 0 and its radius.
+// the particles. For a circle: its centre, then 0, 0 and its radius.
 const planeNumbers = new Float32Array(bytes('planes'));
 const optional = (id, Kind) => (document.getElementById(id) ? new Kind(bytes(id)) : null);
 const writtenAngles = optional('angles', Float32Array);
@@ -40,8 +40,7 @@ const bodies = optional('bodies', Int32Array);
 const firstFrames = optional('firstFrames', Int32Array);
 // Two semi-axes for each particle, the first along its angle, if not all are discs.
 const semiAxes = optional('semiAxes', Float32Array);
-// For each particle 1 if it is a plate with round ends: its semi-axes are half of its length and
-// the radius of the ends.
+// 1 for a plate with round ends: its semi-axes are half of its length and the radius of its ends.
 const plates = optional('plates', Int8Array);
 // In a periodic motion the contact of a pair is with an image of the second particle, a copy that
 // is shifted by x, y and z periods, each -1, 0 or 1. For each pair: the number x + 3 y + 9 z.
@@ -58,7 +57,7 @@ const middle = low.map((l, d) => (l + high[d]) / 2);
 const diagonal = Math.hypot(...low.map((l, d) => high[d] - l));
 const firstTime = frames ? times[0] : 0, lastTime = frames ? times[frames - 1] : 0;
 
-const positions = new Float32Array(count * dim);  // at the time of setTime(), as are the next two
+const positions = new Float32Array(count * dim);  // at the time given to setTime()
 const angles = new Float32Array(writtenAngles ? count : 0);
 const orientations = new Float32Array(writtenOrientations ? 4 * count : 0);
 // The obstacles at that time: {point, normal, radius}. A plane has the radius 0. A circle has a
@@ -71,8 +70,7 @@ const lines = {
   count: 0,
   pair: new Int32Array(pairs.length / 2),
   level: new Uint8Array(pairs.length / 2),
-  // 0 to 254: friction divided by Coulomb's bound (friction coefficient times normal force). 255:
-  // the contact slides.
+  // 0 to 254: friction over Coulomb's bound (coefficient times normal force); 255: it slides.
   friction: new Uint8Array(pairs.length / 2),
   force: new Uint8Array(pairs.length / 2),  // normal force: 255 for motion.topForce
 };

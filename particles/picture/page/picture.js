@@ -10,8 +10,7 @@ const kLargestSprite = 512;  // largest diameter of a copied picture (sprites) [
 const disc = motion.flow ? style.discInFluid : style.disc;
 const isInBody = k => bodies !== null && bodies[k] >= 0;
 
-// Paints a particle as a disc or a sphere. Its colour `look` is a result of lookOf()
-// (colouring.js).
+// Paints a disc or a sphere. Its colour `look` is a result of lookOf() (colouring.js).
 function paintParticle(p, x, y, r, look) {
   const rim = Math.min(2 * dots, Math.max(0.5, 0.07 * r));
   if (flat) {
@@ -60,8 +59,7 @@ function particle(x, y, r, look) {
   }
 }
 
-// For each particle its place, its radius (0: not shown) and, in space, its depth towards the
-// reader.
+// For each particle: place, radius (0: not shown) and, in space, depth (larger: nearer).
 const pageX = new Float32Array(count), pageY = new Float32Array(count);
 const pageRadius = new Float32Array(count), depths = new Float32Array(count);
 const order = new Uint32Array(count);  // the particles from far to near
@@ -81,9 +79,8 @@ function placeParticles() {
   if (!flat) sortByDepth();
 }
 
-// Sorts the particles into 4096 layers of depth; within a layer they keep their order. The layers
-// are so thin that particles which overlap on the page are in different ones, unless they are very
-// small.
+// Sorts the particles into 4096 layers of depth; within a layer they keep their order. Only very
+// small particles that overlap on the page can be in one layer, because the layers are thin.
 function sortByDepth() {
   const layers = 4096, start = new Uint32Array(layers + 1);
   const half = diagonal / 2, centre = dot(axes[2], middle);
@@ -140,7 +137,7 @@ function drawSpheres() {
 function drawDiscs() {
   for (let k = 0; k < count; ++k) {
     const x = positions[2 * k], y = positions[2 * k + 1], r = radii[k];
-    // The shift to the other side of the cell, if a part of the disc is outside of this side.
+    // The shift to the opposite side of the cell, if a part of the disc is outside of one side.
     const besideX = !periodX ? 0 : x - r < cellX ? periodX : x + r > cellX + periodX ? -periodX : 0;
     const besideY = !periodY ? 0 : y - r < cellY ? periodY : y + r > cellY + periodY ? -periodY : 0;
     for (const shiftX of besideX ? [0, besideX] : [0])
@@ -177,8 +174,7 @@ function drawEllipse(k, x, y) {
   pen.stroke();
 }
 
-// Draws a dot, from the centre in the direction of the angle, which shows how far a disc has
-// turned.
+// Draws a dot in the direction of a disc's angle, which shows how far the disc has turned.
 function drawMark(k, x, y) {
   const r = semiAxes ? pageRadius[k] / radii[k] * semiAxes[2 * k] : pageRadius[k];
   if (r < 4 * dots) return;
@@ -190,8 +186,7 @@ function drawMark(k, x, y) {
   pen.fill();
 }
 
-// Draws dots on sphere k at the ends of the three axes that turn with it, on the side of the
-// reader.
+// Draws dots on sphere k, on the reader's side, at the ends of the three axes that turn with it.
 function drawAxes(k) {
   const r = pageRadius[k];
   if (r < 5 * dots) return;
@@ -213,14 +208,12 @@ function drawAxes(k) {
     }
 }
 
-// The place on the canvas of particle k with its position shifted by sign * shift; each call
-// overwrites it.
+// The place on the canvas of particle k shifted by sign * shift; each call overwrites it.
 const shifted = (k, shift, sign) =>
   project(...[0, 1, 2].map(d => (d < dim ? positions[k * dim + d] + sign * shift[d] : 0)));
 
 // Calls line(x1, y1, x2, y2) for the line from one particle to the nearest copy of another that is
-// shifted by periods; also for the line that ends at the other particle itself, if the shift is not
-// 0.
+// shifted by periods; if it is shifted, also for the line that ends at the other particle itself.
 function betweenParticles(first, second, line) {
   const shift = [periodX, periodY, periodZ].map((period, d) => {
     const apart = positions[second * dim + d] - positions[first * dim + d];
@@ -301,9 +294,8 @@ function drawLinks() {
 
 let withContacts = true;  // whether the reader wants to see contacts
 
-// The colours of contacts: first those without a film of fluid, from no friction to sliding, then
-// those with one, from little to much impulse that it has absorbed. An index i of a contact is one
-// of `lines`.
+// The colours of contacts: first without a film of fluid, from no friction to sliding, then with
+// one, from little to much impulse that it has absorbed. Contacts i are those of `lines`.
 const ofFriction = motion.friction.length ? motion.friction : [motion.touching];
 const colours = [...ofFriction, ...motion.colours];
 const slides = i => lines.friction[i] === 255;
@@ -314,8 +306,7 @@ function colourOf(i) {
     : ofFriction.length + Math.round(level / 255 * (motion.colours.length - 1));
 }
 
-// The ends of the line in the middle of plate k, between the centres of its round ends; for another
-// disc, its centre twice.
+// The ends of the middle line of plate k, the centres of its round ends; of a disc, its centre.
 function spineOf(k) {
   const half = plates[k] ? pageRadius[k] / radii[k] * (semiAxes[2 * k] - semiAxes[2 * k + 1]) : 0;
   const x = half * Math.cos(angles[k]), y = -half * Math.sin(angles[k]);

@@ -3,7 +3,7 @@
 // canvas are in device pixels with y downwards, points and lengths of the motion in the case's unit
 // of length. Nothing is checked or thrown. picture.js, controls.js and address.js, which belong to
 // the same script, use all names. view_of() and the planes in particles/picture/frame_picture.cpp,
-// for the still picture, must stay alike.
+// which draws the still picture, must stay like those here.
 
 const canvas = document.getElementById('stage'), pen = canvas.getContext('2d');
 // `scale` is in device pixels per length; `x`, `y` is where the middle of the box appears, from the
@@ -22,9 +22,8 @@ function setAxes() {
               : [[c, s, 0], [-s * sa, c * sa, ca], [s * ca, -c * ca, sa]];
 }
 
-// How many times larger than in the middle of the box things appear at a depth [case's length] in
-// front of it. The reader is four diagonals of the box away from the middle. 0: too near the reader
-// or behind.
+// The magnification at a depth [case's length] in front of the middle of the box, over that in the
+// middle, from which the reader is four diagonals of the box away. 0: too near or behind.
 function nearness(depth) {
   if (flat) return 1;
   const distance = 4 * diagonal;
@@ -172,8 +171,7 @@ function drawLines() {
 }
 
 // Motions in space: draws the planes that are seen from their free side, where the particles are,
-// as patches with a grid (`fromFreeSide`), or the edges of the others. The grid has steps of a
-// power of ten.
+// as patches with a grid (`fromFreeSide`), or the edges of the others. The grid has steps of 10^n.
 function drawPatches(fromFreeSide) {
   const step = 10 ** Math.round(Math.log10(diagonal / 8));
   planes.forEach(({point, normal}, i) => {
