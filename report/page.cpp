@@ -22,8 +22,7 @@
 
 namespace viscontact::report {
 
-// The texts of the files in report/page, from which CMakeLists.txt makes these functions, so that a
-// page loads nothing from elsewhere.
+// The texts of the files in report/page, made by CMakeLists.txt; a page needs no other file.
 std::string_view uplot_script();
 std::string_view uplot_style();
 std::string_view uplot_licence();
@@ -176,7 +175,7 @@ std::string as_url(const std::string& file) {
   return url;
 }
 
-/// Warns if `failure` is that gnuplot is missing; otherwise throws Error(kExternalProgram).
+/// Warns if `failure` says that gnuplot is missing; otherwise throws Error(kExternalProgram).
 void warn_of_missing_pictures(const std::exception_ptr& failure) {
   constexpr const char* kWritten =
       "the report is written, without still pictures and without the files in plots/";

@@ -317,9 +317,8 @@ void add_unit(std::string& label, const Units& units) {
 
 std::vector<Plot> plots_of(const results::RunResults& run) {
   const auto& motion = case_file::required_motion(run.c);
-  // Below the smallest fitted gap q1, the drag is continued as k/q + constant with the fitted k,
-  // whatever the case says, as only pictures depend on it; trajectories go there only if the case
-  // allows it.
+  // Below the smallest fitted gap, the drag is continued as k/q + constant with the fitted k, even
+  // if the case does not allow it: no trajectory then is there, and only pictures depend on it.
   const lubrication::LubricationForce force(run.fit,
                                             {lubrication::BelowInterval::kLubricationLimit});
   std::vector<Plot> plots = {plot_minimal_gaps(run.comparison, run.c.published),

@@ -1,7 +1,8 @@
-// The plots of the report of one sphere, as data for report/page.hpp. Gaps q [L], times t [T],
-// gamma (minus the impulse that the film has absorbed) [M L/T] and forces [M L/T^2] are in the
-// units of the case. report.cpp uses it and leaves out plots without curves. A change must keep the
-// names of the plots, which are names of files. Each trajectory must have a row.
+// The plots of the report of one sphere, as data for report/page.hpp. Gaps q [L], times t [T] and
+// forces [M L/T^2] are in the units of the case. A contact model replaces the thin film by contact
+// and computes gamma, minus the impulse that the film has absorbed [M L/T], from which the film's
+// thickness is recovered. Each trajectory must have a row. report.cpp uses the plots, and leaves
+// out those without curves. A change must keep the names of the plots, which are names of files.
 #pragma once
 
 #include <optional>

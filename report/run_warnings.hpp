@@ -11,7 +11,7 @@
 
 namespace viscontact::report {
 
-/// A fit counts as poor if its largest relative residual [1] is larger; a free choice.
+/// A fit counts as poor if its largest relative residual [1] is above this; a free choice.
 inline constexpr double kPoorFit = 0.01;
 
 /// A warning of the report.
@@ -28,8 +28,8 @@ inline std::string trajectory_name(const std::string& model) {
 /// The warnings of a run, in this order: models that failed, gaps outside the fit's interval, a
 /// poor fit, rows less accurate than was asked, spheres that go through the plane, models that
 /// ignore the roughness, draws of coefficients that were refused, files that were not made from
-/// each other. Empty if there is nothing to warn of. Throws Error(kBadInput) if a file of the run
-/// cannot be read or if the fit's drag is not positive.
+/// each other. Empty if there is nothing to warn of. Throws Error(kBadInput) if a file cannot be
+/// read, if the fit's drag is not positive, or if a contact model refuses the motion.
 std::vector<ReportWarning> warnings_of(const results::RunResults& run);
 
 }  // namespace viscontact::report

@@ -51,8 +51,7 @@ void choose_position_bytes(PageData& data, const Playback& playback) {
   const auto smallest = std::ranges::min_element(playback.radii);
   const double largest_step =
       *std::max_element(data.step.begin(), data.step.begin() + playback.dimension);
-  // With an infinite position the step is infinite or NaN: the comparison is false, floats are
-  // used.
+  // With an infinite position the step is not finite: the comparison fails, and floats are used.
   if (smallest == playback.radii.end() || largest_step <= kSmall * *smallest) return;
   data.position_bytes = 4;
   data.low = {0, 0, 0};

@@ -28,8 +28,7 @@ std::string base64(const Bytes& bytes);
 /// The part of a motion that the page shows, and its encoding. Indices are those of the playback.
 struct PageData {
   std::vector<std::size_t> frames;  ///< indices of the shown frames, increasing
-  /// Shown are frames 0, every_frame, ... and the last one, and particles 0, every_particle, ...;
-  /// >= 1.
+  /// Frames 0, every_frame, ... and the last are shown, and particles 0, every_particle, ...; >= 1.
   std::size_t every_frame = 1, every_particle = 1;
   bool contacts = true;  ///< whether contacts are shown
   /// Bytes of a coordinate: 2 if it is a 16-bit number of steps from `low`, 4 if it is a float [L].
@@ -52,14 +51,12 @@ PageData page_data(const Scene& scene, const Blocks& others);
 ///   flow-times     n doubles, the times [T]
 ///   flow-speed     n p bytes: flow by flow, row by row from the bottom, each row from the left; 0
 ///                  to 254 for speeds from 0 to FlowFrames::top_speed, 255 where there is no flow
-///   flow-pressure  n p bytes, likewise; 0 to 254 from the lower to the upper end of the pressure's
-///                  scale
+///   flow-pressure  n p bytes, likewise; 0 to 254 from the lower to the upper end of pressures
 ///   flow-lines     16-bit numbers: for each flow the number of its streamlines, and for each of
 ///                  these the number of its points, the place of its arrow (65535: none), and x and
-///                  y of each point in steps of 1/65535 of the grid's window from its lower left
-///                  corner
-///   flow-offsets   n + 1 32-bit numbers: the place in flow-lines where each flow begins, then the
-///                  end
+///                  y of each point in 65535 steps across the grid's window, from the left and the
+///                  bottom
+///   flow-offsets   n + 1 32-bit numbers: where each flow begins in flow-lines, then the end
 Blocks flow_blocks(const Scene& scene);
 
 }  // namespace viscontact::particles

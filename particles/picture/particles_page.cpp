@@ -20,8 +20,7 @@
 
 namespace viscontact::particles {
 
-// The texts of the files in page/, from which CMakeLists.txt makes these functions, so that a page
-// loads nothing from elsewhere.
+// The texts of the files in page/, made by CMakeLists.txt, so that a page needs no other file.
 std::string_view flow_script();
 std::string_view particles_script();
 std::string_view particles_style();

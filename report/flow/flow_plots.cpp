@@ -357,9 +357,8 @@ std::string plot_pressure_and_streamlines(const std::string& what,
 }
 
 /// Arrows of the velocity in the plane through the axis and the direction of motion. The grid has
-/// the velocity at the right of the axis, where the angle phi about the axis is 0. At the left,
-/// where phi = pi, u_z has the other sign; the component to the right is the same. `fastest`: top
-/// speed [L/T].
+/// the velocity at the right of the axis, where the angle phi about the axis is 0. At the left (phi
+/// = pi), u_z has the other sign; the component to the right is equal. `fastest`: top speed [L/T].
 Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
   const auto& view = viewed.view;
   constexpr std::size_t kColumns = 24;

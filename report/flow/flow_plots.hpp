@@ -12,10 +12,9 @@
 namespace viscontact::report {
 
 // `picture` is the flow of a row of the table that `tabulation` describes. It is computed in the
-// half-plane of the distance from the axis and the height; the pictures show the mirror image, too.
-// If the gap is thin, heights are drawn larger than widths, and the title says so. All throw
-// Error(kExternalProgram) if gnuplot is missing or fails, and Error(kInterrupted) if `stop`
-// requests a stop.
+// half-plane of the distance from the axis and the height; pictures show its mirror image, too. If
+// the gap is thin, heights are stretched, and the title says so. All throw Error(kExternalProgram)
+// if gnuplot is missing or fails, and Error(kInterrupted) if `stop` requests a stop.
 
 /// The finest mesh in the gap, and on it the coarsest mesh, whose triangles were each divided into
 /// 16 or more triangles of the finest.

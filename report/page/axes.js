@@ -12,8 +12,7 @@ const kBlank = '\u2013';  // a dash, shown in place of a missing number
 
 // `described` is an axis as page.cpp writes it: label, logarithmic, and the ends low and high
 // (outer values). If an end is null, it is that of `values` with a margin of 4 %, a free choice.
-// The result has functions inner() and outer() from one kind to the other, and the ends `full`
-// (inner).
+// The result has functions inner() and outer() for values, and the ends `full` (inner values).
 function axisOf(described, values) {
   const finite = values.filter(v => Number.isFinite(v) && (!described.logarithmic || v > 0));
   let low = Infinity, high = -Infinity;

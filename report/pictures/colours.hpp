@@ -23,7 +23,7 @@ inline constexpr const char* kReddishPurple = "#CC79A7";
 
 /// The colours of curves. A page gives each of its curves a place in this list, from the first on,
 /// and draws it in this colour in all its pictures, so that readers find it again. Colour-blind
-/// readers can tell the first seven apart. The first two can also be seen on a map in colours.
+/// readers can tell the first seven apart. The first two can be seen on the colours of maps, too.
 inline constexpr auto kCurveColours = std::to_array<const char*>(
     {kSkyBlue,  kVermilion, kBluishGreen, kReddishPurple, kBlue,     kOrange,   kBlack,
      "#7F7F7F", "#8C564B",  "#17BECF",    "#6A3D9A",      "#B5BD00", "#E31A1C", "#1F3B73",
@@ -57,8 +57,8 @@ std::string friction_colour(double share);
 /// The scale of this friction from 0 to 1 with `colours` >= 2 colours and these words.
 ColourScale friction_scale(int colours, const std::string& words);
 
-/// The colour "#rrggbb" of a speed; `share` is the speed over that at the end of the scale, from 0
-/// (nearly white) to 1 (blue). Lightness has even steps; dark lines can be seen on all.
+/// The colour "#rrggbb" for share = speed/(speed at the end of the scale), from 0 (nearly white) to
+/// 1 (blue). Lightness has even steps; dark lines can be seen on all.
 std::string speed_colour(double share);
 
 /// The scale of the speed of a fluid from 0 to `top` >= 0 [L/T], with `colours` >= 2 colours.

@@ -199,7 +199,7 @@ MapAxis axis_of(const std::set<double>& values) {
   return {values, logarithmic, first - margin, last + margin};
 }
 
-/// For each pixel along the axis, the nearest of the values, so that uneven steps are seen.
+/// For each pixel along the axis, the nearest value, so that uneven steps of values are seen.
 std::vector<double> values_of_pixels(const MapAxis& axis) {
   // Some programs smooth a picture of few pixels; with eight for each value, edges stay sharp.
   const auto pixels = 8 * axis.values.size();

@@ -1,5 +1,5 @@
-// The picture of a sweep, in which keys of a case are varied, from the sweep's CSV file. Values are
-// in the units of the case. `sweep --plot` makes it. It must draw files larger than the memory.
+// The picture of a sweep, which varies keys of a case, from its CSV file, in the units of the case.
+// A change must keep that `sweep --plot` can draw files larger than the memory.
 #pragma once
 
 #include <filesystem>

@@ -130,8 +130,7 @@ const viscontactFlow = (() => {
     }
 
     return {
-      // `field`: "speed", "pressure" or "none"; `dots`: device pixels in a CSS pixel; `pen`: of the
-      // canvas.
+      // `field`: "speed", "pressure" or "none"; `dots`: device pixels in a CSS pixel.
       draw(pen, time, field, withLines, dots) {
         if (!times.length || (field === 'none' && !withLines)) return;
         const flow = nearest(time);
