@@ -1,7 +1,8 @@
 // Draws plots by gnuplot and writes the page around them (page.hpp). Sizes are in pixels; numbers
 // of plots have no units here. A missing gnuplot is a warning, a failing one an
-// Error(kExternalProgram). The keys of the JSON and the names of PointKind must agree with the
-// scripts in report/page. Texts of users may contain markup and must pass through escaped().
+// Error(kExternalProgram). Used by report/, rolling/, swimmer/ and particles/. The keys of the JSON
+// and the names of PointKind must agree with the scripts in report/page. Texts of users may contain
+// markup and must pass through escaped().
 #include "viscontact/report/page.hpp"
 
 #include <fmt/format.h>

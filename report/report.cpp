@@ -1,7 +1,7 @@
 // The report of a run of one sphere (report.hpp): warnings, tables, plots and how the files were
 // made. Gaps [L], times [T] and all other numbers are in the units of the case. Errors are those of
-// report.hpp. A change must keep that kPlotNames contains the name of every plot, because it
-// decides which files in plots/ are replaced or removed.
+// report.hpp. Used by `run` and `report`. kPlotNames must contain the name of every plot, because
+// it decides which files in plots/ are replaced or removed.
 #include "viscontact/report/report.hpp"
 
 #include <fmt/format.h>

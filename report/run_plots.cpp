@@ -1,7 +1,7 @@
 // Makes the plots of the report of one sphere (run_plots.hpp): trajectories, their comparison, the
 // fit, and the effect of its errors. Gaps [L], times [T], gamma [M L/T] and forces [M L/T^2] are in
-// the units of the case. Errors are those of run_plots.hpp. Heights [pixels], margins, and numbers
-// of points are free choices. Names of plots must be in kPlotNames of report.cpp.
+// the units of the case. Errors are those of run_plots.hpp. Heights [pixels], margins and numbers
+// of points are free choices. Used by report.cpp, whose kPlotNames must have the plots' names.
 #include "viscontact/report/run_plots.hpp"
 
 #include <fmt/format.h>

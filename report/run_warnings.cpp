@@ -1,6 +1,6 @@
 // Finds what the report of a run of one sphere must warn of (run_warnings.hpp). Gaps and films [L]
 // are in the unit of the case; residuals and error estimates are relative [1]. Errors are those of
-// run_warnings.hpp. A change of a limit alters reports of earlier runs that are made again.
+// run_warnings.hpp. Used by report.cpp. A change of a limit alters reports that are made again.
 #include "viscontact/report/run_warnings.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // Writes the columns and words of the summaries, and draws their pictures (summaries.hpp). Gaps,
-// times and velocities are in the units of the case, sizes of pictures in pixels. A gnuplot that is
-// missing or fails is an Error(kExternalProgram). A change must keep the keys of the JSON.
+// times and velocities are in the units of the case, pictures in pixels. A missing or failing
+// gnuplot is an Error(kExternalProgram). Used by pipeline/. A change must keep the keys of the
+// JSON.
 #include "viscontact/report/summaries.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Chooses the part of a motion of particles that a page shows, and writes its numbers as bytes
-// (page_data.hpp), in the units of the case. Nothing is thrown. motion.js, colouring.js and flow.js
-// in particles/picture/page decode the bytes: a change here must agree with them, and with kLevels,
-// kNothing, kNoArrow and kSteps in flow.js.
+// (page_data.hpp), in the units of the case. Nothing is thrown. Used by particles_page.cpp.
+// motion.js, colouring.js and flow.js in particles/picture/page decode the bytes: a change here
+// must agree with them, and with kLevels, kNothing, kNoArrow and kSteps in flow.js.
 #include "viscontact/particles/picture/page_data.hpp"
 
 #include <openssl/evp.h>
@@ -27,8 +27,7 @@ void append(Bytes& bytes, Number value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
-/// Appends a number with seven bits in each byte, the lowest first. The eighth bit is set in all
-/// bytes but the last.
+/// Appends a number: seven bits in each byte, lowest first; the eighth is 0 in the last byte only.
 void append_short(Bytes& bytes, std::uint32_t value) {
   for (; value >= 128; value >>= 7) bytes.push_back(static_cast<unsigned char>(value | 128));
   bytes.push_back(static_cast<unsigned char>(value));

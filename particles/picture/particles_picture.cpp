@@ -2,7 +2,7 @@
 // and the scales of colours below (particles_picture.hpp). Sizes and coordinates on the page are in
 // page units, of which the picture is 1000 wide; sizes without a reason are free choices. Lengths
 // [L] and speeds [L/T] of the motion are in the units of the case. A flow that cannot be read is an
-// Error(kBadInput). A change must keep the picture one complete SVG.
+// Error(kBadInput). Used by run/particles_pages.cpp. A change must keep one complete SVG.
 #include "viscontact/particles/picture/particles_picture.hpp"
 
 #include <fmt/format.h>

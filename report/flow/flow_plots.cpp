@@ -1,8 +1,8 @@
-// Draws the pictures of a row (flow_plots.hpp): views of the half-plane (rho, z), with the distance
-// rho from the axis and the height z, and of its mirror image; colours of pressure or speed, and
-// curves. Numbers are in the units of the case, sizes on the picture in pixels; sizes and numbers
-// of lines without a reason are free choices. A gnuplot that fails is an Error(kExternalProgram). A
-// change must keep the title true where heights are drawn larger than widths.
+// Draws the pictures of a row of a table of lubrication forces (flow_plots.hpp) in the half-plane
+// (rho, z) of the distance rho from the axis and the height z, and its mirror image. Numbers are in
+// the units of the case, sizes on the picture in pixels; sizes and numbers of lines without a
+// reason are free choices. A failing gnuplot is an Error(kExternalProgram). Used by
+// pipeline/tabulate. A change must keep the title true where heights are drawn larger than widths.
 #include "viscontact/report/flow/flow_plots.hpp"
 
 #include <fmt/format.h>

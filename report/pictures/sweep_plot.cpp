@@ -1,6 +1,6 @@
 // Reads the columns to draw from a sweep's CSV file and draws them (sweep_plot.hpp). Values are in
 // the units of the case, sizes in pixels. A column that is missing or has no number is an
-// Error(kBadInput). The file must be read row by row: it may be larger than the memory.
+// Error(kBadInput). Used by `sweep`. Files larger than the memory must be read row by row.
 #include "viscontact/report/pictures/sweep_plot.hpp"
 
 #include <fmt/format.h>

@@ -2,9 +2,8 @@
 // their rotation, rigid bodies, links and contacts, in light or dark colours. Positions and radii
 // of the motion (motion.js) are in the case's unit of length; places, radii and widths on the
 // canvas are in device pixels, y downwards, `dots` of them in a CSS pixel. Limits of widths without
-// a reason are free choices. Nothing is checked or thrown. The other scripts call draw() and
-// redraw(). particles/picture/frame_picture.cpp draws the same in the still picture, and a change
-// must be made there, too.
+// a reason are free choices. Nothing is checked or thrown. Used by the other scripts. A change must
+// agree with particles/picture/frame_picture.cpp, which draws the still picture.
 
 const kLargestSprite = 512;  // largest diameter of a copied picture (sprites) [device pixels]
 const disc = motion.flow ? style.discInFluid : style.disc;
