@@ -25,9 +25,10 @@ constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
 using Value = double (*)(const reduced_model::TrajectoryRow&);
 
-/// The style of the line of a model, or with `film` of the film recovered from its gamma. The place
+/// The style of the line of a model, or, if `film`, of the film recovered from its gamma. The place
 /// of the model in the registry of models decides which row of kLines it gets; models beyond the
-/// last row begin again with the first, with longer dashes. Widths differ, to show equal curves.
+/// last row begin again with the first, with longer dashes. Widths differ, so that equal curves are
+/// seen.
 CurveStyle line_style(std::string_view model, bool film = false) {
   struct Line {
     const char* colour;

@@ -1,7 +1,6 @@
 // Writes the columns and words of the summaries, and draws their pictures (summaries.hpp). Gaps,
 // times and velocities are in the units of the case, pictures in pixels. A missing or failing
-// gnuplot is an Error(kExternalProgram). Used by pipeline/. A change must keep the keys of the
-// JSON.
+// gnuplot is an Error(kExternalProgram). Used by pipeline/. A change must keep the JSON's keys.
 #include "viscontact/report/summaries.hpp"
 
 #include <fmt/format.h>

@@ -70,7 +70,7 @@ std::string both_sides(const PanelSettings& panel, const Frame& frame, std::size
   const Vector w = apart(panel, frame, first, second);
   const Vector from = position(panel.scene.playback, frame, first);
   const Vector to = position(panel.scene.playback, frame, second);
-  // This is 0 or at least a period, apart from round-off; any limit between them works.
+  // `off` is 0 or at least a period, apart from round-off; any limit between them works.
   const double off = norm(to - (from + w));
   return line(from, from + w) +
          (off > 0.5 * panel.scene.playback.radii[first] ? line(to - w, to) : "");

@@ -1,7 +1,6 @@
 // Finds the box that is seen, reads the flows in it, and chooses the scales of colours and widths
 // (scene.hpp). Lengths [L], forces and speeds are in the units of the case. A flow that cannot be
-// read is an Error(kBadInput). Used by the other sources here. A change alters the still picture
-// and the page.
+// read is an Error(kBadInput). Used by the other sources here. A change alters picture and page.
 #include "viscontact/particles/picture/scene.hpp"
 
 #include <fmt/format.h>

@@ -103,15 +103,15 @@ struct SceneStyle {
   /// Widths of lines that join the particles of a rigid body, of arms, and half the width of the
   /// zigzag line of springs, divided by the smaller radius of the two particles.
   double body_line = 0.18, arm = 0.25, spring_width = 0.35;
-  /// Lines of contacts in a motion whose contacts have no forces, by the smaller radius of the two
-  /// particles: of a contact that has a film (gamma < 0) or slides.
+  /// If contacts have no forces: the width of the line of a contact that has a film (gamma < 0) or
+  /// slides, over the smaller radius of its two particles.
   LineWidth film_line{0.3, 0.8, 5};
-  LineWidth touching_line{0.06, 0.3, 1};  ///< likewise, of any other contact
-  /// Lines of contacts in a motion with forces: of a contact with the force Scene::top_force, by
-  /// the mean radius. The width is proportional to the force, but not below the next two widths.
+  LineWidth touching_line{0.06, 0.3, 1};  ///< likewise, for any other contact
+  /// If contacts have forces: the width of the line for the force Scene::top_force, over the mean
+  /// radius. Widths are proportional to the force, but not below the next two.
   LineWidth force_line{0.9, 0, 12};
   LineWidth film_with_force{0.1, 0.8, 2};      ///< least of a film, by the smaller radius
-  LineWidth touching_with_force{0, 0.3, 0.3};  ///< least of any other contact, likewise
+  LineWidth touching_with_force{0, 0.3, 0.3};  ///< least width without, likewise
   double page_unit = 1.5;    ///< what the page takes for one page unit [CSS pixels], > 0
   int spring_turns = 12;     ///< corners of the zigzag line of a spring, >= 1
   double spring_end = 0.12;  ///< length of each straight end over that of the spring, < 0.5

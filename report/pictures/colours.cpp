@@ -41,8 +41,8 @@ std::vector<std::string> evenly_spaced(int colours, const Colour& colour) {
   return all;
 }
 
-/// Round numbers from 0 to `top` >= 0, about four intervals apart, as shares of `top` with their
-/// texts. Only 0 if `top` is so small that its quarter, or its decade, is not accurate in a double.
+/// Round numbers from 0 to `top` >= 0 in about four intervals, as shares of `top` with their texts.
+/// Only 0 if `top` is so small that its quarter, or its decade, is not accurate in a double.
 std::vector<std::pair<double, std::string>> round_ticks(double top) {
   constexpr double kSmallest = 1e-300;
   if (!(top > kSmallest)) return {{0, "0"}};

@@ -54,7 +54,7 @@ inline constexpr const char* kSlidingColour = "#d55e00";   ///< for contacts tha
 /// (kTouchingColour) to 1 (kSlidingColour).
 std::string friction_colour(double share);
 
-/// The scale of this friction from 0 to 1 with `colours` >= 2 colours and these words.
+/// The scale of friction_colour() from 0 to 1 with `colours` >= 2 colours and these words.
 ColourScale friction_scale(int colours, const std::string& words);
 
 /// The colour "#rrggbb" for share = speed/(speed at the end of the scale), from 0 (nearly white) to

@@ -37,7 +37,7 @@ function readPointer() {
       `${contacts} contact${contacts === 1 ? '' : 's'}`;
 }
 
-// The pointers that are pressed: by their ids, the places where they were last.
+// The pointers that are pressed: their ids, with the places where they were last.
 const held = new Map();
 const onCanvas = event => {
   const box = canvas.getBoundingClientRect();
