@@ -27,8 +27,7 @@ using Value = double (*)(const reduced_model::TrajectoryRow&);
 
 /// The style of the line of a model, or, if `film`, of the film recovered from its gamma. The place
 /// of the model in the registry of models decides which row of kLines it gets; models beyond the
-/// last row begin again with the first, with longer dashes. Widths differ, so that equal curves are
-/// seen.
+/// last row begin again, with longer dashes. Widths differ, so that equal curves are seen.
 CurveStyle line_style(std::string_view model, bool film = false) {
   struct Line {
     const char* colour;

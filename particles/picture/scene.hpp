@@ -100,8 +100,8 @@ struct SceneStyle {
   /// An axis of a sphere is marked where its component towards the reader is larger than this,
   /// because a dot nearer to the rim would be seen from the side.
   double least_toward = 0.15;
-  /// Widths of lines that join the particles of a rigid body, of arms, and half the width of the
-  /// zigzag line of springs, divided by the smaller radius of the two particles.
+  /// Over the smaller radius of two particles: the width of the line that joins them in a rigid
+  /// body, that of an arm, and half the width of the zigzag line of a spring.
   double body_line = 0.18, arm = 0.25, spring_width = 0.35;
   /// If contacts have no forces: the width of the line of a contact that has a film (gamma < 0) or
   /// slides, over the smaller radius of its two particles.
@@ -110,7 +110,7 @@ struct SceneStyle {
   /// If contacts have forces: the width of the line for the force Scene::top_force, over the mean
   /// radius. Widths are proportional to the force, but not below the next two.
   LineWidth force_line{0.9, 0, 12};
-  LineWidth film_with_force{0.1, 0.8, 2};      ///< least of a film, by the smaller radius
+  LineWidth film_with_force{0.1, 0.8, 2};      ///< least width with a film, over the smaller radius
   LineWidth touching_with_force{0, 0.3, 0.3};  ///< least width without, likewise
   double page_unit = 1.5;    ///< what the page takes for one page unit [CSS pixels], > 0
   int spring_turns = 12;     ///< corners of the zigzag line of a spring, >= 1
