@@ -1,7 +1,8 @@
-// Draws plots by gnuplot and writes the page around them (page.hpp). The scripts in report/page
-// read the plots as JSON, whose keys and names of kinds of points must agree with them. A gnuplot
-// that is missing is a warning, one that fails an Error(kExternalProgram). Every text of the user
-// must pass through escaped(), because it could contain markup.
+// Draws plots by gnuplot and writes the page around them (page.hpp). Sizes are in pixels; numbers
+// of plots have no units here. A missing gnuplot is a warning, a failing one an
+// Error(kExternalProgram). Used by report/, rolling/, swimmer/ and particles/. The keys of the JSON
+// and the names of PointKind must agree with the scripts in report/page. Texts of users may contain
+// markup and must pass through escaped().
 #include "viscontact/report/page.hpp"
 
 #include <fmt/format.h>
@@ -22,8 +23,7 @@
 
 namespace viscontact::report {
 
-// The scripts and styles in page/, which are built into the executable (report/embed_texts.cmake),
-// so that pages load nothing from elsewhere. CMakeLists.txt lists the same names with the files.
+// The texts of the files in report/page, made by CMakeLists.txt; a page needs no other file.
 std::string_view uplot_script();
 std::string_view uplot_style();
 std::string_view uplot_licence();
@@ -32,17 +32,16 @@ std::string_view report_style();
 
 namespace {
 
-/// The text with % doubled, because gnuplot reads the name of a tick as a format.
+/// The text with each % doubled, because gnuplot reads the label of a tick as a format.
 std::string doubled_percent(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '%' ? std::string("%%") : std::string(1, c);
   return result;
 }
 
-constexpr int kWidth = 860;  // [pixels]
+constexpr int kWidth = 860;  // of still pictures [pixels], a free choice
 
-/// The names that gnuplot (pointtype) and report/page/axes.js have for a kind of point. The rows
-/// must be in the order of PointKind.
+/// A kind of point in gnuplot (pointtype) and page/axes.js. The rows are in the order of PointKind.
 struct PointName {
   PointKind kind;
   int gnuplot;
@@ -56,6 +55,7 @@ constexpr auto kPointNames = std::to_array<PointName>({{PointKind::kNone, 0, ""}
 
 const PointName& name_of(PointKind kind) { return kPointNames[static_cast<std::size_t>(kind)]; }
 
+/// The style of a curve in gnuplot's syntax.
 std::string gnuplot_style(const CurveStyle& style) {
   const bool points = style.point != PointKind::kNone;
   std::string text = style.width == 0 ? "points" : points ? "linespoints" : "lines";
@@ -87,15 +87,15 @@ std::vector<std::string> gnuplot_settings(const PlotPanel& panel) {
     for (std::size_t i = 0; i < panel.rows.size(); ++i)
       ticks += fmt::format("{}{} {}", i == 0 ? "" : ", ",
                            quoted_for_gnuplot(doubled_percent(panel.rows[i])), i + 1);
-    // Room for names of 38 characters, a free choice: viscous_contact_regular_drag_brenner, the
-    // longest name of a model with one suffix, has 36.
+    // A margin for names of 38 characters, a free choice. The longest name of a model with one
+    // suffix, viscous_contact_regular_drag_brenner, has 36.
     settings.push_back("set ytics (" + ticks + ")\nset lmargin 38");
   }
   return settings;
 }
 
-/// The number with eight digits; null if it is not finite. A picture cannot show more digits, and
-/// they would make the page larger.
+/// The number with eight digits; null if it is not finite. More digits could not be seen in a plot,
+/// and would make the page larger.
 nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(std::stod(fmt::format("{:.8g}", value)))
                               : nlohmann::ordered_json(nullptr);
@@ -128,7 +128,8 @@ nlohmann::ordered_json json_of(const PlotCurve& curve) {
           {"y", std::move(y)}};
 }
 
-/// The plot as an SVG element by gnuplot. Throws the errors of draw_svg().
+/// The plot as an SVG element that gnuplot draws. Throws Error(kExternalProgram) if gnuplot is
+/// missing or fails, and Error(kInterrupted) if `stop` requests a stop.
 std::string svg_of(const Plot& plot, const StopToken& stop) {
   std::vector<Panel> panels;
   for (const auto& panel : plot.panels) {
@@ -145,7 +146,7 @@ std::string svg_of(const Plot& plot, const StopToken& stop) {
   return draw_svg(panels, kWidth, plot.height, stop);
 }
 
-/// The plot as JSON for report/page/panels.js. The text can be the content of a script element.
+/// The plot as JSON for report/page/panels.js, in a form that can stand in a script element.
 std::string json_of(const Plot& plot) {
   auto panels = nlohmann::ordered_json::array();
   for (const auto& panel : plot.panels) {
@@ -164,7 +165,7 @@ std::string json_of(const Plot& plot) {
     text.replace(at, 1, "\\u003c");
   return text;
 }
-/// The name of a relative file as part of an address (RFC 3986).
+/// The path of a file, relative to the page, as an address (RFC 3986).
 std::string as_url(const std::string& file) {
   std::string url;
   for (const char c : file) {
@@ -175,7 +176,7 @@ std::string as_url(const std::string& file) {
   return url;
 }
 
-/// Warns if gnuplot is missing; throws Error(kExternalProgram) if gnuplot failed.
+/// Warns if `failure` says that gnuplot is missing; otherwise throws Error(kExternalProgram).
 void warn_of_missing_pictures(const std::exception_ptr& failure) {
   constexpr const char* kWritten =
       "the report is written, without still pictures and without the files in plots/";
@@ -202,7 +203,7 @@ std::string escaped(std::string_view text) {
     else if (c == '"')
       result += "&quot;";
     else if (static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t')
-      result += "\uFFFD";  // XML does not allow control characters, not even escaped
+      result += "\uFFFD";  // XML allows no control characters, not even escaped ones
     else
       result += c;
   }
@@ -271,7 +272,7 @@ void Report::draw(std::vector<Plot> plots, const StopToken& stop) {
     drawn.assign(plots.size(), "");
   }
   for (auto& drawing : drawings)
-    if (drawing.valid()) drawing.wait();  // the drawing refers to its plot, which is moved below
+    if (drawing.valid()) drawing.wait();  // it refers to its plot, which is moved below
   for (std::size_t i = 0; i < plots.size(); ++i)
     figures_.push_back({std::move(plots[i]), std::move(drawn[i])});
 }

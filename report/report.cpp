@@ -1,6 +1,7 @@
-// The report of a run: warnings, tables, plots and provenance. kPlotNames must contain the name of
-// every plot, because it decides which files in plots/ may be replaced or removed. Gaps [L] and
-// times [T] are in the units of the case. Errors are those of report.hpp.
+// The report of a run of one sphere (report.hpp): warnings, tables, plots and how the files were
+// made. Gaps [L], times [T] and all other numbers are in the units of the case. Errors are those of
+// report.hpp. Used by `run` and `report`. kPlotNames must contain the name of every plot, because
+// it decides which files in plots/ are replaced or removed.
 #include "viscontact/report/report.hpp"
 
 #include <fmt/format.h>
@@ -31,6 +32,7 @@ constexpr auto kPlotNames = std::to_array<std::string_view>(
     {"thinnest_film", "gap", "gap_logarithmic", "external_force", "lubrication_force", "gamma",
      "solid_force", "fit", "uncertainty"});
 
+/// How well the fit predicts rows of the table that it did not use, as HTML; empty if not known.
 std::string trust(const lubrication::FitDiagnostics& d) {
   std::string text;
   if (d.leave_one_out_rms)
@@ -62,7 +64,7 @@ std::string trust(const lubrication::FitDiagnostics& d) {
   return text;
 }
 
-/// The name of a model as a link to its trajectory.
+/// The name of a model as a link to the file of its trajectory.
 std::string model_link(const results::RunResults& run, const std::string& model) {
   return link_to(run.folder, trajectory_name(model), model);
 }
@@ -94,7 +96,7 @@ std::string hash_cell(const std::string& sha256) {
   return "<code class=hash>" + escaped(sha256) + "</code>";
 }
 
-/// The parameters of the case with their dimensions.
+/// The parameters of the case with their units or, if the case says none, dimensions.
 std::string parameters_table(const results::RunResults& run) {
   const case_file::Case& c = run.c;
   const auto& motion = case_file::required_motion(c);
@@ -135,13 +137,13 @@ std::string parameters_table(const results::RunResults& run) {
          table_of(rows, headings({"parameter", "value", has_units ? "unit" : "dimension"}));
 }
 
-/// The unit of the quantity with these powers of mass, length and time, for a heading: " [m/s]";
-/// empty if the case does not say its units.
+/// The unit of a quantity, given by its powers of mass, length and time, for a heading: " [m/s]";
+/// empty if the case says no units.
 std::string in_brackets(const results::RunResults& run, int mass, int length, int time) {
   return escaped(run.c.units.in_brackets(mass, length, time));
 }
 
-/// Smallest gap, times of contact, when solids touch, and distance to the reference of each model.
+/// For each model: smallest gap, times of contact, touch of the solids, distance to the reference.
 std::string models_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models)
@@ -174,7 +176,7 @@ std::string models_table(const results::RunResults& run) {
                                        "; each model's name leads to its trajectory");
 }
 
-/// The impacts on the solids of each model; empty if there are none.
+/// The impacts of the sphere on the plane in each model with rebounds; empty if there are none.
 std::string rebounds_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models)
@@ -196,7 +198,7 @@ std::string rebounds_table(const results::RunResults& run) {
                 "film");
 }
 
-/// The budget (impulses and works) of each model; empty if no model has one.
+/// The impulses on the sphere and the works done on it in each model; empty if no model has them.
 std::string budget_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models) {
@@ -216,7 +218,7 @@ std::string budget_table(const results::RunResults& run) {
          source(link_to(run.folder, "comparison.json"));
 }
 
-/// The coefficients of the fit and its diagnostics.
+/// The coefficients of the fit, its residuals and what trust() says.
 std::string fit_table(const results::RunResults& run) {
   const lubrication::Fit& fit = run.fit;
   if (fit.terms.empty())
@@ -238,7 +240,7 @@ std::string fit_table(const results::RunResults& run) {
          (fit.diagnostics ? trust(*fit.diagnostics) : "");
 }
 
-/// The effect of the fit's errors on the smallest gap, in words; empty if it is not known.
+/// How far the errors of the fit change the smallest gap, in words; empty if it is not known.
 std::string uncertainty_words(const results::RunResults& run) {
   if (!run.uncertainty) return "";
   const auto& smallest = run.uncertainty->smallest;
@@ -253,8 +255,8 @@ std::string uncertainty_words(const results::RunResults& run) {
       smallest.misfit[1], link_to(run.folder, "uncertainty.json"));
 }
 
-/// How the files of the run were made: commands, inputs with their hashes, versions and times. If
-/// the provenance in a file is missing or damaged, the table says so.
+/// How the files of the run were made: commands, inputs with their hashes, versions and times, from
+/// the record in each file. If the record is missing or damaged, the table says so.
 std::string origin_section(const results::RunResults& run) {
   std::string made, inputs;
   auto versions = results::library_versions();
@@ -296,11 +298,11 @@ std::string origin_section(const results::RunResults& run) {
   return text + fmt::format("<p>Programs and libraries: {}.</p>\n", programs);
 }
 
-/// Adds its unit to the label of an axis, if the case says its units.
+/// Adds the unit to the label of an axis, if it is one of kDimensions and the case says its units.
 void add_unit(std::string& label, const Units& units) {
   struct Dimension {
     std::string_view label;
-    int mass, length, time;  // powers
+    int mass, length, time;  // powers of the units
   };
   constexpr auto kDimensions = std::to_array<Dimension>({{"time t", 0, 0, 1},
                                                          {"gap q", 0, 1, 0},
@@ -315,9 +317,8 @@ void add_unit(std::string& label, const Units& units) {
 
 std::vector<Plot> plots_of(const results::RunResults& run) {
   const auto& motion = case_file::required_motion(run.c);
-  // Below the fit's interval, the lubrication limit is always used here, because only pictures
-  // depend on it, and a trajectory goes below the interval only if the user has allowed a limit
-  // there.
+  // Below the smallest fitted gap, the drag is continued as k/q + constant with the fitted k, even
+  // if the case does not allow it: no trajectory then is there, and only pictures depend on it.
   const lubrication::LubricationForce force(run.fit,
                                             {lubrication::BelowInterval::kLubricationLimit});
   std::vector<Plot> plots = {plot_minimal_gaps(run.comparison, run.c.published),
@@ -333,7 +334,7 @@ std::vector<Plot> plots_of(const results::RunResults& run) {
   for (auto& plot : plots)
     for (auto& panel : plot.panels)
       for (auto* axis : {&panel.x, &panel.y}) add_unit(axis->label, run.c.units);
-  // A plot without curves has nothing to show.
+  // A plot without curves shows nothing and is left out.
   std::erase_if(plots, [](const Plot& plot) {
     return std::ranges::all_of(plot.panels,
                                [](const PlotPanel& panel) { return panel.curves.empty(); });
@@ -398,7 +399,7 @@ bool report_is_current(const std::filesystem::path& folder) {
     if (page.find(kStillPicture) == std::string::npos) return false;
     const auto provenance = results::provenance_in(page, run.report().string());
     if (!provenance) return false;
-    // Pipes (without a hash) are skipped, because their content is in the copy of the case.
+    // An input without a hash was a pipe. It is skipped: its content is in the copy of the case.
     for (const auto& input : provenance->inputs)
       if (!input.sha256.empty() && !results::change_of(input, provenance->folder).empty())
         return false;

@@ -1,5 +1,6 @@
-// report.html: one self-contained page with the results of a run of one sphere, in the units of the
-// case. `run` and `report` call it. A change must keep that the page loads nothing from elsewhere.
+// report.html: one page with the results of a run of one sphere, in the units of the case. The
+// commands `run` and `report` call it. A change must keep that the page loads nothing from
+// elsewhere, and that folders of earlier versions can be read.
 #pragma once
 
 #include <filesystem>
@@ -9,23 +10,23 @@
 
 namespace viscontact::report {
 
-/// Writes report.html into a run's folder from its case, fit, trajectories, comparison and table
-/// (if there is one), and its plots into plots/. If gnuplot cannot be run, a warning says so, and
-/// the report is written without still pictures and without plots/. The plots that the browser
-/// draws do not need gnuplot. Throws Error(kBadInput) if an input is missing or wrong, and the
-/// error of check_report_files(). If gnuplot fails, throws Error(kExternalProgram) after the report
-/// is written without still pictures. `given` are the files of the user from which the same command
-/// made the files in the folder; it is empty if the user gave the files in the folder. Throws
-/// Error(kInterrupted) if `stop` requests a stop.
+/// Writes report.html into the folder of a run from its case, fit, trajectories, comparison and
+/// table (if there is one), and its plots into plots/. `given` are the files of the user from which
+/// the same command made the files in the folder; it is empty if the user gave the files in the
+/// folder. If gnuplot cannot be run, the user is warned, and there are no still pictures and no
+/// files in plots/; browsers draw the plots without gnuplot. Throws Error(kBadInput) if an input is
+/// missing or wrong or a file cannot be written, the error of check_report_files(),
+/// Error(kExternalProgram) if gnuplot fails, after the report is written without still pictures,
+/// and Error(kInterrupted) if `stop` requests a stop.
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given = {}, const StopToken& stop = {});
 
 /// Throws Error(kBadInput) if the report or one of its plots would replace or delete a file that
-/// Viscontact did not write.
+/// Viscontact did not write or that is of another kind.
 void check_report_files(const std::filesystem::path& folder);
 
-/// True if the report and its plots exist and the inputs of the report have not changed since. A
-/// report without still pictures is never current, because gnuplot may have been installed since.
+/// True if the report and its plots exist and the inputs of the report have not changed since.
+/// False without still pictures, because gnuplot may be there now, and if a file cannot be read.
 bool report_is_current(const std::filesystem::path& folder);
 
 }  // namespace viscontact::report

@@ -1,6 +1,7 @@
-// The plots of a run's report: trajectories, their comparison, the fit, and the effect of its
-// errors. Gaps [L], times [T], gamma [M L/T] and forces [M L/T^2] are in the units of the case.
-// Nothing is thrown. A change must keep the names of the plots, which are names of files.
+// Makes the plots of the report of one sphere (run_plots.hpp): trajectories, their comparison, the
+// fit, and the effect of its errors. Gaps [L], times [T], gamma [M L/T] and forces [M L/T^2] are in
+// the units of the case. Errors are those of run_plots.hpp. Heights [pixels], margins and numbers
+// of points are free choices. Used by report.cpp, whose kPlotNames must have the plots' names.
 #include "viscontact/report/run_plots.hpp"
 
 #include <fmt/format.h>
@@ -19,14 +20,14 @@
 namespace viscontact::report {
 namespace {
 
-// A value that interrupts a line.
+// A value in place of y that interrupts a line.
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
 using Value = double (*)(const reduced_model::TrajectoryRow&);
 
-/// The style of a model's line. The model's row in the registry of models decides on the row of
-/// kLines; if there are more models than rows, the colours are used again with longer dashes.
-/// Widths differ, too, so that curves that lie on each other can be seen.
+/// The style of the line of a model, or, if `film`, of the film recovered from its gamma. The place
+/// of the model in the registry of models decides which row of kLines it gets; models beyond the
+/// last row begin again, with longer dashes. Widths differ, so that equal curves are seen.
 CurveStyle line_style(std::string_view model, bool film = false) {
   struct Line {
     const char* colour;
@@ -66,12 +67,12 @@ std::string legend_of(std::string_view model) {
   return choice ? reduced_model::description_of(*choice) : std::string(model);
 }
 
-/// The rows of a trajectory, thinned so that the page stays small: the rows are divided into runs
-/// of n rows. Of each run the first row is kept, and the rows in which `value` is smallest and
-/// largest, so that no extreme is lost.
+/// The rows of a trajectory, thinned so that the page stays small. The rows are divided into parts
+/// of equal length. Of each part the first row is kept, and the rows in which `value` is smallest
+/// and largest. `trajectories` is the number of all trajectories in the plot.
 std::vector<const reduced_model::TrajectoryRow*> thinned(
     const std::vector<reduced_model::TrajectoryRow>& rows, std::size_t trajectories, Value value) {
-  // At most 400 runs for a trajectory and about 3200 for all of them keep the page small.
+  // At most 400 parts of a trajectory and about 3200 of all trajectories; free choices.
   constexpr std::size_t kRuns = 400, kRunsOfAll = 3200;
   std::vector<const reduced_model::TrajectoryRow*> kept;
   const std::size_t run =
@@ -116,7 +117,7 @@ Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& traject
   PlotPanel panel{"Gap, logarithmic", {"time t"}, {"gap q", true}, {}};
   std::vector<std::pair<double, double>> through;
   // The axis must show the gaps of models without contact and the recovered films. The gaps of
-  // contact models do not count, because in the first step after the release they are very small.
+  // contact models do not count, because they are very small just after the release.
   double thinnest = std::numeric_limits<double>::infinity();
   for (const auto& trajectory : trajectories) {
     PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
@@ -136,7 +137,7 @@ Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& traject
       try {
         if (in_contact && contact->film_thickness) thickness = contact->film_thickness(*row->gamma);
       } catch (const Error&) {
-        // A film that is too thin for the fit is not drawn.
+        // The thickness is below the range of the fit or of a double, and is not drawn.
       }
       film.points.emplace_back(row->time, thickness);
       if (thickness > 0) thinnest = std::min(thinnest, thickness);
@@ -144,7 +145,7 @@ Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& traject
     if (!contact)
       for (const auto& row : trajectory.rows)
         if (row.gap > 0) thinnest = std::min(thinnest, row.gap);
-    // A cross near the lower edge marks a model without contact that goes through the plane.
+    // A cross at the lower end marks where a model without contact goes through the plane.
     if (!contact && trajectory.rows.back().gap == 0)
       through.emplace_back(trajectory.rows.back().time, 0);
     panel.curves.push_back(curve);
@@ -233,13 +234,13 @@ Plot plot_solid_force(const std::vector<reduced_model::Trajectory>& trajectories
 }
 
 Plot plot_external_force(const reduced_model::ExternalForce& force, double end_time) {
-  // Each jump of the force has two points, so that it is drawn as a step.
+  // A jump of the force has two points, before and after it, so that it is drawn as a step.
   PlotPanel panel{"External force", {"time t"}, {"f"}, {}};
   PlotCurve curve{"external force", {kBlack}, {}};
   auto stops = force.jumps();
   std::erase_if(stops, [&](double t) { return t >= end_time; });
   stops.push_back(end_time);
-  constexpr int kPoints = 2000;  // for the whole time; more could not be seen
+  constexpr int kPoints = 2000;  // about how many for the whole time; more cannot be seen
   double from = 0;
   for (const double to : stops) {
     const int points = 2 + static_cast<int>(kPoints * (to - from) / end_time);
@@ -263,7 +264,7 @@ Plot plot_external_force(const reduced_model::ExternalForce& force, double end_t
 
 Plot plot_minimal_gaps(const reduced_model::Comparison& comparison,
                        const std::optional<case_file::PublishedGap>& published) {
-  // Each model has a row; the first model is at the top.
+  // Each model has a row; that of the first model is at the top.
   const auto rows = comparison.models.size();
   PlotPanel panel{"Thinnest film of each model", {"gap q"}, {}, {}};
   PlotCurve computed{"smallest gap computed", {kBlue, 0, {}, PointKind::kDisc, 1.2}, {}};
@@ -292,9 +293,9 @@ Plot plot_minimal_gaps(const reduced_model::Comparison& comparison,
   }
   if (all.empty()) return {};
   const auto [low, high] = std::ranges::minmax(all);
-  // If the ratio of largest to smallest is above kManyDecades, the axis is logarithmic, because a
-  // linear axis would show the largest only. If it is below kClose, the axis does not begin at 0,
-  // because the difference would be hidden.
+  // If the largest value is more than kManyDecades times the smallest, the axis is logarithmic,
+  // because a linear axis would show the largest only. If it is less than kClose times the
+  // smallest, the axis does not begin at 0, because the difference could not be seen.
   constexpr double kManyDecades = 30;
   constexpr double kClose = 1.3;
   const double span = std::max(high - low, 0.05 * high);
@@ -316,7 +317,7 @@ Plot plot_fit(const lubrication::MotionTable& table, const lubrication::Fit& fit
   const double stokes = lubrication::stokes_resistance(fit.viscosity, fit.radius);
   for (const auto& row : table.rows) {
     points.points.emplace_back(row.gap, row.force_factor);
-    // The fit was made from another table if this one has rows outside the fit's interval.
+    // Rows outside the fit's interval mean that the fit was made from another table.
     if (row.gap < fit.gap_interval[0] || row.gap > fit.gap_interval[1]) continue;
     residual.points.emplace_back(
         row.gap, std::abs(force.resistance(row.gap) / (-row.force / row.reference_velocity) - 1));

@@ -1,6 +1,8 @@
-// The plots of the report of one sphere: lengths, masses and times are in the units of the case. A
-// plot without curves has nothing to show, and report.cpp, the only user, leaves it out. A change
-// must keep the names of the plots, which are names of files. Used by report.cpp.
+// The plots of the report of one sphere, as data for report/page.hpp. Gaps q [L], times t [T] and
+// forces [M L/T^2] are in the units of the case. A contact model replaces the thin film by contact
+// and computes gamma, minus the impulse that the film has absorbed [M L/T], from which the film's
+// thickness is recovered. Each trajectory must have a row. report.cpp uses the plots, and leaves
+// out those without curves. A change must keep the names of the plots, which are names of files.
 #pragma once
 
 #include <optional>
@@ -14,40 +16,41 @@
 
 namespace viscontact::report {
 
-/// The drag factor of the table and of the fit; in a second panel the relative difference of the
-/// two beside the table's error estimates.
+/// The drag of the table and of the fit, divided by Stokes' drag, and in a second panel the
+/// relative difference of the two beside the table's error estimates. Throws Error(kBadInput) if
+/// the fit's drag is not positive at every gap of its interval.
 Plot plot_fit(const lubrication::MotionTable& table, const lubrication::Fit& fit);
 
-/// The gap q(t) of all trajectories, on a linear scale.
+/// The gap q(t) of each trajectory, on a linear scale.
 Plot plot_gaps(const std::vector<reduced_model::Trajectory>& trajectories);
 
-/// The gap q(t) on a logarithmic scale. While a contact model is in contact, the recovered film is
-/// drawn as a dashed line.
+/// The gap q(t) of each trajectory, on a logarithmic scale. While a contact model is in contact,
+/// its film, whose thickness is recovered from gamma, is drawn as a broken line. `force` is the
+/// drag of the fit. Throws Error(kBadInput) if a contact model refuses `motion`.
 Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& trajectories,
                            const reduced_model::Motion& motion,
                            const lubrication::LubricationForce& force);
 
-/// The force of the fluid on the sphere over time, of film and resolved drag together. The scale is
-/// that of the external force and of the models whose force is no mean over a step; what contact
-/// models have above it, in the steps of impacts, is cut off.
+/// The force of the fluid on the sphere over time. The scale shows all of the external force and of
+/// the models without contact. Contact models give means over a time step; where these are larger,
+/// in the steps of impacts, they are cut off.
 Plot plot_lubrication_force(const std::vector<reduced_model::Trajectory>& trajectories);
 
 /// gamma(t) of the contact models.
 Plot plot_gamma(const std::vector<reduced_model::Trajectory>& trajectories);
 
-/// The force of the solid contact over time.
+/// The force of the plane on the sphere where solids touch, over time; impacts are cut off.
 Plot plot_solid_force(const std::vector<reduced_model::Trajectory>& trajectories);
 
 /// The external force f_ext(t) from 0 to `end_time` [T].
 Plot plot_external_force(const reduced_model::ExternalForce& force, double end_time);
 
-/// The thinnest film of each model (for contact models the recovered film), beside the published
-/// value if the case has one.
+/// The thinnest film of each model, for contact models the one recovered from gamma, beside the
+/// published value if the case has one. A Plot without panels if there is no value > 0.
 Plot plot_minimal_gaps(const reduced_model::Comparison& comparison,
                        const std::optional<case_file::PublishedGap>& published);
 
-/// The uncertainty of the gap over time in the motion without inertia, as bands relative to the gap
-/// that the fit gives.
+/// The uncertainty of the gap over time without inertia: intervals relative to the fit's gap.
 Plot plot_uncertainty(const reduced_model::FitUncertainty& uncertainty);
 
 }  // namespace viscontact::report

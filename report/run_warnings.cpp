@@ -1,5 +1,6 @@
-// The warnings of a run (run_warnings.hpp). Gaps are in the unit of length of the case. A change of
-// a limit changes which warnings reports of earlier runs show when they are made again.
+// Finds what the report of a run of one sphere must warn of (run_warnings.hpp). Gaps and films [L]
+// are in the unit of the case; residuals and error estimates are relative [1]. Errors are those of
+// run_warnings.hpp. Used by report.cpp. A change of a limit alters reports that are made again.
 #include "viscontact/report/run_warnings.hpp"
 
 #include <fmt/format.h>
@@ -15,23 +16,23 @@
 namespace viscontact::report {
 namespace {
 
-/// The report warns if more than this share of the random draws of coefficients was refused.
+/// Share of the random draws that may be refused without a warning; a free choice.
 constexpr double kManyRefused = 0.01;
 
 /// The warnings so far.
 struct Warnings {
   std::vector<ReportWarning> all{};
 
-  /// Adds a warning with the file of its numbers; the other arguments are those of fmt::format.
+  /// Adds a warning about numbers in `file`; the other arguments are those of fmt::format.
   template <class... Numbers>
   void add(const std::string& file, fmt::format_string<Numbers...> text, Numbers&&... numbers) {
     all.push_back({fmt::format(text, std::forward<Numbers>(numbers)...), file});
   }
 };
 
-/// Warns of gaps and recovered films outside the fit's interval, where the table has no row.
+/// Warns of gaps, and of films recovered from gamma, outside the fit's interval.
 void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
-  if (run.fit.terms.empty()) return;  // the exact drag has no interval
+  if (run.fit.terms.empty()) return;  // the exact drag is valid at all gaps
   const auto [low, high] = run.fit.gap_interval;
   const lubrication::LubricationForce force(run.fit,
                                             {lubrication::BelowInterval::kLubricationLimit});
@@ -42,8 +43,8 @@ void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
         std::ranges::minmax_element(trajectory.rows, {}, &reduced_model::TrajectoryRow::gap);
     const double smallest = first->gap, largest = last->gap;
     const bool contact = choice->model->contact != nullptr;
-    // In contact, the gap of a contact model is 0, where no drag is computed; the recovered film is
-    // compared.
+    // While a contact model is in contact, its gap is 0 or constant and no drag is computed.
+    // Therefore its recovered film is compared with the interval.
     const double thinnest = contact ? trajectory.recovered_minimal_gap.value_or(low) : smallest;
     if (thinnest > 0 && thinnest < low)
       warnings.add(
@@ -67,9 +68,9 @@ void add_failed_models(Warnings& warnings, const results::RunResults& run) {
                  failed.reason);
 }
 
-/// Warns if the residuals are larger than the table's error estimates. Each residual is compared
-/// with the error estimate of its own row, because that of another row may be much larger. A fit
-/// file of an earlier version does not have this comparison.
+/// Warns if residuals of the fit are larger than the table's error estimates. Each residual is
+/// compared with the estimate of its own row, because that of another row may be much larger. A fit
+/// file of an earlier version has chi-squared in place of this comparison.
 void add_coarser_than_table(Warnings& warnings, const lubrication::FitDiagnostics& d) {
   if (d.misfit != lubrication::Misfit::kBasis) return;
   if (const auto& worst = d.worst_to_estimate)
@@ -125,7 +126,7 @@ void add_passage_through_plane(Warnings& warnings, const results::RunResults& ru
   }
 }
 
-/// Warns if models without solid contact have gaps at which the rough surfaces would touch.
+/// Warns of models without solid contact if the rough surfaces would touch at their gaps.
 void add_roughness(Warnings& warnings, const results::RunResults& run) {
   const auto& motion = run.c.motion.value();
   const double roughness = motion.roughness[0] + motion.roughness[1];
@@ -154,8 +155,8 @@ void add_refused_draws(Warnings& warnings, const results::RunResults& run) {
                  u.refused, u.draws);
 }
 
-/// Warns of files that were made from other inputs: the hash that they record differs from that of
-/// the file in the folder.
+/// Warns of files that were made from other files than those in the folder: the hash that they have
+/// recorded differs from that of the file in the folder.
 void add_other_origin(Warnings& warnings, const results::RunResults& run) {
   const auto fit_hash = results::content_sha256(read_file(run.folder.fit()));
   const std::array<std::pair<std::string, std::string>, 2> inputs = {

@@ -1,6 +1,6 @@
-// Writes the columns and words of the summaries, and draws their pictures (summaries.hpp). Numbers
-// are in the units of the case. A gnuplot that fails is an Error(kExternalProgram). A change must
-// keep the keys of the JSON, which users' scripts read.
+// Writes the columns and words of the summaries, and draws their pictures (summaries.hpp). Gaps,
+// times and velocities are in the units of the case, pictures in pixels. A missing or failing
+// gnuplot is an Error(kExternalProgram). Used by pipeline/. A change must keep the JSON's keys.
 #include "viscontact/report/summaries.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +20,7 @@ std::string number_or_dash(const std::optional<double>& number, const char* form
   return number ? fmt::format(fmt::runtime(format), *number) : "-";
 }
 
+/// What chi-squared says about the cause of the residuals; empty if it is not known.
 std::string misfit_in_words(const lubrication::FitDiagnostics& d) {
   if (!d.chi_squared) return "";
   return fmt::format(
@@ -30,7 +31,7 @@ std::string misfit_in_words(const lubrication::FitDiagnostics& d) {
                            : ": but for the outliers, the data explain the residuals");
 }
 
-/// The residual of the left-out row as text, or a dash if there is no such row.
+/// The relative residual of a row in the fit of the other rows, or a dash if there is no such row.
 std::string left_out(const std::optional<lubrication::LeftOutRow>& row, const char* format) {
   return number_or_dash(row ? std::optional(row->relative_residual) : std::nullopt, format);
 }
@@ -99,8 +100,7 @@ std::string plot_bases(const lubrication::MotionTable& table,
               true,
               {"set format y '1e%T'", "set key below Left reverse noopaque"},
               {}};
-  // Of a table with more than 2000 rows, only every n-th row is drawn, because a picture cannot
-  // show more points.
+  // Of a long table only every n-th row is drawn, because a picture cannot show more points.
   constexpr std::size_t kMostPoints = 2000;
   const std::size_t stride = 1 + table.rows.size() / kMostPoints;
   std::size_t place = 0;
@@ -135,7 +135,7 @@ std::string plot_bases(const lubrication::MotionTable& table,
 
 std::string comparison_table(const reduced_model::Comparison& comparison) {
   constexpr std::string_view kLine = "{:<30} {:>12} {:>9} {:>15} {:>16} {:>10}";
-  // The last columns are there only if solids touch in a model.
+  // The last two columns are left out if solids touch in no model.
   const bool solids = std::ranges::any_of(
       comparison.models, [](const auto& model) { return model.solid_contact_from.has_value(); });
   const auto solid_columns = [&](const std::string& time, const std::string& velocity) {
@@ -179,7 +179,7 @@ std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& 
   for (const auto& row : shift.rows) {
     own.points.emplace_back(row.gap, row.shift);
     common.points.emplace_back(row.gap, shift.shift);
-    // A logarithmic scale has no zero, so a residual or an error estimate of 0 is not drawn.
+    // A logarithmic axis has no zero, so a residual or an error estimate of 0 is not drawn.
     if (row.relative_residual != 0)
       residual.points.emplace_back(row.gap, std::abs(row.relative_residual));
     if (row.relative_error_estimate > 0)
@@ -201,7 +201,7 @@ std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& 
                   {}};
   for (const auto& curve : {residual, estimate})
     if (!curve.points.empty()) residuals.curves.push_back(curve);
-  constexpr int kWidth = 860, kPanelHeight = 360;  // [pixels]
+  constexpr int kWidth = 860, kPanelHeight = 360;  // [pixels], free choices
   if (residuals.curves.empty()) return draw_picture(format, {shifts}, kWidth, kPanelHeight, stop);
   return draw_picture(format, {shifts, residuals}, kWidth, 2 * kPanelHeight, stop);
 }

@@ -1,6 +1,7 @@
-// Summaries of fits, shifts and comparisons: words and tables for the terminal, and pictures. Gaps
-// and times are in the units of the case. The stages of pipeline/ print them. A change must keep
-// the keys of the JSON, which users' scripts read.
+// Summaries of fits, shifts of rough walls and comparisons of models: words and tables for the
+// terminal, JSON, and pictures. Gaps and times are in the units of the case, residuals are relative
+// [1]. pipeline/fit_stages.cpp and pipeline/compare_stage.cpp print them. A change must keep the
+// keys of the JSON, which users' scripts read.
 #pragma once
 
 #include <string>
@@ -14,31 +15,32 @@
 
 namespace viscontact::report {
 
-/// One or a few lines: basis, residuals, the cause of the misfit, outliers.
+/// Lines on basis, residuals, cause of the misfit and outliers. The fit must have diagnostics.
 std::string fit_in_words(const lubrication::Fit& fit);
 
-/// A table with one line for each basis, and a last line that names the best basis.
+/// A table with a line for each basis (of a failed fit, with the reason), and a last line that
+/// names the basis with the smallest information criterion (AICc), if one has a criterion.
 std::string basis_table(const std::vector<fitting::BasisResult>& results);
 
-/// The results as JSON: a list with an object for each basis. The object is the content of the fit
-/// file; if the fit failed, it has only the keys "basis" and "failure".
+/// A JSON list with an object for each basis: the content of the fit file or, if the fit failed,
+/// the keys "basis" and "failure" only.
 std::string basis_json(const std::vector<fitting::BasisResult>& results);
 
-/// A picture: the relative residuals of every basis over the gap,
-/// beside the table's error estimates. Throws Error(kExternalProgram) if gnuplot is missing or
-/// fails.
+/// A picture of the relative residuals of every basis over the gap, beside the table's error
+/// estimates. `table` must be that of the fits. Throws Error(kExternalProgram) if gnuplot is
+/// missing or fails, and Error(kInterrupted) if `stop` requests a stop.
 std::string plot_bases(const lubrication::MotionTable& table,
                        const std::vector<fitting::BasisResult>& results,
                        const results::PictureFormat& format, const StopToken& stop = {});
 
-/// A picture with two panels over the gap: the shift of each row
-/// beside the common shift [L], and the relative residuals with the common shift. `wall` names the
-/// wall in the title. Throws Error(kExternalProgram) if gnuplot is missing or fails.
+/// A picture with two panels over the gap: the shift of each row beside the common shift [L], by
+/// which the smooth wall lies below the crests of the rough one, and the relative residuals with
+/// the common shift. `wall` is the wall's name in the title. Throws the errors of plot_bases().
 std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall,
                             const results::PictureFormat& format, const StopToken& stop = {});
 
-/// One line per model: smallest gap and its time, recovered film, times of contact, largest
-/// distance to the reference.
+/// A table with a line for each model: smallest gap and its time, film recovered from gamma, times
+/// of contact, largest distance to the reference, and when solids touch if they do in a model.
 std::string comparison_table(const reduced_model::Comparison& comparison);
 
 }  // namespace viscontact::report

@@ -1,7 +1,9 @@
-// Draws the particles of a frame with planes, contacts, marks of rotation, rigid bodies and links
-// as SVG (frame_picture.hpp). Motions in space must be drawn from the back to the front, because
-// SVG has no depth. Lengths are in the unit of the case, sizes in page units; nothing is thrown.
-// The scripts in particles/picture/page draw the same, and a change must keep both alike.
+// Writes particles, planes, contacts, marks of rotation, rigid bodies and links as elements of SVG
+// (frame_picture.hpp). Points and radii are in the case's unit of length [L]; coordinates, widths
+// and sizes on the page are in page units, of which the picture is 1000 wide. Sizes that stand
+// below as numbers are free choices. Spheres must be drawn from the back to the front, because SVG
+// has no depth. Nothing is checked or thrown. Used by particles_picture.cpp. A change must agree
+// with view.js and picture.js in particles/picture/page, which draw the same on a web page.
 #include "viscontact/particles/picture/frame_picture.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +21,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// Calls visit(k, place) for each drawn particle k and for those of its images that may be seen.
+/// Calls visit(k, centre) for each particle k that is drawn (every d.every-th): with its own centre
+/// [L] and, where the motion is periodic, with those of its images, the copies of it that are
+/// shifted by -1, 0 or 1 periods along each axis.
 template <class Visit>
 void for_each_image(const PanelSettings& d, const Frame& frame, const Visit& visit) {
   for (std::size_t k = 0; k < d.scene.playback.radii.size(); k += d.every)
@@ -28,17 +32,17 @@ void for_each_image(const PanelSettings& d, const Frame& frame, const Visit& vis
         visit(k, particles::operator+(position(d.scene.playback, frame, k), shift_of(cell, image)));
 }
 
-/// True if the particle belongs to a rigid body.
+/// True if particle k belongs to a rigid body.
 bool is_in_body(const Playback& playback, std::size_t k) {
   return !playback.bodies.empty() && playback.bodies[k] >= 0;
 }
 
-/// True if the panel shows a part of a circle about (x, y) of the page.
+/// True if the panel may show a part of the circle about (x, y) with the radius r [page units].
 bool is_seen(const PanelSettings& panel, double x, double y, double r) {
   return x > -r && x < panel.width + r && y > -r && y < panel.height + r;
 }
 
-/// Vector from particle `first` to the nearest image of particle `second` [L].
+/// Vector from the centre of particle `first` to the nearest image of particle `second` [L].
 Vector apart(const PanelSettings& panel, const Frame& frame, std::size_t first,
              std::size_t second) {
   Vector w =
@@ -49,6 +53,7 @@ Vector apart(const PanelSettings& panel, const Frame& frame, std::size_t first,
   return w;
 }
 
+/// Commands of an SVG path: move the pen to the point p [L], or draw a straight line to it.
 std::string move_to(const PanelSettings& panel, const Vector& p) {
   return fmt::format("M{:.2f} {:.2f}", panel.view.x(p), panel.view.y(p));
 }
@@ -56,13 +61,16 @@ std::string line_to(const PanelSettings& panel, const Vector& p) {
   return fmt::format("L{:.2f} {:.2f}", panel.view.x(p), panel.view.y(p));
 }
 
-/// Calls line(from, to) for the line between two particles; twice if it crosses a period.
+/// Returns line(from, to) for the line from the centre of particle `first` to the nearest image of
+/// particle `second` [L]. If this image is shifted by a period, the same line that ends at particle
+/// `second` itself is added, so that the line is seen at both sides of the cell.
 template <class Line>
 std::string both_sides(const PanelSettings& panel, const Frame& frame, std::size_t first,
                        std::size_t second, const Line& line) {
   const Vector w = apart(panel, frame, first, second);
   const Vector from = position(panel.scene.playback, frame, first);
   const Vector to = position(panel.scene.playback, frame, second);
+  // `off` is 0 or at least a period, apart from round-off; any limit between them works.
   const double off = norm(to - (from + w));
   return line(from, from + w) +
          (off > 0.5 * panel.scene.playback.radii[first] ? line(to - w, to) : "");
@@ -73,6 +81,8 @@ double smaller_radius(const PanelSettings& panel, std::size_t first, std::size_t
          std::min(panel.scene.playback.radii[first], panel.scene.playback.radii[second]);
 }
 
+/// A zigzag line between two points [L] with corners that are `width` page units away from the
+/// straight line; empty if both points have the same place on the page.
 std::string spring_path(const PanelSettings& panel, const Vector& from, const Vector& to,
                         double width) {
   constexpr int kTurns = kStyle.spring_turns;
@@ -90,7 +100,7 @@ std::string spring_path(const PanelSettings& panel, const Vector& from, const Ve
   return path + fmt::format("L{:.2f} {:.2f}", x + dx, y + dy);
 }
 
-/// A circle about a point; nothing if the panel does not show it.
+/// A circle with the centre `at` and this radius [L]; empty if the panel does not show it.
 std::string circle(const PanelSettings& panel, const Vector& at, double radius) {
   const double x = panel.view.x(at), y = panel.view.y(at), r = panel.view.scale * radius;
   return is_seen(panel, x, y, r)
@@ -98,8 +108,7 @@ std::string circle(const PanelSettings& panel, const Vector& at, double radius) 
              : "";
 }
 
-/// Particle k of a frame about `at`, a disc, an ellipse or a plate; nothing if the panel does not
-/// show it.
+/// Particle k with the centre `at` [L], a disc, ellipse or plate; empty if it is not seen.
 std::string disc(const PanelSettings& panel, const Frame& frame, std::size_t k, const Vector& at) {
   const auto& playback = panel.scene.playback;
   if (playback.semi_axes.empty()) return circle(panel, at, playback.radii[k]);
@@ -118,14 +127,15 @@ std::string disc(const PanelSettings& panel, const Frame& frame, std::size_t k, 
       scale * a, scale * b, x, y, -frame.angles[k] * 180 / std::numbers::pi);
 }
 
-/// A dot at the rim of each disc, which shows how far it has turned; nothing on very small discs.
+/// Dots that show how far discs and ellipses have turned: each dot lies in the direction of the
+/// particle's angle. Very small particles have none. Empty if the frame has no angles.
 std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
-  constexpr double kSmallest = 0.5;  // radius of a dot [page units]
+  constexpr double kSmallest = 0.5;  // least radius of a dot that is seen [page units]
   if (frame.angles.size() != panel.scene.playback.radii.size()) return "";
   std::string text;
   for_each_image(panel, frame, [&](std::size_t k, const Vector& centre) {
     if (const auto& plates = panel.scene.playback.plates; !plates.empty() && plates[k] != 0)
-      return;  // its direction is seen
+      return;  // the outline of a plate shows its direction
     const auto& axes = panel.scene.playback.semi_axes;
     const double r = axes.empty() ? panel.scene.playback.radii[k] : axes[k][0];
     const double angle = frame.angles[k];
@@ -137,16 +147,17 @@ std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
   return fmt::format("<g fill=\"{}\">\n{}</g>\n", kStyle.mark, text);
 }
 
-/// Dots on sphere k where its three axes come out of it, as far as they are seen.
+/// Dots on sphere k at the ends of the three axes that turn with it, as far as they are on the side
+/// that the reader sees. Empty if the frame has no orientations or if the sphere is too small.
 std::string orientation_marks(const PanelSettings& panel, const Frame& frame, std::size_t k) {
-  constexpr double kSmallest = 0.5;  // radius of a dot [page units]
+  constexpr double kSmallest = 0.5;  // least radius of a dot that is seen [page units]
   const double r = panel.scene.playback.radii[k];
   if (frame.orientations.size() != 4 * panel.scene.playback.radii.size() ||
       kStyle.axis_radius * r * panel.view.scale < kSmallest)
     return "";
   const float* q = &frame.orientations[4 * k];
   const double w = q[0], x = q[1], y = q[2], z = q[3];
-  // The columns of the rotation matrix are the axes of the sphere.
+  // The columns of the rotation matrix of the unit quaternion (w, x, y, z) are these axes.
   const std::array<Vector, 3> axes = {
       Vector{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
       Vector{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
@@ -162,7 +173,8 @@ std::string orientation_marks(const PanelSettings& panel, const Frame& frame, st
   return fmt::format("<g fill=\"{}\" stroke=\"none\">{}</g>\n", kStyle.mark, dots);
 }
 
-/// The discs of rigid bodies, in a colour of their own, with lines that join the discs of each.
+/// The discs of rigid bodies in colours that only they have, and lines from each disc of a body to
+/// the next disc of the same body.
 std::string body_discs(const PanelSettings& panel, const Frame& frame) {
   if (panel.scene.playback.bodies.empty()) return "";
   const auto [fill, edge] = kStyle.disc_of_body;
@@ -172,7 +184,7 @@ std::string body_discs(const PanelSettings& panel, const Frame& frame) {
       text += circle(panel, centre, panel.scene.playback.radii[k]);
   });
   text += fmt::format("</g>\n<g fill=\"none\" stroke=\"{}\" stroke-linecap=\"round\">\n", edge);
-  std::map<std::int32_t, std::size_t> before;  // the last member of each body
+  std::map<std::int32_t, std::size_t> before;  // for each body its last disc so far
   for (std::size_t k = 0; k < panel.scene.playback.radii.size(); k += panel.every) {
     if (!is_in_body(panel.scene.playback, k)) continue;
     const auto [last, is_first] = before.emplace(panel.scene.playback.bodies[k], k);
@@ -188,7 +200,9 @@ std::string body_discs(const PanelSettings& panel, const Frame& frame) {
   return text + "</g>\n";
 }
 
-/// Hinges as rings, springs as zigzag lines and arms as bars.
+/// The links: a hinge, which holds a particle at a place, as a ring; a spring between two particles
+/// as a zigzag line; an arm, which keeps two particles at a prescribed distance, as a bar. Empty if
+/// only some of the particles are drawn.
 std::string link_marks(const PanelSettings& panel, const Frame& frame) {
   const auto& links = panel.scene.playback.links;
   if (links.empty() || panel.every > 1) return "";
@@ -216,6 +230,7 @@ std::string link_marks(const PanelSettings& panel, const Frame& frame) {
   return text + "</g>\n";
 }
 
+/// The corners of a polygon or line [L] as an SVG path that is not closed.
 std::string path_of(const Polygon& polygon, const Projection& view) {
   std::string path;
   for (const auto& p : polygon)
@@ -223,7 +238,8 @@ std::string path_of(const Polygon& polygon, const Projection& view) {
   return path;
 }
 
-/// A circle as a polygon, whose sides are too short to be seen.
+/// The circle `place` as a polygon [L]. With 240 sides it differs from the circle by less than 1e-4
+/// of the radius, which cannot be seen.
 Polygon circle_polygon(const PlanePosition& place) {
   constexpr int kSides = 240;
   Polygon polygon;
@@ -234,7 +250,7 @@ Polygon circle_polygon(const PlanePosition& place) {
   return polygon;
 }
 
-/// The part of a circle that the view shows.
+/// The outline of the circle `place` as a line, as far as it is in the box of the scene.
 std::string circle_line(const PanelSettings& d, const PlanePosition& place) {
   const auto polygon = circle_polygon(place);
   std::string path;
@@ -246,6 +262,8 @@ std::string circle_line(const PanelSettings& d, const PlanePosition& place) {
   return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-width=\"1.5\"/>\n", path);
 }
 
+/// Motions in the plane: the parts of the box that particles cannot enter, behind planes and
+/// outside circles, as grey areas.
 std::string plane_2d_solids(const PanelSettings& d, const Frame& frame) {
   const auto& [low, high] = d.scene.box;
   const Polygon all = {
@@ -264,6 +282,7 @@ std::string plane_2d_solids(const PanelSettings& d, const Frame& frame) {
   return text;
 }
 
+/// Motions in the plane: the planes and circles themselves as dark lines.
 std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
@@ -284,8 +303,9 @@ std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
   return text;
 }
 
-/// The planes as polygons. A plane that is seen from its free side is filled. Of a plane that is
-/// seen from the other side only the edges are drawn, because the particles are behind it.
+/// Motions in space: the parts of planes in the box. The free side of a plane is the one on which
+/// the particles are. With `from_free_side`: the planes that are seen from there, filled.
+/// Otherwise: the other planes, of which only edges are drawn, as particles are behind them.
 std::string plane_3d_patches(const PanelSettings& d, const Frame& frame, bool from_free_side) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
@@ -313,8 +333,9 @@ std::string plane_3d_patches(const PanelSettings& d, const Frame& frame, bool fr
   return text;
 }
 
-/// Colour "#rrggbb" of a contact: that of gamma if gamma < 0, otherwise that of its friction. The
-/// scales have few colours, so that many contacts make one path.
+/// Colour "#rrggbb" of the line of a contact: one colour if the contact slides; otherwise that of
+/// gamma (minus the impulse that its film has absorbed) if gamma < 0, and that of its friction if
+/// gamma = 0. The scales have few colours, so that many contacts of one colour make one path.
 std::string colour_of(const Scene& scene, const CurrentContact& contact) {
   const auto rounded = [](double share, int colours) {
     return static_cast<double>(std::lround(share * (colours - 1))) / (colours - 1);
@@ -327,7 +348,8 @@ std::string colour_of(const Scene& scene, const CurrentContact& contact) {
       rounded(mobilised_friction(scene.playback, contact), kFrictionColours));
 }
 
-/// The width of the line of a contact whose smaller radius is `radius` page units [page units].
+/// Width of the line of a contact [page units]. `radius` is the smaller radius of the two
+/// particles, or the radius of the particle at an obstacle [page units].
 double width_of(const PanelSettings& d, const CurrentContact& contact, double radius) {
   const auto width = [](const LineWidth& line, double r) {
     return std::clamp(line.share * r, line.least, line.most);
@@ -342,16 +364,16 @@ double width_of(const PanelSettings& d, const CurrentContact& contact, double ra
   return width(is_wide ? kStyle.film_line : kStyle.touching_line, radius);
 }
 
-/// The line of a contact. In space it is drawn just after the nearer of its two particles: over
-/// this particle and those behind it, and under those in front of it.
+/// The line of a contact: its colour "#rrggbb", its width [page units] and its SVG path.
 struct ContactLine {
   std::string colour;
   double width = 0;
   std::string path;
 };
 
-/// Moves the ends of the line between two particles of which one is a plate to the nearest points
-/// of their spines.
+/// Moves the ends `from` and `to` of the line between two particles [L], of which at least one is a
+/// plate, from their centres to the nearest points of their spines. The spine of a plate is the
+/// line in its middle between the centres of its round ends; that of a disc is its centre.
 void move_to_spines(const Playback& playback, const Frame& frame, std::size_t first,
                     std::size_t second, Vector& from, Vector& to) {
   const auto outline = [&](std::size_t k, const Vector& centre) {
@@ -367,6 +389,8 @@ void move_to_spines(const Playback& playback, const Frame& frame, std::size_t fi
   to = {near.second[0], near.second[1], 0};
 }
 
+/// The line of a contact: between the centres of two particles (with plates, between their spines),
+/// or from a particle to the nearest point of an obstacle.
 ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentContact& contact) {
   const auto second = static_cast<std::size_t>(contact.second);
   Vector to = position(d.scene.playback, frame, second);
@@ -391,17 +415,19 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentCon
   ContactLine line;
   line.colour = colour_of(d.scene, contact);
   line.width = width_of(d, contact, d.view.scale * radius);
-  // The line to an image is drawn at both sides of the period.
+  // The line to a shifted image is drawn at both sides of the cell.
   line.path = path_of({from, to + shift}, d.view);
   if (contact.image != 0) line.path += path_of({from - shift, to}, d.view);
   return line;
 }
 
+/// True if the particles of a contact are drawn.
 bool drawn(const PanelSettings& d, const CurrentContact& contact) {
   const auto shown = [&](std::int32_t k) { return static_cast<std::size_t>(k) % d.every == 0; };
   return shown(contact.second) && (contact.first < 0 || shown(contact.first));
 }
 
+/// The panel of a motion in the plane; `behind` is SVG that is drawn first.
 std::string discs(const PanelSettings& d, const Frame& frame, const std::string& behind) {
   std::string text = behind + plane_2d_solids(d, frame);
   const bool is_in_fluid = d.scene.is_in_fluid;
@@ -412,8 +438,8 @@ std::string discs(const PanelSettings& d, const Frame& frame, const std::string&
     if (!is_in_body(d.scene.playback, k)) text += disc(d, frame, k, centre);
   });
   text += "</g>\n" + body_discs(d, frame) + angle_marks(d, frame) + plane_2d_lines(d, frame);
-  // All contacts of one width, in tenths of a unit, and one colour make one path. Wide lines are
-  // over thin ones.
+  // All contacts with one width, rounded to tenths of a page unit, and one colour make one path.
+  // The map is ordered by width, so that wide lines are drawn over thin ones.
   std::map<std::pair<long, std::string>, std::string> paths;
   for (const auto& contact : frame.contacts) {
     if (!drawn(d, contact)) continue;
@@ -427,11 +453,13 @@ std::string discs(const PanelSettings& d, const Frame& frame, const std::string&
   return text + "</g>\n" + link_marks(d, frame);
 }
 
+/// The panel of a motion in space. A contact is drawn just after the nearer of its two particles:
+/// over this particle and those behind it, and under those in front of it.
 std::string spheres(const PanelSettings& d, const Frame& frame) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < d.scene.playback.radii.size(); k += d.every)
     if (const double depth = dot(d.view.toward, position(d.scene.playback, frame, k));
-        !std::isnan(depth))  // the particle is there
+        !std::isnan(depth))  // NaN: the particle is not there yet
       order.emplace_back(depth, k);
   std::ranges::sort(order);
   std::vector<std::size_t> rank(d.scene.playback.radii.size());

@@ -1,6 +1,8 @@
-// One frame of a motion as SVG: particles, planes and contacts in a panel of the still picture.
-// Lengths [L] are in the unit of the case. particles_picture.cpp calls it; the scripts in
-// particles/picture/page draw the same, and a change must keep both alike.
+// Draws one frame of a motion of particles as SVG: the content of one panel of the still picture.
+// Lengths [L] are in the case's unit. Page units are those of the SVG, of which the still picture
+// is 1000 wide. Nothing is thrown. particles_picture.cpp draws its panels by frame_picture(), and
+// particles_page.cpp uses kFrictionColours. The scripts view.js and picture.js in
+// particles/picture/page draw the same on a web page, so a change must be made there, too.
 #pragma once
 
 #include <algorithm>
@@ -11,38 +13,44 @@
 
 namespace viscontact::particles {
 
-/// Projects points to page coordinates (y downwards) from the upper left corner of a panel.
+/// Projects points of the motion [L] to coordinates in a panel [page units]: x to the right and y
+/// downwards from the panel's upper left corner.
 struct Projection {
-  /// Unit vectors; `toward` points to the reader.
+  /// Unit vectors of the motion that point to the right, upwards and to the reader.
   Vector right{1, 0, 0}, up{0, 1, 0}, toward{0, 0, 1};
-  double scale = 1;          ///< page units per length
+  double scale = 1;          ///< page units per length [1/L], > 0
   double left = 0, top = 0;  ///< coordinates of the panel's corner along `right` and `up` [L]
 
+  /// The coordinates of the point p [L] in the panel [page units].
   double x(const Vector& p) const { return scale * (dot(right, p) - left); }
   double y(const Vector& p) const { return scale * (top - dot(up, p)); }
 };
 
-/// The direction of view: from the front for motions in the plane (dimension 2); for motions in
-/// space from a little above and from the side, with the third axis upwards. The scale is 1.
+/// The direction of view, with the scale 1: from the front for `dimension` 2 (motions in the
+/// plane). For 3 (motions in space) the third axis points upwards, and the view is turned by 30
+/// degrees about it and from 20 degrees above; view.js repeats these free choices.
 Projection view_of(int dimension);
 
 /// Settings that all panels of a picture share.
 struct PanelSettings {
-  const Scene& scene;            ///< the motion and what is seen of it
-  Projection view;               ///< from points of the motion to the panel
-  double width = 0, height = 0;  ///< size of a panel in page units, > 0
-  std::size_t every = 1;         ///< one particle in `every` is drawn, >= 1; 1: all
+  const Scene& scene;            ///< the motion; it must outlive the settings
+  Projection view;               ///< from the motion to each panel
+  double width = 0, height = 0;  ///< size of a panel [page units], > 0
+  std::size_t every = 1;         ///< draws particles 0, every, 2 every, ...; >= 1
 };
 
-/// Number of colours of contacts with gamma < 0.
+/// Number of colours of contacts with gamma < 0 in the still picture. gamma is minus the impulse
+/// that a film has absorbed. Any number >= 2 works; with few colours the file is small.
 inline constexpr int kContactColours = 20;
 
-/// Number of colours of the friction of contacts with gamma = 0.
+/// Number of colours, in steps of a tenth of Coulomb's bound, for the friction of contacts with
+/// gamma = 0, in the still picture and on the page.
 inline constexpr int kFrictionColours = 11;
 
-/// The elements of a panel that shows the frame. `behind` is drawn behind everything else. Across
-/// the sides of a period, the images of particles and contacts are drawn, of which the panel shows
-/// the part in its box.
+/// The SVG elements of a panel that shows `frame`, a frame of panel.scene.playback. In motions in
+/// the plane, `behind` is SVG that is drawn behind them, and images of particles are drawn at the
+/// sides of a period. In motions in space, `behind` is not used and particles have no images.
+/// Elements may extend beyond the panel, which must cut them off.
 std::string frame_picture(const PanelSettings& panel, const Frame& frame,
                           const std::string& behind = "");
 

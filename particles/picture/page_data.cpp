@@ -1,6 +1,7 @@
-// Chooses what of a motion a page shows, and encodes it (page_data.hpp). Numbers are in the units
-// of the case; nothing is thrown. The layout of the blocks must agree with the scripts in
-// particles/picture/page.
+// Chooses the part of a motion of particles that a page shows, and writes its numbers as bytes
+// (page_data.hpp), in the units of the case. Nothing is thrown. Used by particles_page.cpp.
+// motion.js, colouring.js and flow.js in particles/picture/page decode the bytes: a change here
+// must agree with them, and with kLevels, kNothing, kNoArrow and kSteps in flow.js.
 #include "viscontact/particles/picture/page_data.hpp"
 
 #include <openssl/evp.h>
@@ -26,16 +27,16 @@ void append(Bytes& bytes, Number value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
-/// Appends a number with seven bits in each byte, the lowest first. The eighth bit is set in all
-/// bytes but the last.
+/// Appends a number: seven bits in each byte, lowest first; the eighth is 0 in the last byte only.
 void append_short(Bytes& bytes, std::uint32_t value) {
   for (; value >= 128; value >>= 7) bytes.push_back(static_cast<unsigned char>(value | 128));
   bytes.push_back(static_cast<unsigned char>(value));
 }
 
-/// Chooses whether positions are written as 16-bit numbers or as floats.
+/// Chooses whether a coordinate takes two bytes or four (PageData::position_bytes).
 void choose_position_bytes(PageData& data, const Playback& playback) {
-  constexpr double kSteps = 65535, kSmall = 0.02;  // largest 16-bit number; step over radius
+  // The largest 16-bit number; the largest step over the smallest radius, too small to be seen.
+  constexpr double kSteps = 65535, kSmall = 0.02;
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   for (std::size_t d = 0; d < dimension; ++d) {
     Interval reach;
@@ -49,14 +50,14 @@ void choose_position_bytes(PageData& data, const Playback& playback) {
   const auto smallest = std::ranges::min_element(playback.radii);
   const double largest_step =
       *std::max_element(data.step.begin(), data.step.begin() + playback.dimension);
-  // If the step is not finite, the comparison is false, and positions are written as floats.
+  // With an infinite position the step is not finite: the comparison fails, and floats are used.
   if (smallest == playback.radii.end() || largest_step <= kSmall * *smallest) return;
   data.position_bytes = 4;
   data.low = {0, 0, 0};
   data.step = {1, 1, 1};
 }
 
-/// Chooses every `every_frame`-th frame and the last one.
+/// Chooses the frames 0, every_frame, 2 every_frame, ... and the last one.
 void choose_frames(PageData& data, const Playback& playback, std::size_t every_frame) {
   data.every_frame = every_frame;
   data.frames.clear();
@@ -65,18 +66,20 @@ void choose_frames(PageData& data, const Playback& playback, std::size_t every_f
     data.frames.push_back(playback.frames.size() - 1);
 }
 
-/// The contacts of all frames: a list of all pairs that are ever in contact, and for each frame the
-/// contacts in it. A contact is written as its distance in the list from the contact before it, a
-/// byte for gamma from 0 (gamma = 0) to 255 (the lowest gamma); in a motion with friction a byte
-/// for mobilised_friction(), 255 if it slides; and, if there are forces, a byte for force_share().
+/// The contacts of all frames: a list of the pairs that are in contact in any frame, and for each
+/// frame its contacts in the order of that list. The bytes of a contact are
+/// - the place of its pair in the list minus that of the contact before it (append_short());
+/// - gamma, minus the impulse that its film has absorbed: 0 for gamma = 0, 255 for the lowest;
+/// - in a motion with friction: 254 times mobilised_friction(), or 255 if the contact slides;
+/// - in a motion with forces: 255 times force_share().
 struct Contacts {
-  Bytes pairs;    ///< int32, int32: as in CurrentContact, by number of the drawn particle
-  Bytes images;   ///< int8: CurrentContact::image of each pair
-  Bytes offsets;  ///< uint32: begin of each frame in `frames`, then the end
-  Bytes frames;   ///< the contacts of the frames, in the form that the comment of Contacts says
+  Bytes pairs;    ///< int32: both particles, counted among the shown; -1 - j: obstacle j
+  Bytes images;   ///< int8: image of the second particle, as image_number() in periods.hpp
+  Bytes offsets;  ///< uint32: where each frame begins in `frames`, then the end
+  Bytes frames;   ///< the bytes of all contacts, frame by frame
 };
 
-using Pair = std::array<std::int32_t, 3>;  // both particles and the image of the second
+using Pair = std::array<std::int32_t, 3>;  // first, second and image of a CurrentContact
 
 Contacts contacts_of(const Scene& scene, const PageData& data) {
   const auto& playback = scene.playback;
@@ -133,7 +136,7 @@ Contacts contacts_of(const Scene& scene, const PageData& data) {
   return contacts;
 }
 
-/// Numbers that say how far a particle has turned: none, an angle, or a quaternion.
+/// How many numbers say how far a particle has turned: 1 (an angle), 4 (a quaternion) or 0.
 std::size_t numbers_of_turn(const Playback& playback) {
   const auto all_have = [&](const std::vector<float> Frame::*member, std::size_t numbers) {
     return !playback.frames.empty() && !playback.radii.empty() &&
@@ -145,18 +148,19 @@ std::size_t numbers_of_turn(const Playback& playback) {
   return all_have(&Frame::orientations, 4) ? 4 : 0;
 }
 
-/// Chooses frames, and whether contacts are shown, so that the page is not too large.
+/// Chooses the frames and particles, and whether contacts are shown, so that the page has at most
+/// kMostBytes, a free choice. `other_bytes` is the size of the flow in base64.
 Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_bytes) {
   const auto& playback = scene.playback;
   constexpr std::size_t kMostBytes = 24'000'000, kMostParticles = 200'000;
-  constexpr std::size_t kRest = 200'000;  // bytes for script, style and words
+  constexpr std::size_t kRest = 200'000;  // bytes, more than script, style and words have
   data.every_particle = playback.radii.size() / (kMostParticles + 1) + 1;
   const auto particles = (playback.radii.size() + data.every_particle - 1) / data.every_particle;
   const auto planes = playback.frames.empty() ? 0 : playback.frames.front().planes.size();
   const auto positions =
       particles * static_cast<std::size_t>(playback.dimension * data.position_bytes);
   const auto angles = particles * numbers_of_turn(playback) * sizeof(float);
-  // Speeds take a byte.
+  // The term `particles` is for the speeds, a byte each.
   const auto bytes_of_frame =
       base64_size(positions + angles + particles + planes * 6 * sizeof(float) + sizeof(double));
   const auto of_particles = static_cast<std::size_t>(1 + (playback.ids.empty() ? 0 : 1) +
@@ -179,7 +183,7 @@ Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_by
   }
 }
 
-/// Finds out in which frame each particle is there first.
+/// Sets PageData::first_frames.
 void find_first_frames(PageData& data, const Playback& playback) {
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   bool any = false;
@@ -194,8 +198,8 @@ void find_first_frames(PageData& data, const Playback& playback) {
   if (!any) data.first_frames.clear();
 }
 
-/// The speeds of the shown particles in the shown frames, a byte for each from 0 to `top_speed`.
-/// Empty if they are not known or all are 0.
+/// Sets PageData::top_speed, and returns a byte for the speed of each shown particle in each shown
+/// frame, from 0 to 255 for the top speed. Empty if speeds are not known or are all 0.
 Bytes speeds_of(PageData& data, const Playback& playback) {
   data.top_speed = 0;
   for (const auto f : data.frames) {
@@ -213,16 +217,18 @@ Bytes speeds_of(PageData& data, const Playback& playback) {
   return bytes;
 }
 
-constexpr double kLevels = 254;            // highest level of a byte
-constexpr unsigned char kNothing = 255;    // level of a point without flow
-constexpr std::uint16_t kNoArrow = 65535;  // place of the arrow of a line without one
-constexpr double kLineSteps = 65535;       // steps of a coordinate across the window
+constexpr double kLevels = 254;            // byte of the upper end of a scale; the lower end has 0
+constexpr unsigned char kNothing = 255;    // byte of a point without flow
+constexpr std::uint16_t kNoArrow = 65535;  // in place of the number of an arrow's point: no arrow
+constexpr double kLineSteps = 65535;       // a coordinate at the right or upper side of the grid
 
-/// Appends a byte for each value. `share` gives the place of a value on its scale, from 0 to 1.
+/// Appends a byte for each point of the field. share(value) is the place of a value on its scale,
+/// from 0 at the lower end to 1 at the upper end.
 template <class Share>
 void append_levels(Bytes& bytes, const std::vector<float>& field, std::size_t columns,
                    const Share& share) {
-  // The page interpolates between points, so that points just outside the flow need values.
+  // The page interpolates between the points of the grid. Therefore points up to three layers
+  // outside the flow get the mean of their neighbours; any number of layers >= 1 works.
   constexpr int kLayers = 3;
   std::vector<double> values(field.begin(), field.end());
   for (int layer = 0; layer < kLayers; ++layer) report::fill_next_to_known(values, columns);
@@ -232,13 +238,14 @@ void append_levels(Bytes& bytes, const std::vector<float>& field, std::size_t co
                                             kLevels * std::clamp(share(value), 0.0, 1.0))));
 }
 
+/// Appends the streamlines of a flow in the form that flow_blocks() says.
 void append_lines(Bytes& bytes, const FlowFrame& frame, const report::Window& window) {
   const auto write = [&](std::size_t number) { append(bytes, static_cast<std::uint16_t>(number)); };
   const auto step = [](double share) {
     return static_cast<std::size_t>(std::lround(kLineSteps * std::clamp(share, 0.0, 1.0)));
   };
-  // A line with more points than a 16-bit number can count is left out, and so are lines beyond
-  // that number.
+  // A line with kMost points or more, and lines after the first kMost, are left out, because 16-bit
+  // numbers count them. Any limit below 65535 works.
   constexpr std::size_t kMost = 65000;
   const auto is_short = [&](const report::StreamLine& line) { return line.points.size() < kMost; };
   const auto count = static_cast<std::size_t>(std::ranges::count_if(frame.lines, is_short));
@@ -258,7 +265,7 @@ void append_lines(Bytes& bytes, const FlowFrame& frame, const report::Window& wi
 }  // namespace
 
 std::string base64(const Bytes& bytes) {
-  std::string text(base64_size(bytes.size()), '\0');  // OpenSSL also writes the '\0' at its end
+  std::string text(base64_size(bytes.size()), '\0');  // OpenSSL writes the '\0' after the text, too
   EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()), bytes.data(),
                   static_cast<int>(bytes.size()));
   return text;
@@ -302,7 +309,8 @@ PageData page_data(const Scene& scene, const Blocks& others) {
     for (std::size_t k = 0; turn_numbers > 0 && k < playback.radii.size(); k += data.every_particle)
       for (std::size_t i = 0; i < turn_numbers; ++i) append(turns, written[k * turn_numbers + i]);
     for (const auto& plane : frame.planes) {
-      // In two dimensions, a third component of the normal is the radius of a circle.
+      // In two dimensions a circle has its radius in place of the third component of a normal, and
+      // zeros in place of the other components.
       const auto normal = plane.is_curved() ? Vector{0, 0, plane.radius} : plane.normal;
       for (const auto* vector : {&plane.point, &normal})
         for (const double x : *vector) append(planes, static_cast<float>(x));

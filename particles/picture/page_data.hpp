@@ -1,7 +1,8 @@
-// The numbers of the page that plays a motion: chooses the frames, particles and contacts that fit
-// into it, and encodes them, and the flow, as blocks that its script reads. Numbers are in the
-// units of the case; nothing is thrown. The layout of the blocks must agree with the scripts in
-// particles/picture/page. Used by particles_page.cpp.
+// The numbers of the page that plays a motion of particles: chooses the frames, particles and
+// contacts that fit into the page, and encodes them and the flow as blocks of numbers. Lengths,
+// masses and times are in the units of the case. Nothing is thrown. particles_page.cpp writes the
+// blocks into the page. motion.js, colouring.js and flow.js in particles/picture/page read them, so
+// a change of their names or layout must be made there, too.
 #pragma once
 
 #include <array>
@@ -15,42 +16,47 @@
 
 namespace viscontact::particles {
 
-/// The content of a block of numbers. The numbers are written as they are in memory, and the script
-/// reads them as little-endian.
+/// The bytes of a block of numbers, which are little-endian.
 using Bytes = std::vector<unsigned char>;
 
-/// Names and contents of the blocks of numbers in the page.
+/// The blocks of a page: the id of the HTML element that holds a block, and the content.
 using Blocks = std::vector<std::pair<const char*, Bytes>>;
 
 /// The bytes in base64 (RFC 4648).
 std::string base64(const Bytes& bytes);
 
-/// The part of a motion that the page shows, and its encoding.
+/// The part of a motion that the page shows, and its encoding. Indices are those of the playback.
 struct PageData {
-  std::vector<std::size_t> frames;  ///< indices of the shown frames
+  std::vector<std::size_t> frames;  ///< indices of the shown frames, increasing
+  /// Frames 0, every_frame, ... and the last are shown, and particles 0, every_particle, ...; >= 1.
   std::size_t every_frame = 1, every_particle = 1;
-  bool contacts = true;
-  /// Positions are 16-bit multiples of `step` from `low` (position_bytes = 2) if `step` is small
-  /// compared with every particle, otherwise 32-bit floats (position_bytes = 4). `low` and `step`
-  /// are in [L].
+  bool contacts = true;  ///< whether contacts are shown
+  /// Bytes of a coordinate: 2 if it is a 16-bit number of steps from `low`, 4 if it is a float [L].
+  /// Two bytes are chosen if `step` is at most 1/50 of the smallest radius in every direction.
   int position_bytes = 2;
+  /// Along x, y and z [L]; 0 and 1 for floats. A coordinate is low + step times the number.
   std::array<double, 3> low{}, step{1, 1, 1};
-  /// For each shown particle, the first of `frames` in which it is there. Empty: all are always
-  /// there.
+  /// For each shown particle, the place in `frames` of the first frame in which it exists. Empty if
+  /// all particles exist in all frames.
   std::vector<std::int32_t> first_frames{};
-  double top_speed = 0;  ///< largest speed of the shown frames [L/T]; 0: not known
-  Blocks blocks{};       ///< all that the script reads of these frames
+  double top_speed = 0;  ///< largest speed of the shown frames [L/T]; 0: no speeds
+  Blocks blocks{};       ///< what motion.js and colouring.js read, without the flow
 };
 
 /// Chooses as many frames as fit into a page of 24 MB beside `others`, the blocks of the flow, and
-/// encodes them. If even two frames are too large, the contacts are left out.
+/// encodes them. If two frames are still too many, contacts are left out.
 PageData page_data(const Scene& scene, const Blocks& others);
 
-/// The blocks of the flow, none if there is none: times [T] as doubles; for each flow and point a
-/// byte of the speed and of the pressure, 0 to 254 from the lower to the upper end of the scale,
-/// 255 where there is no flow; streamlines as 16-bit numbers (the number of lines; for each line
-/// the number of its points, the place of its arrow or 65535, and its points as multiples of
-/// 1/65535 of the window), and the begin of each flow in them, then the end.
+/// The blocks of n flows on a grid of p points; no blocks if there is no flow.
+///   flow-times     n doubles, the times [T]
+///   flow-speed     n p bytes: flow by flow, row by row from the bottom, each row from the left; 0
+///                  to 254 for speeds from 0 to FlowFrames::top_speed, 255 where there is no flow
+///   flow-pressure  n p bytes, likewise; 0 to 254 from the lower to the upper end of pressures
+///   flow-lines     16-bit numbers: for each flow the number of its streamlines, and for each of
+///                  these the number of its points, the place of its arrow (65535: none), and x and
+///                  y of each point in 65535 steps across the grid's window, from the left and the
+///                  bottom
+///   flow-offsets   n + 1 32-bit numbers: where each flow begins in flow-lines, then the end
 Blocks flow_blocks(const Scene& scene);
 
 }  // namespace viscontact::particles

@@ -1,6 +1,8 @@
-// Writes the page that plays a motion: words, controls, scales, and the numbers of page_data.hpp.
-// Numbers are in the units of the case; a flow that cannot be read is an Error(kBadInput). The keys
-// of the JSON and the ids of elements must agree with the scripts in particles/picture/page.
+// Writes the page that plays a motion of particles (particles_picture.hpp): words, controls, scales
+// of colours, and the blocks of page_data.hpp. Numbers are in the units of the case; a flow that
+// cannot be read is an Error(kBadInput). run/particles_pages.cpp calls particles_page(). The
+// scripts in particles/picture/page read the keys of the JSON and find elements by their ids, so a
+// change of either must be made there, too.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,21 +20,20 @@
 
 namespace viscontact::particles {
 
-// The scripts and styles in page/, which are built into the executable (report/embed_texts.cmake),
-// so that pages load nothing from elsewhere. CMakeLists.txt lists the same names with the files.
+// The texts of the files in page/, made by CMakeLists.txt, so that a page needs no other file.
 std::string_view flow_script();
 std::string_view particles_script();
 std::string_view particles_style();
 
 namespace {
 
-constexpr int kScaleColours = 64;  // of a scale; the page interpolates between them
+constexpr int kScaleColours = 64;  // of the flow; any number >= 2 works
 
-/// The parts of the page that show the flow; all empty if there is none.
+/// The parts of the page that show the flow.
 struct FlowOfPage {
-  std::string settings;          ///< a JSON object; "null" if there is no flow
+  std::string settings;          ///< a JSON object for flow.js; "null" if there is no flow
   Blocks blocks;                 ///< flow_blocks()
-  std::string controls, legend;  ///< HTML
+  std::string controls, legend;  ///< HTML; empty if there is no flow
 };
 
 /// HTML of a scale of colours.
@@ -75,9 +76,11 @@ FlowOfPage flow_of_page(const Scene& scene) {
   return page;
 }
 
+// Colours of gamma, at least 2. With kFrictionColours at most 256: drawContacts() of picture.js
+// numbers the colours of contacts by a byte.
 constexpr int kPageColours = 24;
 
-/// kStyle as JSON. A LineWidth is [share, least, most].
+/// kStyle (scene.hpp) as a JSON object. A LineWidth is the list [share, least, most].
 std::string style_of_page() {
   const auto line = [](const LineWidth& width) {
     return std::array{width.share, width.least, width.most};
@@ -107,7 +110,8 @@ std::string style_of_page() {
       .dump();
 }
 
-/// The units of what the page shows as JSON, or their dimensions in words.
+/// The units of the case for the quantities on the page, or their dimensions in words if the case
+/// does not say units, as a JSON object.
 std::string units_of_page(const Scene& scene) {
   const auto& units = scene.playback.units;
   const int is_per_length = scene.is_per_length() ? 1 : 0;
@@ -120,7 +124,7 @@ std::string units_of_page(const Scene& scene) {
       .dump();
 }
 
-/// The JSON and the blocks of numbers that the script reads.
+/// The elements of the page that the scripts read: the JSON object "motion", and the blocks.
 std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& flow) {
   const auto& playback = scene.playback;
   const auto listed = [](const report::ColourScale& scale) {
@@ -128,7 +132,7 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
   };
   auto films = report::film_scale(-1, kPageColours, "");
   std::ranges::reverse(films.colours);
-  // The numbers of the ends are those of the drawn particles.
+  // The ends of links are indices of particles. They are right only if all particles are shown.
   const auto& links = data.every_particle == 1 ? playback.links : DrawnLinks{};
   const auto ends_of = [](const std::vector<DrawnLinks::Ends>& ends) {
     std::vector<std::string> texts;

@@ -1,6 +1,8 @@
-// Arranges frames of a motion side by side in an SVG, with the scale of gamma below. Sizes are in
-// units of the page, lengths of the motion in those of the case. A flow that cannot be read is an
-// Error(kBadInput). All panels must have one scale.
+// Arranges frames of a motion of particles in an SVG, all at one scale, with the flow behind them
+// and the scales of colours below (particles_picture.hpp). Sizes and coordinates on the page are in
+// page units, of which the picture is 1000 wide; sizes without a reason are free choices. Lengths
+// [L] and speeds [L/T] of the motion are in the units of the case. A flow that cannot be read is an
+// Error(kBadInput). Used by run/particles_pages.cpp. A change must keep one complete SVG.
 #include "viscontact/particles/picture/particles_picture.hpp"
 
 #include <fmt/format.h>
@@ -17,10 +19,10 @@
 namespace viscontact::particles {
 namespace {
 
-// Sizes of the picture and of its margins, title and captions [page units].
+// Width of the picture, largest height of all panels, margin, title and caption [page units].
 constexpr double kPictureWidth = 1000, kMostHeight = 900, kEdge = 16, kTitle = 44, kCaption = 30;
 
-/// The indices of frames at evenly spaced times.
+/// The indices of the frames that are drawn, as particles_picture() says.
 std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
   const auto& frames = playback.frames;
   if (frames.empty()) return {};
@@ -40,9 +42,10 @@ std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
   return chosen;
 }
 
-/// The number of columns with which the picture is about as wide as a slide, with few empty places.
+/// The number of columns in which `panels` panels are arranged so that all panels together are
+/// about as wide as a slide and few places are empty. `width_over_height` is that of a panel.
 int columns_for(int panels, double width_over_height) {
-  constexpr double kSlide = 2.2;  // width over height of the picture
+  constexpr double kSlide = 2.2;  // width over height of all panels, a free choice
   int best = 1;
   double least = std::numeric_limits<double>::infinity();
   for (int columns = 1; columns <= panels; ++columns) {
@@ -57,6 +60,7 @@ int columns_for(int panels, double width_over_height) {
   return best;
 }
 
+/// A scale of colours as a bar with numbers and words below it; its place is in page units.
 std::string picture_of(const report::ColourScale& bar, double left, double top, double width) {
   constexpr int kHeight = 12;  // [page units]
   std::string text;
@@ -76,13 +80,13 @@ std::string picture_of(const report::ColourScale& bar, double left, double top, 
                             top + kHeight + 34, bar.words);
 }
 
-constexpr int kBands = 20;  // colours of the speed
+constexpr int kBands = 20;  // number of colours of the speed, a free choice
 
-/// The speed on a grid with one more ring of points, which are at the places of the outermost
-/// points and slower than all others. Therefore all level lines are closed.
+/// The speed [L/T] as a field on triangles, for level lines. Around the grid is one more ring of
+/// points, at the places of the outermost points but with the speed -1, so that level lines close.
 report::LinearField closed_field(const report::Grid& grid, const FlowFrame& frame) {
   std::vector<double> speeds(frame.speed.begin(), frame.speed.end());
-  // Regions without flow take the speed at their boundary; a solid is drawn over them.
+  // Points without flow, which are in solids, take the speed of their neighbours, layer by layer.
   const auto is_unknown = [](double v) { return std::isnan(v); };
   for (auto layer = std::max(grid.columns, grid.rows);
        layer > 0 && std::ranges::any_of(speeds, is_unknown); --layer)
@@ -107,7 +111,8 @@ report::LinearField closed_field(const report::Grid& grid, const FlowFrame& fram
   return field;
 }
 
-/// Appends a line as a path of SVG, without points less than half a page unit from the one before.
+/// Appends a line [L] to an SVG path. Points less than half a page unit from the last appended
+/// point are left out, because they could not be seen.
 void append_path(std::string& path, const report::Polyline& line, const Projection& view) {
   constexpr double kNear = 0.5;
   double last_x = 0, last_y = 0;
@@ -121,7 +126,8 @@ void append_path(std::string& path, const report::Polyline& line, const Projecti
   }
 }
 
-/// An arrowhead at point number `at` of the line, in the direction of the line.
+/// An arrowhead at point number `at` >= 1 of a line [L], in the direction of the line; empty if
+/// this point and the one before have the same place.
 std::string arrow_head(const report::Polyline& line, std::size_t at, const Projection& view) {
   constexpr double kLength = 5, kHalfWidth = 2.2;  // [page units]
   const Vector tip = {line[at].first, line[at].second, 0};
@@ -135,6 +141,7 @@ std::string arrow_head(const report::Polyline& line, std::size_t at, const Proje
                      x - a - c, y - b - d);
 }
 
+/// The flow on its grid: colours for the speed, and streamlines with arrows.
 std::string half_picture(const FlowFrames& flows, const FlowFrame& frame, const Projection& view) {
   const auto& window = flows.grid.window;
   const double left = view.x({window.left, 0, 0}), top = view.y({0, window.top, 0});
@@ -164,7 +171,7 @@ std::string half_picture(const FlowFrames& flows, const FlowFrame& frame, const 
                     report::kStreamLineColour, lines, arrows);
 }
 
-/// The speed as coloured bands, and the streamlines with arrows.
+/// The whole flow. If it has an axis, the grid covers one half, and the other is its mirror image.
 std::string flow_picture(const FlowFrames& flows, const FlowFrame& frame, const Projection& view) {
   auto half = half_picture(flows, frame, view);
   if (!flows.has_axis) return half;
@@ -172,13 +179,14 @@ std::string flow_picture(const FlowFrames& flows, const FlowFrame& frame, const 
                             2 * view.x({0, 0, 0}), half);
 }
 
-/// The flow behind the particles of frame `f`; empty if there is none.
+/// The flow of frame number `f` as SVG, to be drawn behind its particles; empty if there is none.
 std::string flow_behind(const FlowFrames& flows, std::size_t f, const Projection& view) {
   const auto flow = std::ranges::find(flows.frames, f, &FlowFrame::frame);
   return flow == flows.frames.end() ? "" : flow_picture(flows, *flow, view);
 }
 
-/// Returns the size of the projected box [L], and moves its upper left corner to the panel's.
+/// Returns width and height of the box as the reader sees it [L], and sets `left` and `top` of the
+/// view so that the upper left corner of the box becomes that of the panel.
 std::pair<double, double> show_box(Projection& view, const ViewBox& box) {
   Interval x, y;
   for (int corner = 0; corner < 8; ++corner) {
@@ -193,7 +201,8 @@ std::pair<double, double> show_box(Projection& view, const ViewBox& box) {
   return {x.high - x.low, y.high - y.low};
 }
 
-/// The gradient with which spheres are filled.
+/// The gradient that fills a sphere, from `colours[0]` at its brightest point to `colours[2]` at
+/// its rim, as an element with this id.
 std::string gradient(const char* id, const std::array<SceneStyle::Colour, 4>& colours) {
   return fmt::format(
       "<radialGradient id=\"{}\" cx=\".36\" cy=\".32\" r=\".72\">"
@@ -202,7 +211,7 @@ std::string gradient(const char* id, const std::array<SceneStyle::Colour, 4>& co
       id, colours[0], colours[1], colours[2]);
 }
 
-/// The beginning of the SVG, with the title.
+/// The beginning of the SVG, with the title in plain text. `height` is that of the whole picture.
 std::string opening(const std::string& title, double height, bool has_bodies) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -212,7 +221,7 @@ std::string opening(const std::string& title, double height, bool has_bodies) {
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
       "<text x=\"{3:.0f}\" y=\"29\" font-size=\"{4:.1f}\" text-anchor=\"middle\">{2}</text>\n",
       kPictureWidth, height, report::escaped(title), kPictureWidth / 2,
-      // A character is on average about half as wide as high.
+      // A long title has a smaller font. A character is on average half as wide as high.
       std::min(20.0, 2 * (kPictureWidth - 2 * kEdge) / static_cast<double>(title.size() + 1)),
       gradient("ball", kStyle.ball), has_bodies ? gradient("body", kStyle.ball_of_body) : "");
 }
@@ -222,7 +231,7 @@ std::string panels_of(const PanelSettings& panel, const std::vector<std::size_t>
                       int columns) {
   const auto& units = panel.scene.playback.units;
   std::string text;
-  // If the height limits the scale, the panels are spread over the width.
+  // If the height limits the scale, the panels do not fill the width and stand apart.
   const double place = kPictureWidth / columns;
   for (int i = 0; i < static_cast<int>(chosen.size()); ++i) {
     const auto f = chosen[static_cast<std::size_t>(i)];
@@ -246,7 +255,7 @@ std::string panels_of(const PanelSettings& panel, const std::vector<std::size_t>
 }  // namespace
 
 std::string particles_picture(const Playback& original, const std::string& title, int panels) {
-  // More than 20000 particles in a panel could not be told apart, nor more points of a flow.
+  // In a panel, more than 20000 particles or 50000 points of a flow could not be told apart.
   constexpr std::size_t kMostInPanel = 20000, kPointsOfFlow = 50000;
   const auto chosen = chosen_frames(original, panels);
   const int count = static_cast<int>(chosen.size());
@@ -274,7 +283,7 @@ std::string particles_picture(const Playback& original, const std::string& title
     bars.push_back(report::film_scale(scene.lowest_gamma, kContactColours, scene.film_words));
   const bool has_friction = scene.playback.friction_coefficient && scene.touches;
   if (has_friction) bars.push_back(report::friction_scale(kFrictionColours, kFrictionWords));
-  // What has no scale stands in a line of words.
+  // What has no scale of colours is said in a line of words.
   auto words = scene.force_words;
   const auto say = [&](const char* more) {
     words += (words.empty() ? "" : "; ") + std::string(more);
@@ -283,7 +292,7 @@ std::string particles_picture(const Playback& original, const std::string& title
   if (has_films && scene.touches && !has_friction) say("contacts without a film are grey");
   const double top_of_bars = bottom + (words.empty() ? 0 : 16);
   constexpr double kHeightOfBars = 60;
-  // The words of two scales fit beside each other.
+  // Two scales stand beside each other; the words of more would not fit.
   constexpr std::size_t kBarsInRow = 2;
   const auto rows_of_bars = (bars.size() + kBarsInRow - 1) / kBarsInRow;
   auto svg = opening(title, top_of_bars + kHeightOfBars * static_cast<double>(rows_of_bars),
@@ -297,7 +306,7 @@ std::string particles_picture(const Playback& original, const std::string& title
   if (!words.empty())
     svg += fmt::format("<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"12\">{}</text>\n", kEdge,
                        bottom + 4, words);
-  constexpr double kBar = 360;  // width of a colour bar
+  constexpr double kBar = 360;  // width of a scale of colours [page units]
   for (std::size_t b = 0; b < bars.size(); ++b) {
     const auto row = b / kBarsInRow, in_row = std::min(kBarsInRow, bars.size() - kBarsInRow * row);
     const double middle =

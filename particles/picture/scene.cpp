@@ -1,6 +1,6 @@
-// Finds the box that is seen, reads the flows in it, and chooses the scales of their colours
-// (scene.hpp). Numbers are in the units of the case. A flow that cannot be read is an
-// Error(kBadInput). A change alters picture and page together.
+// Finds the box that is seen, reads the flows in it, and chooses the scales of colours and widths
+// (scene.hpp). Lengths [L], forces and speeds are in the units of the case. A flow that cannot be
+// read is an Error(kBadInput). Used by the other sources here. A change alters picture and page.
 #include "viscontact/particles/picture/scene.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// The extent of the particles of a frame along an axis, without the `cut` outermost at either end.
+/// The interval that the particles of a frame cover along an axis (0 to 2) [L], without the `cut`
+/// outermost ones at either end; empty if none is left.
 Interval reach_of(const Playback& playback, const Frame& frame, std::size_t axis, std::size_t cut) {
   std::vector<double> lows, highs;
   for (std::size_t k = 0; k < playback.radii.size(); ++k) {
@@ -35,6 +36,7 @@ Interval reach_of(const Playback& playback, const Frame& frame, std::size_t axis
   return reach;
 }
 
+/// The longest side of the box [L].
 double size_of(const ViewBox& box, int dimension) {
   double size = 0;
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
@@ -42,9 +44,9 @@ double size_of(const ViewBox& box, int dimension) {
   return size;
 }
 
-/// Extends the box to a plane that is near it, so that particles are seen to lie on the plane.
+/// Extends the box to a plane or circle near it, so that particles are seen to lie on it.
 void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
-  constexpr double kNear = 0.5;  // largest distance, in sizes of the box
+  constexpr double kNear = 0.5;  // largest distance over the longest side, a free choice
   const double size = size_of(box, dimension);
   if (plane.is_curved())
     for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
@@ -63,14 +65,14 @@ void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
   }
 }
 
-/// The box of the scene (Scene::box), for a flow in `domain`.
+/// Scene::box for these frames and for the flow that fills `domain`, if there is one.
 ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& frames,
                     const std::optional<report::Window>& domain) {
-  // If the extent of all particles is more than 1.5 times that of the central ones, some have flown
-  // away.
+  // If all particles cover more than 1.5 times the interval that the central ones cover, some have
+  // flown away. Any factor that is clearly larger than 1 works.
   constexpr double kFlownAway = 1.5;
   const auto dimension = static_cast<std::size_t>(playback.dimension);
-  // At both ends of all axes together, 2 % of the particles are left out.
+  // Both ends of all axes together leave out 2 % of the particles.
   const auto cut = playback.radii.size() / (100 * dimension);
   ViewBox box;
   double size = 0;
@@ -92,11 +94,12 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
   for (const auto f : frames)
     for (const auto& plane : playback.frames[f].planes)
       extend_to_plane(box, plane, playback.dimension);
-  // In a domain more than this many times as large as the box, the particles would be too small.
+  // If the domain is more than this many times as large as the box of the particles, it is not
+  // shown whole, because the particles would be too small.
   constexpr double kTooLarge = 16;
   if (domain && std::max(domain->width(), domain->height()) <= kTooLarge * size)
     box = {{domain->left, domain->bottom, 0}, {domain->right, domain->top, 0}};
-  // Margin, and smallest size in any direction, both in sizes of the box.
+  // Margin, and least length of a side, over the longest side of the box; both are free choices.
   constexpr double kMargin = 0.04, kFlattest = 0.15;
   size = std::max(size, size_of(box, playback.dimension));
   for (std::size_t axis = 0; axis < dimension; ++axis) {
@@ -113,7 +116,8 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
   return box;
 }
 
-/// Whether each point of the grid is in a particle, or in an image of it.
+/// For each point of the grid, row by row from the bottom: 1 if it is in a particle or, in a
+/// periodic cell, in an image of one (a copy that is shifted by periods), otherwise 0.
 std::vector<char> points_in_bodies(const report::Grid& grid, const Playback& playback,
                                    const Frame& frame) {
   std::vector<char> is_body(grid.size(), 0);
@@ -153,7 +157,7 @@ std::vector<char> points_in_bodies(const report::Grid& grid, const Playback& pla
   return is_body;
 }
 
-/// Collects values of points outside the particles, about as many of each frame.
+/// Values of points outside the particles, at most 4000 of each frame: enough for quantiles.
 struct Samples {
   std::vector<double> values;
 
@@ -164,7 +168,7 @@ struct Samples {
       if (is_body[i] == 0 && std::isfinite(field[i])) values.push_back(field[i]);
   }
 
-  /// The value that the given share of the samples does not exceed; 0 if there is none.
+  /// The value that `share` (0 to 1) of the samples do not exceed; 0 if there is no sample.
   double quantile(double share) {
     if (values.empty()) return 0;
     const auto at = values.begin() +
@@ -186,15 +190,16 @@ double mean_outside(const std::vector<double>& field, const std::vector<char>& i
   return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
-/// The place of a plane whose components are z and the distance from the axis, in the plane (x, z).
+/// A wall of a cylinder, given by z and the distance from the axis, as a line in the plane (x, z),
+/// on the side x > 0 (`side` 1) or x < 0 (`side` -1) of the axis x = 0.
 PlanePosition in_half_plane(const PlanePosition& plane, double side) {
   return {{side * plane.point[1], plane.point[0], 0},
           {side * plane.normal[1], plane.normal[0], 0},
           plane.radius};
 }
 
-/// The motion as it is drawn: spheres on an axis become discs on the line x = 0 of the plane (x,
-/// z), and the side of their cylinder two lines. Other motions are returned unchanged.
+/// The motion as it is drawn. Spheres on an axis become discs on the line x = 0 of the plane (x,
+/// z), and the side of their cylinder becomes two lines. Another motion is returned unchanged.
 Playback in_plane(const Playback& playback) {
   if (playback.dimension != 1) return playback;
   auto plane = playback;
@@ -203,7 +208,7 @@ Playback in_plane(const Playback& playback) {
     std::vector<float> positions;
     for (const float z : frame.positions) positions.insert(positions.end(), {0, z});
     frame.positions = std::move(positions);
-    // Contacts name planes by their numbers, so mirror images come last.
+    // A contact names a plane by its number. Mirror images come last, so that no number changes.
     std::vector<PlanePosition> planes, images;
     for (const auto& wall : frame.planes) {
       planes.push_back(in_half_plane(wall, 1));
@@ -215,8 +220,8 @@ Playback in_plane(const Playback& playback) {
   return plane;
 }
 
-/// The rectangle that the first flow of the motion fills [L], with its mirror image if there is an
-/// axis; in the directions of periods it is the cell. Nothing if no frame has a flow.
+/// The rectangle that the flow of the first frame with a flow fills [L], with its mirror image if
+/// there is an axis; along axes with a period it is the cell. Nothing if no frame has a flow.
 std::optional<report::Window> flow_extent(const Playback& in_plane, bool has_axis) {
   for (const auto& frame : in_plane.frames) {
     if (frame.flow.empty()) continue;
@@ -239,17 +244,17 @@ std::optional<report::Window> flow_extent(const Playback& in_plane, bool has_axi
   return {};
 }
 
-/// The part of the flow that is drawn in a view. With an axis, its left and right ends are mirror
-/// images of each other.
+/// The part of the flow's rectangle that is in the view [L].
 report::Window common_part(const report::Window& extent, const ViewBox& view) {
   return {std::max(extent.left, view.low[0]), std::min(extent.right, view.high[0]),
           std::max(extent.bottom, view.low[1]), std::min(extent.top, view.high[1])};
 }
 
-/// Reads the flows of the frames one after the other, because the memory may not hold all of them.
+/// Reads the flows of these frames one after the other, because all of them may be larger than the
+/// memory, and keeps their values on a grid of about `points` points in `window`.
 FlowFrames read_flows(const Playback& in_plane, bool has_axis, const report::Window& window,
                       const std::vector<std::size_t>& frames, std::size_t points) {
-  constexpr int kLines = 18;  // streamlines in a picture, about
+  constexpr int kLines = 18;  // about how many streamlines a picture has, a free choice
   FlowFrames flows;
   flows.has_axis = has_axis;
   flows.grid = report::grid_of(
@@ -331,8 +336,8 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
     scene.mean_radius =
         std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
   if (forces.empty()) return scene;
-  // A few contacts that take a blow have much larger forces than all others: one in this many is
-  // left out of the scale.
+  // In an impact a few contacts have much larger forces than all others. Therefore the largest 2 %
+  // of the forces are beyond the scale; any small share works.
   constexpr std::size_t kOneIn = 50;
   const auto top = forces.end() - 1 - static_cast<std::ptrdiff_t>(forces.size() / kOneIn);
   std::ranges::nth_element(forces, top);
@@ -365,7 +370,7 @@ Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& norma
 
 Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
                         const std::vector<PlanePosition>& planes, std::size_t own, int dimension) {
-  // Planes may meet or coincide. Without the slack, round-off could remove polygons of such planes.
+  // Without the slack, round-off could remove a polygon in one of two planes that coincide.
   const double slack = 1e-4 * size_of(box, dimension);
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
     Vector axis{0, 0, 0};

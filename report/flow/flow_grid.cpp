@@ -1,7 +1,8 @@
-// Interpolates a flow at the points of a grid (flow_grid.hpp), in the units of the case. A
-// quadratic triangle is found by the four straight triangles between its six nodes; the value at
-// the point is that of the quadratic shape functions. A point without a triangle gets NaN. A change
-// must keep the numbering of the nodes, which is that of FlowField.
+// Interpolates a flow at the points of a grid (flow_grid.hpp), in the units of the case. Which
+// triangle contains a point is decided as if its six nodes formed four straight triangles; the
+// value at the point then is that of the quadratic shape functions. A point without a triangle gets
+// NaN. Used by flow_plots.cpp and particles/picture. A change must keep the numbering of nodes:
+// corners, then the middles of sides 01, 12 and 20.
 #include "viscontact/report/flow/flow_grid.hpp"
 
 #include <algorithm>
@@ -18,6 +19,7 @@ constexpr double kNoFlow = std::numeric_limits<double>::quiet_NaN();
 /// Places of the six nodes in the reference triangle (0, 0), (1, 0), (0, 1).
 constexpr std::array<std::array<double, 2>, 6> kReference = {
     {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}};
+/// The straight triangles between the nodes.
 constexpr std::array<std::array<std::size_t, 3>, 4> kFour = {
     {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
 
@@ -27,24 +29,24 @@ std::array<double, 6> shape_functions(double a, double b) {
   return {c * (2 * c - 1), a * (2 * a - 1), b * (2 * b - 1), 4 * c * a, 4 * a * b, 4 * b * c};
 }
 
-/// Shifts by which the images of the flow are drawn, along one axis.
+/// The shifts along one axis of a mesh and its copies one period further [L].
 std::vector<double> shifts(double period) {
   return period > 0 ? std::vector<double>{-period, 0, period} : std::vector<double>{0};
 }
 
-/// Calls visit(pixel, w1, w2) for each pixel of the window whose centre is in the triangle with
-/// corners (x[i], y[i]). `pixel` counts row by row from the bottom, each row from the left. w1 and
-/// w2 are the barycentric coordinates of corners 1 and 2.
+/// Divides the window into `columns` x `rows` pixels and calls visit(pixel, w1, w2) for each pixel
+/// whose centre is in the triangle with the corners (x[i], y[i]) [L]. w1 and w2 are the barycentric
+/// coordinates of corners 1 and 2.
 template <class Visit>
 void for_each_pixel(const std::array<double, 3>& x, const std::array<double, 3>& y,
                     const Window& window, std::size_t columns, std::size_t rows,
                     const Visit& visit) {
   const double width = window.width() / static_cast<double>(columns);
   const double height = window.height() / static_cast<double>(rows);
-  // A barycentric coordinate may be this far below 0, and a pixel centre this share of a pixel
-  // outside, so that a centre on a side belongs to at least one triangle in spite of round-off.
+  // A barycentric coordinate may be this far below 0, and the range of pixels is wider by this
+  // share of a pixel, so that a centre on a side is in at least one triangle in spite of round-off.
   constexpr double kSlack = 1e-9;
-  // The range of pixels in one direction whose centres are between two coordinates.
+  // The first pixel with its centre from `low` to `high` in a row or column, and one past the last.
   const auto range = [](double low, double high, double start, double step, std::size_t count) {
     const auto clamp = [&](double place) {
       return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count)));
@@ -70,8 +72,8 @@ void for_each_pixel(const std::array<double, 3>& x, const std::array<double, 3>&
 }
 
 /// Calls visit(point, nodes, shape, shift) for each point of the grid in a triangle of the mesh or
-/// of one of its images, which lies `shift` beside it. `shape` are the values of the shape
-/// functions of the six `nodes` at the point.
+/// of a copy that is shifted by `shift` [L]. `shape` has the values of the shape functions of the
+/// triangle's six `nodes` at the point.
 template <class Visit>
 void for_each_point(const QuadraticMesh& mesh, const Grid& grid, const FlowPeriods& periods,
                     const Visit& visit) {

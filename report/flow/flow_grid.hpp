@@ -1,6 +1,7 @@
-// A flow on a regular grid, from which pictures and pages draw it. Lengths, masses and times are in
-// the units of the case. flow_plots.hpp, stream_lines.hpp and particles/picture use it. A change
-// must keep the order of points. Nothing is thrown.
+// A flow on a regular grid, from which pictures and pages draw it. Lengths [L], masses [M] and
+// times [T] are in the units of the case. flow_plots.cpp, stream_lines.cpp and particles/picture
+// use it. A change must keep the order of the points: row by row from the bottom, each row from the
+// left. Nothing is checked or thrown.
 #pragma once
 
 #include <array>
@@ -11,59 +12,62 @@
 
 namespace viscontact::report {
 
-/// A rectangle of a plane, by the coordinates of its sides [L].
+/// A rectangle whose sides are parallel to the axes.
 struct Window {
-  double left = 0, right = 0, bottom = 0, top = 0;
-  double width() const { return right - left; }
-  double height() const { return top - bottom; }
+  double left = 0, right = 0, bottom = 0, top = 0;  ///< places of its sides [L]
+  double width() const { return right - left; }     ///< [L], > 0
+  double height() const { return top - bottom; }    ///< [L], > 0
 };
 
-/// Evenly spaced points that fill a window, with points on its sides.
+/// Evenly spaced points that fill a window; the outermost points are on its sides.
 struct Grid {
-  Window window;                      ///< [L]
+  Window window;                      ///< the rectangle of the points [L]
   std::size_t columns = 2, rows = 2;  ///< numbers of points, >= 2
 
-  double step_x() const { return window.width() / static_cast<double>(columns - 1); }
-  double step_y() const { return window.height() / static_cast<double>(rows - 1); }
+  double step_x() const { return window.width() / static_cast<double>(columns - 1); }  ///< [L]
+  double step_y() const { return window.height() / static_cast<double>(rows - 1); }    ///< [L]
+  /// The coordinates of a column and of a row, which are counted from 0 [L].
   double x(std::size_t column) const {
     return window.left + static_cast<double>(column) * step_x();
   }
   double y(std::size_t row) const { return window.bottom + static_cast<double>(row) * step_y(); }
-  std::size_t size() const { return columns * rows; }
-  /// The window whose pixels have the points as their centres.
+  std::size_t size() const { return columns * rows; }  ///< number of points
+  /// The window [L] that pixels fill if the points are their centres.
   Window pixel_window() const {
     return {window.left - step_x() / 2, window.right + step_x() / 2, window.bottom - step_y() / 2,
             window.top + step_y() / 2};
   }
 };
 
-/// A grid of the window with about `points` points, nearly as far apart along x as along y.
+/// A grid of the window with about `points` points, nearly as far apart along x as along y, but
+/// with 2 to 1200 points in a row or column.
 Grid grid_of(const Window& window, std::size_t points);
 
-/// Velocity [L/T] and pressure [M/(L T^2)] at the points of a grid, row by row from the bottom,
-/// each row from the left; NaN where the flow has no triangle.
+/// Velocity [L/T] and pressure [M/(L T^2)] at the points of a grid; NaN where there is no flow.
 struct FlowOnGrid {
   std::vector<double> velocity_x, velocity_y, pressure;
 };
 
-/// How a flow is repeated in the plane.
+/// How a flow is repeated in the plane: one period further it is the same, with another velocity.
 struct FlowPeriods {
   std::array<double, 2> lengths{};  ///< periods along x and y [L]; 0 where there is no period
-  /// Mean velocity gradient du/dx, du/dy, dv/dx, dv/dy [1/T]: the velocity of a repeated flow
-  /// differs by the gradient times the period.
+  /// Mean velocity gradient du/dx, du/dy, dv/dx, dv/dy [1/T]. The velocity one period further is
+  /// larger by the gradient times the vector of the period.
   std::array<double, 4> gradient{};
 };
 
-/// Interpolates the flow by the shape functions of its quadratic triangles. The flow is repeated by
-/// `periods`, so that its triangles need not lie in the grid (docs/fluid-solver.md).
+/// Interpolates the flow at the points of the grid by the shape functions of its quadratic
+/// triangles. Copies of the triangles, one period further on either side, count as well, because
+/// triangles may lie outside of the cell that `periods` repeats.
 FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPeriods& periods = {});
 
-/// Interpolates a field with these values at the nodes; NaN where the mesh has no triangle.
+/// Interpolates a field, which has `values` at the nodes of the mesh, at the points of the grid;
+/// NaN where the mesh has no triangle.
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
                                   const Grid& grid);
 
-/// Replaces each NaN by the mean of its neighbours on the grid (up to eight) that are no NaN; a NaN
-/// without such a neighbour stays. The points are row by row, with `columns` in a row.
+/// Replaces each NaN by the mean of those of its up to eight neighbours on the grid that are
+/// numbers. A NaN without such a neighbour stays. `values` has `columns` numbers in a row.
 void fill_next_to_known(std::vector<double>& values, std::size_t columns);
 
 }  // namespace viscontact::report

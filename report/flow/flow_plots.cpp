@@ -1,7 +1,8 @@
-// The pictures of a row: views of the half-plane (rho, z) and of its mirror image, colours of the
-// pressure or speed, and curves (flow_plots.hpp). Lengths, velocities and pressures are in the
-// units of the case. A gnuplot that fails is an Error(kExternalProgram). A change must keep the
-// title true where heights are drawn larger than widths.
+// Draws the pictures of a row of a table of lubrication forces (flow_plots.hpp) in the half-plane
+// (rho, z) of the distance rho from the axis and the height z, and its mirror image. Numbers are in
+// the units of the case, sizes on the picture in pixels; sizes and numbers of lines without a
+// reason are free choices. A failing gnuplot is an Error(kExternalProgram). Used by
+// pipeline/tabulate. A change must keep the title true where heights are drawn larger than widths.
 #include "viscontact/report/flow/flow_plots.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@
 namespace viscontact::report {
 namespace {
 
-/// The part of the half-plane that a picture shows, and its size in the picture.
+/// The part of the plane that a picture shows [L], and its size in the picture.
 struct PlotView {
   Window window;
   double plot_width = 0, plot_height = 0;  // [pixels]
@@ -34,7 +35,7 @@ struct PlotView {
   double stretch() const { return plot_height / window.height() / (plot_width / window.width()); }
 };
 
-// Sizes of the drawing [pixels].
+// Of a plot: width, largest height, and height if heights are stretched [pixels].
 constexpr double kPlotWidth = 640;
 constexpr double kTallestPlot = 640;
 constexpr double kStretchedPlot = 360;
@@ -45,11 +46,12 @@ PlotView unstretched(const Window& window) {
   return {window, window.width() * scale, window.height() * scale};
 }
 
+/// Height z of the lower side of the sphere at the distance rho from the axis [L].
 double sphere_bottom(double radius, double gap, double rho) {
   return gap + radius - std::sqrt(std::max(0.0, radius * radius - rho * rho));
 }
 
-/// The lines, without the points that are less than a pixel away from the point before them.
+/// The lines [L] without the points that are less than a pixel away from the last kept point.
 std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const PlotView& view) {
   const double x_scale = view.plot_width / view.window.width();
   const double y_scale = view.plot_height / view.window.height();
@@ -66,7 +68,8 @@ std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const PlotView
   return result;
 }
 
-/// Adds the quadratic curve through the ends and the middle of a side, if it is near the window.
+/// Adds a side of a triangle, unless it is outside the window: the parabola through its ends (nodes
+/// side[0] and side[1]) and its middle (side[2]), as `pieces` straight pieces.
 void add_side(std::vector<Polyline>& lines, const QuadraticMesh& mesh, const Window& window,
               const std::array<std::size_t, 3>& side, int pieces) {
   const auto at = [&](std::size_t place) {
@@ -87,7 +90,7 @@ void add_side(std::vector<Polyline>& lines, const QuadraticMesh& mesh, const Win
 }
 
 /// A view of the sphere and the fluid around it: the whole fluid if it extends at most 6 radii from
-/// the axis and is at most 12 radii high, else within 3.2 radii of its centre.
+/// the axis and is at most 12 radii high, else the part within 3.2 radii of the sphere's centre.
 PlotView surroundings(const QuadraticMesh& mesh, double radius, double gap) {
   constexpr double kReach = 3.2, kWhole = 6, kMargin = 0.15;  // in radii
   const Window fluid{0, std::ranges::max(mesh.x), std::min(0.0, std::ranges::min(mesh.y)),
@@ -104,14 +107,15 @@ PlotView surroundings(const QuadraticMesh& mesh, double radius, double gap) {
 }
 
 /// Half the width of the view of a gap, in units of sqrt(2 gap radius). At one such unit from the
-/// axis, the film over a plane is twice as thick as on the axis; at kGapReach units it is about 7
-/// times as thick.
+/// axis, the film over a plane is twice as thick as on the axis, at 2.5 units 7 times.
 constexpr double kGapReach = 2.5;
 
+/// A view of the gap on both sides of the axis, whose half width is `reach` times that unit if the
+/// sphere is wide enough; with stretched heights if the gap would be too flat at equal scales.
 PlotView gap_view(const QuadraticMesh& mesh, double radius, double gap, double reach = kGapReach) {
-  constexpr double kOfSphere = 0.9;  // largest half width of the view, divided by the radius
-  constexpr double kMargin = 0.08;   // above and below the gap, divided by the height
-  constexpr double kFlattest = 0.4;  // least height over width of a view at equal scales
+  constexpr double kOfSphere = 0.9;  // largest half width of the view over the radius
+  constexpr double kMargin = 0.08;   // above and below the gap, over the height
+  constexpr double kFlattest = 0.4;  // at equal scales, least height over width
   const double half = std::min(reach * std::sqrt(2 * gap * radius), kOfSphere * radius);
   const double top = sphere_bottom(radius, gap, half);
   double bottom = 0;
@@ -119,14 +123,14 @@ PlotView gap_view(const QuadraticMesh& mesh, double radius, double gap, double r
     if (mesh.x[i] < half && mesh.y[i] > -top) bottom = std::min(bottom, mesh.y[i]);
   const double margin = kMargin * (top - bottom);
   Window window{-half, half, bottom - margin, top + margin};
-  const double widest = std::max(half, window.height() / 2);  // the view is not higher than wide
+  const double widest = std::max(half, window.height() / 2);  // a view is at least as wide as high
   window.left = -widest;
   window.right = widest;
   if (window.height() > kFlattest * window.width()) return unstretched(window);
   return {window, kPlotWidth, kStretchedPlot};
 }
 
-/// The lines in rho >= 0 and their mirror images, as one curve with interruptions.
+/// The lines and their mirror images rho < 0 as one curve, in which a NaN separates two lines.
 Curve mirrored(const std::string& legend, const std::string& style,
                const std::vector<Polyline>& lines) {
   Curve curve{legend, style, {}};
@@ -138,9 +142,9 @@ Curve mirrored(const std::string& legend, const std::string& style,
   return curve;
 }
 
-/// The sides of the triangles near the window, each divided into `pieces` straight pieces.
+/// The sides of all triangles near the window, each once, as `pieces` straight pieces.
 std::vector<Polyline> sides(const QuadraticMesh& mesh, const Window& window, int pieces) {
-  // Two triangles share a side. The map has each side once, by the number of its middle node.
+  // Two triangles share a side, which is stored once, under the number of its middle node.
   std::map<std::int32_t, std::array<std::size_t, 3>> by_middle;
   for (const auto& nodes : mesh.triangles)
     for (std::size_t i = 0; i < 3; ++i)
@@ -152,12 +156,12 @@ std::vector<Polyline> sides(const QuadraticMesh& mesh, const Window& window, int
   return lines;
 }
 
-/// The sphere as a filled surface, and the walls and the neighbour as lines.
+/// The sphere as a filled surface; walls and surfaces without shear stress as lines.
 std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotView& view,
                             double radius) {
   const double gap = picture.gap;
   const auto& window = view.window;
-  // Straight pieces of a side of a triangle, and of the visible part of the sphere.
+  // Numbers of straight pieces of a side of a triangle, and of the visible part of the sphere.
   constexpr int kPieces = 6, kSamples = 200;
   std::vector<Polyline> walls, shear_free;
   for (const auto& edge : picture.boundary) {
@@ -166,7 +170,7 @@ std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotVi
       add_side(edge.kind == freefem_axi::BoundaryKind::kShearFree ? shear_free : walls,
                picture.flow, window, edge.nodes, kPieces);
   }
-  // The part of the sphere that is in the window, as a curve that is closed far above the window.
+  // The part of the sphere in the window, closed along the upper side of the window.
   Curve sphere{
       "", "filledcurves closed fillcolor rgb '#8c8c8c' fillstyle solid border rgb '#000000'", {}};
   const double half = window.right < radius ? std::asin(window.right / radius) : std::numbers::pi;
@@ -191,13 +195,13 @@ std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotVi
 
 // Margins of the drawing around the plot [pixels].
 constexpr double kLeft = 110, kAbove = 66, kBelow = 106;
-constexpr double kColourBar = 165;  // at the right, with its numbers
+constexpr double kColourBar = 165;  // at the right, with the numbers of the colours
 constexpr double kNoColourBar = 30;
 
-/// An arrow on the visible part of the sphere, in the direction of its velocity.
+/// gnuplot's command for an arrow on the visible part of the sphere, along its velocity.
 std::string velocity_arrow(const freefem_axi::RowPicture& row, double radius,
                            const Window& window) {
-  constexpr double kLength = 0.4;  // in heights of the visible part
+  constexpr double kLength = 0.4;  // over the height of the visible part
   const double top = std::min(row.gap + 2 * radius, window.top);
   const double middle = (row.gap + top) / 2;
   const double half = std::copysign(kLength / 2 * (top - row.gap), row.reference_velocity);
@@ -217,12 +221,12 @@ std::vector<std::string> layout(const PlotView& view, double right, double below
           fmt::format("set yrange [{:.9g}:{:.9g}]", view.window.bottom, view.window.top),
           "set key at screen 0.5, screen 0.005 bottom center horizontal Left reverse samplen 3",
           "set xlabel offset 0,0.3",
-          // The grey ground shows where there is no fluid.
+          // Grey behind everything shows where there is no fluid.
           ("set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor rgb '#dedede' "
            "fillstyle solid noborder")};
 }
 
-/// The words of a title for the motion; the title continues with the value of its velocity.
+/// The end of a title, before the value of the velocity.
 std::string motion_in_words(lubrication::MotionKind motion) {
   using lubrication::MotionKind;
   if (motion == MotionKind::kApproach) return " at velocity";
@@ -262,8 +266,8 @@ std::string draw(Panel panel, const PlotView& view, double right, const StopToke
                   static_cast<int>(std::lround(height)), stop);
 }
 
-/// The flow in a view, on a grid of the half-plane. Each grid point is the centre of a cell of one
-/// colour, and the cells are so small that they are hardly seen.
+/// The flow in a view, on a grid of the half-plane. Each point of the grid is the centre of a cell
+/// of one colour; the cells are so small that they are hardly seen.
 struct ViewedFlow {
   PlotView view;
   Grid grid;
@@ -271,7 +275,7 @@ struct ViewedFlow {
 };
 
 Grid grid_of_view(const PlotView& view) {
-  // Size of a cell [pixels]. The time of gnuplot is proportional to the number of cells.
+  // Size of a cell [pixels], a free choice. gnuplot's time is proportional to the number of cells.
   constexpr double kCell = 1.5;
   const auto columns = static_cast<std::size_t>(view.plot_width / 2 / kCell);
   const auto rows = static_cast<std::size_t>(view.plot_height / kCell);
@@ -288,9 +292,9 @@ ViewedFlow flow_in(const PlotView& view, const FlowField& flow) {
   return {view, grid, flow_on_grid(flow, grid)};
 }
 
-/// The values at the points of the grid, and their mirror images.
+/// The values at the points of the grid, and their mirror images, as colours in the view.
 ColourField colour_field(std::vector<double> values, const Grid& grid, const PlotView& view) {
-  // The boundary may cross a cell whose centre is outside the fluid.
+  // The boundary of the fluid may cross a cell whose centre is outside the fluid.
   fill_next_to_known(values, grid.columns);
   const auto& window = view.window;
   ColourField field{2 * grid.columns, grid.rows,  window.left, window.right,
@@ -305,7 +309,7 @@ ColourField colour_field(std::vector<double> values, const Grid& grid, const Plo
   return field;
 }
 
-/// The smallest and the largest value at the nodes in the window.
+/// The smallest and the largest value at the nodes of the mesh that are in the window.
 std::pair<double, double> extremes(const QuadraticMesh& mesh, const std::vector<double>& values,
                                    const Window& window) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -317,8 +321,9 @@ std::pair<double, double> extremes(const QuadraticMesh& mesh, const std::vector<
   return {low, high};
 }
 
+/// The streamlines of an approaching sphere, without those inside it; empty if there are none.
 Curve streamlines(const ViewedFlow& viewed, double radius, double gap) {
-  constexpr int kLines = 14;  // approximate number of lines on each side of the axis
+  constexpr int kLines = 14;  // about how many on each side of the axis
   const auto& grid = viewed.grid;
   std::vector<char> is_sphere(grid.size());
   for (std::size_t i = 0; i < is_sphere.size(); ++i)
@@ -351,12 +356,13 @@ std::string plot_pressure_and_streamlines(const std::string& what,
   return draw(panel, view, kColourBar, stop);
 }
 
-/// Arrows of the velocity in the plane of motion. Where phi = pi, on the left, cos phi changes the
-/// sign of u_z; the component along x is the same, because e_rho changes its sign, too.
+/// Arrows of the velocity in the plane through the axis and the direction of motion. The grid has
+/// the velocity at the right of the axis, where the angle phi about the axis is 0. At the left (phi
+/// = pi), u_z has the other sign; the component to the right is equal. `fastest`: top speed [L/T].
 Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
   const auto& view = viewed.view;
   constexpr std::size_t kColumns = 24;
-  constexpr double kHead = 0.35, kAngle = 0.45;  // of an arrow's length, radians
+  constexpr double kHead = 0.35, kAngle = 0.45;  // head: length over the arrow's, half angle [rad]
   const auto rows = static_cast<std::size_t>(
       std::lround(std::max(2.0, kColumns * view.plot_height / view.plot_width)));
   const auto& window = view.window;
@@ -376,8 +382,7 @@ Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
                                                 static_cast<double>(u_field.columns));
     const double u = u_field.values.at(pixel), w = w_field.values.at(pixel);
     if (!std::isfinite(u)) continue;
-    // Lengths of arrows in cells are proportional to the root of the speed, so that slow flow is
-    // visible.
+    // The length of an arrow is proportional to the root of the speed, so that slow flow is seen.
     const double speed = std::hypot(u, w);
     const double length = 0.9 * std::sqrt(speed / fastest);
     const double dx = length * u / speed, dy = length * (x < 0 ? -w : w) / speed;
@@ -426,10 +431,10 @@ std::string plot_motion(const freefem_axi::RowPicture& picture,
 
 std::string plot_mesh(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
-  // The number of straight pieces of a side of the coarsest mesh. A side of the finest mesh has a
-  // quarter of this number.
+  // In how many straight pieces a side of the coarsest mesh is drawn. A side of the finest mesh,
+  // which is at most a quarter as long, has a quarter of them.
   constexpr int kPieces = 8;
-  constexpr std::size_t kMostSides = 3500;  // with more sides, the view is made narrower
+  constexpr std::size_t kMostSides = 3500;  // if there are more, the view is made narrower
   double reach = kGapReach;
   auto view = gap_view(picture.flow, tabulation.radius, picture.gap);
   auto fine = sides(picture.flow, view.window, kPieces / 4);
@@ -437,7 +442,7 @@ std::string plot_mesh(const freefem_axi::RowPicture& picture,
     reach /= 2;
     const double right = view.window.right;
     view = gap_view(picture.flow, tabulation.radius, picture.gap, reach);
-    if (!(view.window.right < right)) break;  // the height of a wide gap limits the view
+    if (!(view.window.right < right)) break;  // the gap is so wide that its height limits the view
     fine = sides(picture.flow, view.window, kPieces / 4);
   }
   Panel panel = empty_panel("Mesh in the gap", picture, tabulation, view);
@@ -464,7 +469,8 @@ std::string plot_flow(const freefem_axi::RowPicture& picture,
   const double usual =
       tabulation.viscosity * std::abs(picture.reference_velocity) / tabulation.radius;
   auto colours = robust_colours(pressure.values, usual);
-  // A thin film may have no cells, so the extremes are those of the nodes.
+  // A thin film may contain no centre of a cell. Therefore the extremes in the words of the scale
+  // are those at the nodes of the mesh.
   std::tie(colours.smallest, colours.largest) = extremes(flow, flow.pressure, view.window);
   return plot_pressure_and_streamlines("Flow at gap", picture, tabulation, viewed, pressure,
                                        colours, stop);

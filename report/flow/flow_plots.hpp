@@ -1,6 +1,7 @@
-// Pictures of one row of a tabulation: the mesh in the gap, the flow around the sphere and the flow
-// in the gap. Lengths, masses and times are in the units of the case. `tabulate --plot` makes them;
-// a change must keep that each function returns a complete SVG. Used by pipeline/.
+// Pictures of one row of a table of lubrication forces: the mesh in the gap between sphere and
+// wall, the flow around the sphere and the flow in the gap. Lengths, masses and times are in the
+// units of the case. `tabulate --plot` makes them (pipeline/tabulate/picture_stage.cpp). A change
+// must keep that each function returns one complete SVG.
 #pragma once
 
 #include <string>
@@ -10,28 +11,28 @@
 
 namespace viscontact::report {
 
-// Each function returns one SVG. The half-plane is mirrored about the axis, so that the whole
-// sphere is seen. If the gap is thin, heights are drawn larger than widths, and the title says so.
-// The functions throw Error(kExternalProgram) if gnuplot is missing or fails, and
-// Error(kInterrupted) if `stop` requests a stop.
+// `picture` is the flow of a row of the table that `tabulation` describes. It is computed in the
+// half-plane of the distance from the axis and the height; pictures show its mirror image, too. If
+// the gap is thin, heights are stretched, and the title says so. All throw Error(kExternalProgram)
+// if gnuplot is missing or fails, and Error(kInterrupted) if `stop` requests a stop.
 
-/// The finest mesh in the gap, and on it the coarsest mesh, each triangle of which was divided into
-/// 16 or more triangles of the finest mesh.
+/// The finest mesh in the gap, and on it the coarsest mesh, whose triangles were each divided into
+/// 16 or more triangles of the finest.
 std::string plot_mesh(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop = {});
 
-/// Pressure as colours, and streamlines at equal steps of the stream function, within about three
-/// radii of the sphere's centre. A container that is not much larger is shown whole.
+/// The flow of an approaching sphere within about three radii of its centre (all of the fluid if it
+/// is not much larger): pressure as colours, and streamlines between which equal amounts flow.
 std::string plot_flow(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop = {});
 
-/// Pressure and streamlines in the gap.
+/// The flow of an approaching sphere in the gap: pressure and streamlines likewise.
 std::string plot_gap_flow(const freefem_axi::RowPicture& picture,
                           const freefem_axi::Tabulation& tabulation, const StopToken& stop = {});
 
-/// The flow of a sphere that slides, rolls or spins, in a cut through the axis along the motion:
-/// the speed as colours and the direction as arrows; for spinning, the azimuthal velocity as
-/// colours. `in_gap`: the part in the gap.
+/// The flow of a sphere that slides, rolls or spins, in the plane through the axis and the
+/// direction of motion: speed as colours, and direction as arrows. If the sphere spins, the colours
+/// show the velocity about the axis. With `in_gap`, only the part in the gap.
 std::string plot_motion(const freefem_axi::RowPicture& picture,
                         const freefem_axi::Tabulation& tabulation, bool in_gap,
                         const StopToken& stop = {});

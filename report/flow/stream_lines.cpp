@@ -1,7 +1,8 @@
 // Solves for the stream function on a grid, follows its level lines, and simplifies them
-// (stream_lines.hpp). Points without fluid take part with a small weight, so that the matrix is
-// never singular and the fluid may consist of several regions. Numbers are in the units of the
-// case. A fluid at rest gives no lines; nothing is thrown.
+// (stream_lines.hpp), in the units of the case. Pairs of points that are not both in the fluid have
+// a small weight in the least squares, so that the matrix is never singular and the fluid may
+// consist of several regions. Nothing is thrown. flow_plots.cpp and particles/picture draw the
+// lines. A change must keep the equal steps of psi between lines.
 #include "viscontact/report/flow/stream_lines.hpp"
 
 #include <Eigen/SparseCholesky>
@@ -22,7 +23,7 @@ std::uint64_t pair_key(Index a, Index b) {
   return (static_cast<std::uint64_t>(std::min(a, b)) << kHalf) | std::max(a, b);
 }
 
-/// Distance of a point from the line through two others; from the first if they are the same.
+/// Distance of the point p from the straight line through a and b, or from a if both are equal.
 double distance(const Polyline::value_type& p, const Polyline::value_type& a,
                 const Polyline::value_type& b) {
   const double x = b.first - a.first, y = b.second - a.second, length = std::hypot(x, y);
@@ -30,8 +31,8 @@ double distance(const Polyline::value_type& p, const Polyline::value_type& a,
   return length > 0 ? std::abs(x * py - y * px) / length : std::hypot(px, py);
 }
 
-/// The line without the points that are less than `tolerance` away from it (Douglas & Peucker
-/// 1973).
+/// The line with fewer points, so that each point that is left out is at most `tolerance` away from
+/// the new line (Douglas & Peucker 1973).
 Polyline simplified(const Polyline& line, double tolerance) {
   if (line.size() < 3) return line;
   std::vector<char> is_kept(line.size(), 0);
@@ -57,7 +58,8 @@ Polyline simplified(const Polyline& line, double tolerance) {
   return kept;
 }
 
-/// The field on the triangles of those squares of the grid of which all corners are known.
+/// The field with these values at the points of the grid, on two triangles for each square of the
+/// grid whose four values are numbers.
 LinearField field_on(const Grid& grid, const std::vector<double>& values) {
   LinearField field;
   field.values = values;
@@ -91,14 +93,16 @@ double length_of(const Polyline& line) {
   return length;
 }
 
-/// Gives the line its direction, and an arrow if it is long enough and there is a place for it away
-/// from the other `arrows`.
+/// Orders the points of the line in the direction of the flow, simplifies it, and gives it an arrow
+/// if it is long enough and has a place for one that is outside the particles and away from
+/// `arrows`, the places of the arrows of other lines; the new place is added to them.
 StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
                     const std::vector<char>& is_body, Polyline& arrows) {
-  // The least length of a line with an arrow, and the least distance of two arrows, both divided by
-  // the larger side of the window.
+  // The least length of a line with an arrow, and the least distance of two arrows, both over the
+  // longer side of the window; free choices.
   constexpr double kShort = 0.12, kApart = 0.14;
-  // Places where an arrow is tried, as shares of the number of points.
+  // Where an arrow is tried, and where the direction of the flow is compared with that of the line,
+  // as shares of the number of points.
   constexpr std::array<double, 9> kPlaces = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9};
   const auto at = [&](double share) {
     return static_cast<std::size_t>(share * static_cast<double>(line.size() - 1));
@@ -129,8 +133,7 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
         arrows.push_back(line[i]);
         break;
       }
-  // The parts before and after the arrow are simplified separately, so that its place stays a
-  // point.
+  // The parts before and after the arrow are simplified separately, so that it stays at a point.
   const double tolerance = 0.1 * std::min(grid.step_x(), grid.step_y());
   const auto middle = line.begin() + static_cast<std::ptrdiff_t>(arrow);
   result.points = simplified({line.begin(), middle + 1}, tolerance);
@@ -144,7 +147,7 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
 
 std::vector<Polyline> level_lines(const LinearField& field, double level) {
   // The points of a level line are its crossings with sides of triangles. Each crossing has at most
-  // two neighbours along the line, one in each triangle at the side.
+  // two neighbours on the line, one in each triangle at the side.
   struct Crossing {
     std::pair<double, double> point;
     std::array<std::uint64_t, 2> next{};
@@ -192,7 +195,7 @@ std::vector<Polyline> level_lines(const LinearField& field, double level) {
   };
   for (auto& [key, crossing] : crossings)
     if (!crossing.drawn && crossing.neighbours == 1) lines.push_back(follow(key));
-  for (auto& [key, crossing] : crossings)  // the lines that are left are closed
+  for (auto& [key, crossing] : crossings)  // the remaining lines are closed
     if (!crossing.drawn) {
       lines.push_back(follow(key));
       lines.back().push_back(lines.back().front());
@@ -200,18 +203,19 @@ std::vector<Polyline> level_lines(const LinearField& field, double level) {
   return lines;
 }
 
-/// The normal equations, and for which points they were factorised.
+/// The factor of the normal equations, and the points in the fluid for which it was computed.
 struct StreamLines::Equations {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
   std::vector<char> is_fluid;
   bool is_analysed = false;
 
+  /// Weight of the equation between two neighbouring points; the small one is a free choice.
   static double weight(bool both_in_fluid) { return both_in_fluid ? 1 : 1e-5; }
 
-  /// Factorises the matrix for the points in the fluid, unless it was factorised for nearly the
-  /// same points; then the matrix stays that for the earlier points.
+  /// Factorises the matrix for the points in the fluid (1: in it). If it was factorised for nearly
+  /// the same points, that factor is kept.
   void prepare(const Grid& grid, std::vector<char> points) {
-    constexpr double kNearly = 0.005;  // largest share of points that may differ
+    constexpr double kNearly = 0.005;  // largest share of points that may differ, a free choice
     if (is_fluid.size() == points.size()) {
       std::size_t different = 0;
       for (std::size_t i = 0; i < points.size(); ++i) different += points[i] != is_fluid[i] ? 1 : 0;
@@ -220,7 +224,7 @@ struct StreamLines::Equations {
     is_fluid = std::move(points);
     using Entry = Eigen::Triplet<double>;
     std::vector<Entry> entries;
-    entries.emplace_back(0, 0, 1);  // psi is known up to a constant
+    entries.emplace_back(0, 0, 1);  // fixes psi, which is determined up to a constant only
     for_each_side(grid, [&](std::size_t a, std::size_t b, bool) {
       const double w = weight(is_fluid[a] != 0 && is_fluid[b] != 0);
       const auto i = static_cast<int>(a), j = static_cast<int>(b);
@@ -234,7 +238,7 @@ struct StreamLines::Equations {
     factor.factorize(matrix);
   }
 
-  /// Calls visit(a, b, is_horizontal) for each pair of points that are beside each other.
+  /// Calls visit(a, b, is_horizontal) for each two neighbours a, b in a row or a column.
   template <class Visit>
   static void for_each_side(const Grid& grid, const Visit& visit) {
     for (std::size_t row = 0; row < grid.rows; ++row)
@@ -256,8 +260,8 @@ std::vector<double> StreamLines::stream_function(const FlowOnGrid& flow) {
   std::vector<char> points(u.size());
   for (std::size_t i = 0; i < u.size(); ++i) points[i] = std::isnan(u[i]) ? 0 : 1;
   equations_->prepare(grid_, std::move(points));
-  // Points that have left the fluid since the matrix was factorised are next to it and get the mean
-  // of their neighbours.
+  // A point that has left the fluid since the matrix was factorised is next to the fluid. It gets
+  // the mean velocity of its neighbours.
   fill_next_to_known(u, grid_.columns);
   fill_next_to_known(v, grid_.columns);
   const auto& is_fluid = equations_->is_fluid;

@@ -1,6 +1,6 @@
-// Level lines of fields, and the streamlines of a flow on a grid. Lengths and times are in the
-// units of the case. flow_plots.hpp and particles/picture draw them. A change must keep that equal
-// amounts flow between neighbouring lines. Nothing is thrown.
+// Level lines of fields, and streamlines of a flow on a grid. Lengths and times are in the units of
+// the case. flow_plots.cpp and particles/picture draw them. A change must keep that equal amounts
+// flow between neighbouring streamlines. Nothing is checked or thrown.
 #pragma once
 
 #include <array>
@@ -15,46 +15,46 @@ namespace viscontact::report {
 
 using Polyline = std::vector<std::pair<double, double>>;  ///< points of a line [L]
 
-/// A field that is linear on each of a set of straight triangles.
+/// A field that is linear on each of a set of straight triangles, and continuous.
 struct LinearField {
   std::vector<std::array<double, 2>> points;            ///< corners of the triangles [L]
-  std::vector<double> values;                           ///< of the field at the points, any unit
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< places of their corners in `points`
+  std::vector<double> values;                           ///< of the field at each point, in any unit
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of their corners in `points`
 };
 
-/// The lines on which the field equals `level`, joined across triangles.
+/// The lines on which the field equals `level`, joined across triangles. The first and the last
+/// point of a closed line are equal.
 std::vector<Polyline> level_lines(const LinearField& field, double level);
 
-/// A streamline in the direction of the flow.
+/// A streamline; its points are in the order in which the fluid flows.
 struct StreamLine {
   Polyline points;  ///< [L]
-  /// Place in `points` of an arrow that shows the direction, outside all particles; -1: no arrow.
+  /// Index in `points` of the tip of an arrow that shows the direction, > 0; -1: no arrow.
   int arrow = -1;
 };
 
 /// Streamlines at equal steps of the stream function.
 struct StreamLineSet {
   std::vector<StreamLine> lines;
-  /// Step of the stream function between neighbours, > 0 [L^2/T], with an axis [L^3/T]; 0 if there
-  /// are no lines.
+  /// Step of psi between neighbouring lines [L^2/T], with an axis [L^3/T]; 0 without lines.
   double step = 0;
 };
 
 /// Computes streamlines as level lines of the stream function psi of the velocity (u, v) along (x,
 /// y): u = dpsi/dy, v = -dpsi/dx in the plane [L^2/T]; with an axis, where x is the distance from
-/// it, x u = dpsi/dy, x v = -dpsi/dx [L^3/T]. psi is the least-squares solution of these equations
-/// between neighbouring points of the grid (Batchelor 1967, "An Introduction to Fluid Dynamics",
-/// 2.2).
+/// it, x u = dpsi/dy, x v = -dpsi/dx [L^3/T] (Batchelor 1967, "An Introduction to Fluid Dynamics",
+/// 2.2). psi solves these equations between neighbouring points of the grid by least squares.
 class StreamLines {
  public:
+  /// For flows on `grid`. With `has_axis` they are symmetric about x = 0, and the grid has x >= 0.
   StreamLines(const Grid& grid, bool has_axis);
   ~StreamLines();
   StreamLines(StreamLines&&) noexcept;
 
-  /// About `count` lines, at equal steps of psi: the same amount flows between any two neighbouring
-  /// lines. There are no lines if nothing moves. `is_body` says for each point of the grid whether
-  /// it is in a particle, which hides it. Frames should be given in their order, because the factor
-  /// of the matrix is used again as long as the fluid covers about the same points.
+  /// About `count` > 0 lines at equal steps of psi, with arrows outside the particles. There are
+  /// none if nothing moves. `is_body` is 1 for each point of the grid in a particle, which hides
+  /// it, otherwise 0. Flows should be given in order of time, because the factor of the matrix is
+  /// used again as long as the fluid covers about the same points.
   StreamLineSet of(const FlowOnGrid& flow, const std::vector<char>& is_body, int count);
 
  private:

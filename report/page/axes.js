@@ -1,19 +1,18 @@
-// The axes of the plots of a page: ranges, ticks and numbers; and the curves: their values, their
-// points and their samples in the legend. uPlot, the library that draws the plots, refuses ranges
-// below 1e-16, and its logarithmic axes have whole decades only. Therefore uPlot gets inner values:
-// the decimal logarithm of a value, or the value divided by a power of ten of the size of the axis;
-// this file places and labels the ticks. Outer values are those of the files, in the units that the
-// labels say. Nothing is thrown: a missing value is null, and has no point. report/page.cpp writes
-// axes and curves as JSON, and a change must agree with its json_of(). This file and those that
-// report/CMakeLists.txt lists after it are one script, so each may use the names of all.
+// The axes of the plots of a report (ranges, ticks, numbers) and their curves (values, points,
+// samples in the legend). uPlot, the library that draws the plots, refuses ranges below 1e-16, and
+// its logarithmic axes have whole decades only. Therefore uPlot gets inner values: the decimal
+// logarithm of a value on a logarithmic axis; on a linear axis the value divided by a power of ten,
+// so that the largest is from 1 to 10. This file places and labels the ticks. Outer values are
+// those of the report's files, in the units that the labels of the axes say. Nothing is thrown: a
+// missing value is null and has no point. report/page.cpp writes axes and curves as JSON, and a
+// change must agree with its json_of(). report/CMakeLists.txt joins this file and panels.js into
+// one script, so panels.js uses all its names.
 
-const kBlank = '\u2013';  // is shown in place of a missing number
+const kBlank = '\u2013';  // a dash, shown in place of a missing number
 
-/**
- * An axis as page.cpp describes it: label, logarithmic, and low, high (outer; null: from `values`,
- * with a margin of 4 %, a free choice). The result has the functions from outer to inner values and
- * back, and the full range of inner values.
- */
+// `described` is an axis as page.cpp writes it: label, logarithmic, and the ends low and high
+// (outer values). If an end is null, it is that of `values` with a margin of 4 %, a free choice.
+// The result has functions inner() and outer() for values, and the ends `full` (inner values).
 function axisOf(described, values) {
   const finite = values.filter(v => Number.isFinite(v) && (!described.logarithmic || v > 0));
   let low = Infinity, high = -Infinity;
@@ -30,7 +29,7 @@ function axisOf(described, values) {
 
 const plain = v => (v === null || v === undefined ? null : v);
 
-/** Ticks with a step of 1, 2 or 5 times a power of ten; about `count` of them. */
+// About `count` ticks from low to high with a step of 1, 2 or 5 times a power of ten.
 function evenTicks(low, high, count) {
   const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough));
   const step = power * [1, 2, 5, 10].find(m => m * power >= rough);
@@ -40,6 +39,8 @@ function evenTicks(low, high, count) {
   return ticks;
 }
 
+// About `count` ticks (inner values) from low to high (inner). On a logarithmic axis they are
+// powers of ten, or even steps of the outer value if the axis covers less than a decade.
 function ticksOf(axis, low, high, count) {
   if (!axis.described.logarithmic || high - low < 1)
     return evenTicks(axis.outer(low), axis.outer(high), count)
@@ -50,7 +51,7 @@ function ticksOf(axis, low, high, count) {
 const kSuperscripts = '\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079';
 const raised = n => String(n).replace('-', '\u207b').replace(/\d/g, d => kSuperscripts[d]);
 
-/** A number as a short text: 0.002, 150, 3·10⁻⁷. */
+// A number as a text with `digits` significant digits: 0.002, 150, 3·10⁻⁷.
 function short(value, digits) {
   if (value === 0 || !Number.isFinite(value)) return value === 0 ? '0' : kBlank;
   const size = Math.abs(value);
@@ -62,7 +63,7 @@ function short(value, digits) {
   return times + '10' + raised(Number(exponent));
 }
 
-/** Labels with enough digits to distinguish each tick from its neighbours. */
+// The labels of ticks (inner values), with enough digits to tell each from its neighbours.
 function tickLabels(axis, ticks) {
   const values = ticks.map(axis.outer);
   let digits = 3;
@@ -74,7 +75,8 @@ function tickLabels(axis, ticks) {
   return values.map(v => short(v, digits));
 }
 
-/** The values of x, made strictly increasing for uPlot: at a jump, two points have the same x. */
+// The inner values x of a curve, made strictly increasing, as uPlot needs them: at a jump two
+// points have the same x, and the second is moved by 1e-12 of the axis (`span`).
 function separated(x, span) {
   const result = x.slice();
   for (let i = 1; i < result.length; ++i)
@@ -82,11 +84,9 @@ function separated(x, span) {
   return result;
 }
 
-/**
- * The value of a curve at x, both in the units that uPlot gets. Between two points it is
- * interpolated linearly; for a curve of separate points it is that of the nearest point within
- * `reach`.
- */
+// The value of a curve at x (both inner values). Between two points of a line it is interpolated
+// linearly. A curve with marked points has the value of the nearest point, if that is at most
+// `reach` away; otherwise the result is null.
 function valueAt(curve, x, reach) {
   const xs = curve.inner.x, ys = curve.inner.y;
   if (!xs.length) return null;
@@ -106,6 +106,7 @@ function valueAt(curve, x, reach) {
   return ys[low] + (ys[high] - ys[low]) * (x - xs[low]) / (xs[high] - xs[low]);
 }
 
+// The outline of a marked point with the centre (x, y) and the radius r [device pixels].
 function outline(kind, x, y, r) {
   const path = new Path2D();
   if (kind === 'square') path.rect(x - r, y - r, 2 * r, 2 * r);
@@ -116,7 +117,7 @@ function outline(kind, x, y, r) {
   return path;
 }
 
-/** Draws the points of a curve in the curve's shape, because uPlot draws circles only. */
+// Draws the marked points of curve number `series` of uPlot's object u, which draws circles only.
 function drawPoints(u, curve, series) {
   if (!curve.point || !u.series[series].show) return;
   const ratio = devicePixelRatio, box = u.bbox, context = u.ctx;
@@ -133,6 +134,7 @@ function drawPoints(u, curve, series) {
   context.restore();
 }
 
+// The sample of a curve in the legend, as SVG.
 function sample(curve) {
   const colour = curve.colour, fill = curve.point === 'disc' ? colour : 'none';
   const dash = `stroke-dasharray="${curve.dash.join(' ')}"`;

@@ -1,9 +1,12 @@
-// Draws the plots of the page with uPlot, so that they can be zoomed and values can be read by
-// pointer or finger: one finger reads values, two fingers zoom, a double tap resets the axes. Moving
-// one finger up or down still scrolls the page. Each figure contains its plot as JSON, which
-// report/page.cpp writes. Without this script, and in print, the figure shows the still picture.
-// This file is the last of the script and draws all plots.
+// Draws the plots of a report with uPlot, so that a reader can zoom them and read values by pointer
+// or finger: one finger reads values, two fingers zoom, a double tap resets the axes. One finger
+// that moves up or down still scrolls the page. Each figure contains its plot as JSON, which
+// report/page.cpp writes; a change must agree with its json_of(). Without scripts, and in print, a
+// figure shows its still picture. Inner and outer values are those of axes.js, the first file of
+// the same script. Sizes are in CSS pixels, and those without a reason are free choices. This file
+// ends the script and draws all plots.
 
+// Lets fingers read values and zoom in uPlot's object u. A second tap within 300 ms calls reset().
 function addTouch(u, reset) {
   const over = u.over;
   const spot = touch => {
@@ -19,7 +22,7 @@ function addTouch(u, reset) {
       u.setCursor({left: x, top: y});
     } else if (event.touches.length === 2) {
       const spots = [spot(event.touches[0]), spot(event.touches[1])];
-      // The point of the plot under each finger stays under this finger.
+      // While the fingers move, the point of the plot under each finger stays under it.
       const x = spots.map(s => u.posToVal(s.x, 'x')), y = spots.map(s => u.posToVal(s.y, 'y'));
       pinch = {spots, x, y};
       event.preventDefault();
@@ -34,7 +37,7 @@ function addTouch(u, reset) {
       const now = [spot(event.touches[0]), spot(event.touches[1])];
       const along = (name, values, positions, length, upward) => {
         const apart = positions[1] - positions[0];
-        // Fingers that are close in this direction (pixels) do not zoom in it.
+        // Fingers less than 40 pixels apart in this direction do not zoom in it.
         if (Math.abs(apart) < 40) return;
         const slope = (values[1] - values[0]) / apart, start = values[0] - slope * positions[0];
         const ends = [start, start + slope * length];
@@ -49,6 +52,7 @@ function addTouch(u, reset) {
   over.addEventListener('touchend', event => { if (event.touches.length === 0) pinch = null; });
 }
 
+// Appends an element to `parent` and returns it.
 function element(tag, className, parent, text) {
   const made = document.createElement(tag);
   if (className) made.className = className;
@@ -57,10 +61,9 @@ function element(tag, className, parent, text) {
   return made;
 }
 
-/**
- * The legend, which shows the values at the pointer: a row for x and one for each curve that has
- * words; other curves belong to the row before.
- */
+// The legend, which shows the values at the pointer: a row for x, and a row for each curve with a
+// legend; a curve without one belongs to the row before. toggle(series, show) shows or hides a
+// curve. Returns the cells for the values.
 function makeLegend(parent, panel, toggle) {
   const table = element('table', 'legend', parent);
   const row = className => element('tr', className, table);
@@ -83,6 +86,7 @@ function makeLegend(parent, panel, toggle) {
   return cells;
 }
 
+// Draws a panel (PlotPanel of report/page.hpp) of this height and its legend into `parent`.
 function makePanel(parent, panel, height) {
   const place = element('div', 'panel', parent);
   element('h3', '', place, panel.title);
@@ -95,8 +99,8 @@ function makePanel(parent, panel, height) {
     curve.inner = {x: separated(curve.x.map(x.inner), span), y: heights};
   }
 
-  // uPlot needs all curves on one list of abscissae. A value is undefined where a curve has no
-  // point, and null where the curve is interrupted.
+  // uPlot needs one list of abscissae for all curves. The value of a curve is undefined at an
+  // abscissa where the curve has no point, and null where the curve is interrupted.
   const abscissae = [...new Set(panel.curves.flatMap(c => c.inner.x))].sort((a, b) => a - b);
   const index = new Map(abscissae.map((value, i) => [value, i]));
   const data = [abscissae, ...panel.curves.map(curve => {
@@ -112,6 +116,7 @@ function makePanel(parent, panel, height) {
     (v === null || v === undefined ? kBlank : short(axis.outer(v), 6));
   const nameOfRow = v => rows[Math.round(v) - 1];
 
+  // Shows the values at the pointer in the legend. A row for two curves of one colour shows both.
   function readOff() {
     const {left, top} = u.cursor;
     const inside = left >= 0 && top >= 0;
@@ -147,7 +152,7 @@ function makePanel(parent, panel, height) {
   const size = () => ({width: chart.clientWidth, height: Math.round(heightOf())});
   const broken = name =>
     (narrow() && name.length > 16 ? name.replace(/^(.{8,}?)_/, '$1_\n') : name);
-  /** Ticks that are about `apart` pixels from each other on an axis of this length. */
+  // Ticks about `apart` pixels from each other on an axis that is `length` pixels long.
   const ticksAlong = (axis, min, max, length, apart) =>
     ticksOf(axis, min, max, Math.max(2, length / apart || 6));
   const ticksOfX = (self, _, min, max) => ticksAlong(x, min, max, self.over.clientWidth, 90);
@@ -191,10 +196,9 @@ function makePanel(parent, panel, height) {
   reset();
   addTouch(u, reset);
   const fit = () => { if (chart.clientWidth && chart.clientWidth !== u.width) u.setSize(size()); };
-  // Resizing within the observer itself would be an endless loop, so it is done in the next
-  // frame.
+  // A change of size within the observer would call the observer again without end.
   new ResizeObserver(() => requestAnimationFrame(fit)).observe(chart);
-  place.uplot = u;  // for tests
+  place.uplot = u;  // tests of reports in a browser read this and the next member
   place.full = {x: x.full, y: y.full};
 }
 
@@ -202,7 +206,7 @@ for (const figure of document.querySelectorAll('figure[data-plot]')) {
   const plot = JSON.parse(figure.querySelector('script').textContent);
   const zoomable = element('div', 'zoomable', figure);
   figure.querySelector('.still').after(zoomable);
-  document.documentElement.classList.add('live');  // shows the plot, so that it has a width
+  document.documentElement.classList.add('live');  // shows the plot, which needs a width
   const usual = plot.panels.length > 1 ? 320 : 380;
   for (const panel of plot.panels)
     makePanel(zoomable, panel, panel.rows.length ? 90 + 34 * panel.rows.length : usual);

@@ -1,6 +1,7 @@
 // Interpolates colours between the nodes of a scale, and chooses the ends, numbers and words of
-// scales (colours.hpp). Nothing is thrown. gnuplot gets PressureColours::at(pressure) and not the
-// pressure, so that a change of settings() or at() must be made in both.
+// scales (colours.hpp). Pressures and speeds are in the units of the case. Nothing is thrown. Used
+// by all pictures and pages. gnuplot gets PressureColours::at(pressure) in place of the pressure,
+// so a change of at() must agree with the commands of settings().
 #include "viscontact/report/pictures/colours.hpp"
 
 #include <fmt/format.h>
@@ -15,13 +16,12 @@ namespace viscontact::report {
 namespace {
 
 struct ColourNode {
-  double place;               ///< position on the scale, in any unit
+  double place;               ///< position on the scale
   std::array<double, 3> rgb;  ///< red, green, blue from 0 to 255
 };
 
-/// The colour "#rrggbb" at a place of a scale, whose nodes, at least two, have increasing places.
-/// Red, green and blue are linear between the nodes. A place before the first node or after the
-/// last one has the colour of that node.
+/// The colour "#rrggbb" at a place of a scale with at least two nodes in the order of their places.
+/// Red, green and blue are linear between the nodes; outside they are those of the nearest node.
 std::string colour_between(const std::vector<ColourNode>& nodes, double place) {
   std::size_t i = 1;
   while (i + 1 < nodes.size() && nodes[i].place < place) ++i;
@@ -33,7 +33,7 @@ std::string colour_between(const std::vector<ColourNode>& nodes, double place) {
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
-/// `colours` evenly spaced colours; `colour` gives that of a share from 0 to 1.
+/// `colours` >= 2 colours at evenly spaced shares from 0 to 1; colour(share) returns one.
 template <class Colour>
 std::vector<std::string> evenly_spaced(int colours, const Colour& colour) {
   std::vector<std::string> all;
@@ -41,8 +41,8 @@ std::vector<std::string> evenly_spaced(int colours, const Colour& colour) {
   return all;
 }
 
-/// Round numbers from 0 to `top` >= 0, about four intervals, by their shares of `top`; 0 alone if
-/// `top` is so small that its quarter has lost digits.
+/// Round numbers from 0 to `top` >= 0 in about four intervals, as shares of `top` with their texts.
+/// Only 0 if `top` is so small that its quarter, or its decade, is not accurate in a double.
 std::vector<std::pair<double, std::string>> round_ticks(double top) {
   constexpr double kSmallest = 1e-300;
   if (!(top > kSmallest)) return {{0, "0"}};
@@ -57,8 +57,7 @@ std::vector<std::pair<double, std::string>> round_ticks(double top) {
   return ticks;
 }
 
-/// The colour at a place from -1 to 1, by ColorBrewer's scale RdBu, whose colours colour-blind
-/// readers can tell apart. It is linear between its nodes.
+/// The colour at a place from -1 to 1 of ColorBrewer's scale RdBu, safe for colour-blind readers.
 std::string red_blue(double place) {
   static const std::vector<ColourNode> kRedBlue = {
       {-1, {33, 102, 172}}, {-0.66, {103, 169, 207}}, {-0.3, {209, 229, 240}},
@@ -92,7 +91,7 @@ std::vector<double> sorted_finite(const std::vector<double>& values) {
   return sorted;
 }
 
-/// The colours with low < high, as gnuplot needs it: equal ends are moved apart.
+/// The scale with low < high, as gnuplot needs it: if both are equal, they are moved apart.
 PressureColours widened(PressureColours colours) {
   if (colours.high > colours.low) return colours;
   const double half = colours.high == 0 ? 1 : std::abs(colours.high);
@@ -104,7 +103,7 @@ PressureColours widened(PressureColours colours) {
 }  // namespace
 
 std::string film_colour(double share) {
-  // Colour-blind readers can tell the colours of the scale viridis apart, also in a grey print.
+  // Colour-blind readers, and those of a grey print, can tell the colours of viridis apart.
   static const std::vector<ColourNode> kViridis = {
       {0, {253, 231, 37}},     {0.125, {173, 220, 48}}, {0.25, {94, 201, 98}},
       {0.375, {40, 174, 128}}, {0.5, {33, 145, 140}},   {0.625, {44, 114, 142}},
@@ -130,8 +129,8 @@ ColourScale friction_scale(int colours, const std::string& words) {
 }
 
 std::string speed_colour(double share) {
-  // Lightness falls evenly from 0.985 to 0.6 in OKLab (Ottosson 2020), whose differences are about
-  // those that the eye sees; the hue goes from 205 to 254 degrees.
+  // In the colour space OKLab (Ottosson 2020), in which equal steps look equal, the lightness falls
+  // evenly from 0.985 to 0.6 and the hue goes from 205 to 254 degrees.
   static const std::vector<ColourNode> kBlues = {{0, {243, 252, 253}},   {0.2, {182, 235, 248}},
                                                  {0.4, {128, 212, 245}}, {0.6, {88, 186, 238}},
                                                  {0.8, {67, 157, 226}},  {1, {64, 128, 206}}};
@@ -154,13 +153,13 @@ std::string PressureColours::colour_at(double place) const {
 std::vector<std::pair<double, std::string>> PressureColours::ticks() const {
   std::vector<std::pair<double, std::string>> ticks;
   if (!(linear_below > 0)) {
-    constexpr double kAbout = 5;  // approximate number of intervals
+    constexpr double kAbout = 5;  // about how many intervals
     const double step = rounded_up((high - low) / kAbout);
     for (double n = std::ceil(low / step - 1e-9); n <= high / step + 1e-9; ++n)
       ticks.emplace_back(n * step, short_number(n == 0 ? 0 : n * step));
     return ticks;
   }
-  constexpr int kMost = 4;  // approximate number of numbers of each sign at the bar
+  constexpr int kMost = 4;  // about how many numbers of each sign
   const int decades = static_cast<int>(
       std::floor(std::log10(std::max(std::abs(low), std::abs(high)) / linear_below)));
   const int every = decades / (kMost + 1) + 1;
@@ -184,7 +183,7 @@ ColourScale PressureColours::scale(int colours, const std::string& unit) const {
                     [&](double share) { return colour_at(std::lerp(at(low), at(high), share)); }),
       {}};
   if (linear_below > 0) scale.words += fmt::format(", logarithmic beyond {:.3g}", linear_below);
-  constexpr double kApart = 0.11;  // least distance of numbers, divided by the width of the scale
+  constexpr double kApart = 0.11;  // least distance of numbers over the width of the scale
   for (auto [pressure, text] : ticks()) {
     const double share = share_of(pressure);
     if (share < 0 || share > 1 || std::ranges::any_of(scale.ticks, [&](const auto& other) {
@@ -198,7 +197,7 @@ ColourScale PressureColours::scale(int colours, const std::string& unit) const {
 }
 
 std::vector<std::string> PressureColours::settings() const {
-  constexpr int kSteps = 40;  // intervals of gnuplot's palette, which is linear in each
+  constexpr int kSteps = 40;  // intervals in which gnuplot interpolates; more cannot be seen
   const double from = at(low), to = at(high);
   std::string palette;
   for (int i = 0; i <= kSteps; ++i) {
@@ -214,7 +213,7 @@ std::vector<std::string> PressureColours::settings() const {
     ticks = "set cbtics (" + places + ")";
     words += fmt::format("\\nlogarithmic beyond {}", short_number(linear_below));
   }
-  // If a pressure is beyond 1.2 times the end of the bar, the words of the bar say so.
+  // The words name a pressure beyond 1.2 times the end of the scale; nearer ones look alike.
   constexpr double kWorthAWord = 1.2;
   if (largest > kWorthAWord * high && largest > 0)
     words += fmt::format("{} above {} one colour (largest {})", linear_below > 0 ? ";" : "\\n",

@@ -1,6 +1,7 @@
-// The colours of curves, and scales of colours for gamma, speeds and pressures. gamma is minus the
-// impulse that a film has absorbed [M L/T], of discs in a fluid per length [M/T]. All reports use
-// it. A change must keep colours that colour-blind readers can tell apart. Nothing is thrown.
+// The colours of curves, and scales of colours for gamma, friction, speeds and pressures. gamma is
+// minus the impulse that the film of a contact has absorbed [M L/T], of discs in a fluid per length
+// [M/T]. The pages and pictures of report/, rolling/, swimmer/ and particles/ use them. A change
+// must keep that colour-blind readers can tell the colours apart. Nothing is checked or thrown.
 #pragma once
 
 #include <array>
@@ -20,89 +21,91 @@ inline constexpr const char* kBlue = "#0072B2";
 inline constexpr const char* kVermilion = "#D55E00";
 inline constexpr const char* kReddishPurple = "#CC79A7";
 
-/// The colours of curves in the order in which a page uses them. A page gives each of its curves a
-/// place here, and draws it in this colour in all its pictures, so that readers find it again.
-/// Colour-blind readers can tell the first seven apart. The first two can be seen on the colour
-/// scale of maps, too.
+/// The colours of curves. A page gives each of its curves a place in this list, from the first on,
+/// and draws it in this colour in all its pictures, so that readers find it again. Colour-blind
+/// readers can tell the first seven apart. The first two can be seen on the colours of maps, too.
 inline constexpr auto kCurveColours = std::to_array<const char*>(
     {kSkyBlue,  kVermilion, kBluishGreen, kReddishPurple, kBlue,     kOrange,   kBlack,
      "#7F7F7F", "#8C564B",  "#17BECF",    "#6A3D9A",      "#B5BD00", "#E31A1C", "#1F3B73",
      "#33A02C", "#F781BF",  "#A65628",    "#00A08A",      "#FDBF6F", "#5B5EA6", "#C0C0C0"});
 
-/// The colour of the curve with this place. After the last colour the first one follows again.
+/// The colour "#rrggbb" at a place >= 0 in kCurveColours, which begins again after its end.
 constexpr const char* curve_colour(std::size_t place) {
   return kCurveColours[place % kCurveColours.size()];
 }
 
-/// A scale of colours with the numbers beside it, for a still picture or a page.
+/// A scale of colours with its numbers, for a still picture or a page.
 struct ColourScale {
-  std::string words;                                  ///< what is shown, with its dimension
-  std::vector<std::string> colours;                   ///< "#rrggbb", from left to right
-  std::vector<std::pair<double, std::string>> ticks;  ///< shares of the width, and their texts
+  std::string words;                                  ///< what it shows, with the unit or dimension
+  std::vector<std::string> colours;                   ///< "#rrggbb", from the left, evenly spaced
+  std::vector<std::pair<double, std::string>> ticks;  ///< shares of the width with their texts
 };
 
-/// The colour "#rrggbb" for share = gamma/lowest from 0 (light) to 1 (dark).
+/// The colour "#rrggbb" for share = gamma/(lowest gamma), from 0 (light) to 1 (dark).
 std::string film_colour(double share);
 
-/// The scale of gamma from `lowest` < 0 to 0 with `colours` colours and these words.
+/// The scale of gamma from `lowest` < 0 (left) to 0, with `colours` >= 2 colours and these words.
 ColourScale film_scale(double lowest, int colours, const std::string& words);
 
 inline constexpr const char* kTouchingColour = "#5a5a5a";  ///< for contacts with gamma = 0
 inline constexpr const char* kSlidingColour = "#d55e00";   ///< for contacts that slide
 
-/// The colour "#rrggbb" of a contact without a film for the share of Coulomb's bound that its
-/// friction has reached, from 0 (kTouchingColour) to 1 (kSlidingColour).
+/// The colour "#rrggbb" of a contact without a film, by its friction over Coulomb's bound: from 0
+/// (kTouchingColour) to 1 (kSlidingColour).
 std::string friction_colour(double share);
 
-/// The scale of that share from 0 to 1 with `colours` colours and these words.
+/// The scale of friction_colour() from 0 to 1 with `colours` >= 2 colours and these words.
 ColourScale friction_scale(int colours, const std::string& words);
 
-/// The colour "#rrggbb" for share = speed / top speed from 0 (nearly white) to 1 (blue). The
-/// colours are evenly spaced in lightness, and dark lines can be seen on all of them.
+/// The colour "#rrggbb" for share = speed/(speed at the end of the scale), from 0 (nearly white) to
+/// 1 (blue). Lightness has even steps; dark lines can be seen on all.
 std::string speed_colour(double share);
 
-/// The scale of the speed of a fluid from 0 to `top` >= 0 [L/T] with `colours` colours; its words
-/// have `unit` in brackets.
+/// The scale of the speed of a fluid from 0 to `top` >= 0 [L/T], with `colours` >= 2 colours.
+/// `unit` is that of `top` in words.
 ColourScale speed_scale(double top, int colours, const std::string& unit = "length/time");
 
+/// The colour of streamlines.
 inline constexpr const char* kStreamLineColour = "#12233f";
 
-/// A scale that is blue below 0, white at 0 and red above 0. It is proportional to the pressure, or
-/// to asinh(pressure / linear_below), which is linear for small and logarithmic for large
-/// pressures. Pressures beyond an end of the bar have the colour of that end.
+/// A scale of colours for pressures: blue below 0, white at 0 and red above 0. The position of a
+/// pressure on the scale is the pressure itself or, if linear_below > 0, asinh(pressure /
+/// linear_below) / ln 10, which is linear for small and logarithmic for large pressures. Pressures
+/// beyond an end of the scale have the colour of that end.
 struct PressureColours {
-  double low = 0, high = 0;          ///< the ends of the bar [M/(L T^2)], low < high
-  double smallest = 0, largest = 0;  ///< extremes of the pressures [M/(L T^2)]
-  double linear_below = 0;           ///< [M/(L T^2)]; 0: proportional to the pressure
+  double low = 0, high = 0;          ///< the ends of the scale [M/(L T^2)], low < high
+  double smallest = 0, largest = 0;  ///< of all pressures [M/(L T^2)]
+  double linear_below = 0;           ///< [M/(L T^2)], >= 0; 0: linear everywhere
 
-  /// The position of a pressure on the scale, which gnuplot gets as the value.
+  /// The position of a pressure on the scale. gnuplot gets positions as the values of a field.
   double at(double pressure) const;
 
-  /// The colour "#rrggbb" at a position on the scale.
+  /// The colour "#rrggbb" at a position.
   std::string colour_at(double place) const;
 
-  /// Round pressures in the bar with their texts, which should stand beside it.
+  /// Round pressures with their texts for the numbers beside the scale.
   std::vector<std::pair<double, std::string>> ticks() const;
 
-  /// The scale from `low` to `high` with `colours` colours, without numbers that would touch
-  /// another one, for a pressure minus its mean; its words have `unit` in brackets.
+  /// The scale from `low` to `high`, with `colours` >= 2 colours, for a pressure minus its mean;
+  /// `unit` is that of the pressure in words. A number that would touch another is left out.
   ColourScale scale(int colours, const std::string& unit = "viscosity/time") const;
 
-  /// The place of a pressure on that scale, from 0 to 1.
+  /// Where a pressure is on the scale: 0 at `low`, 1 at `high`, outside of both beyond.
   double share_of(double pressure) const;
 
-  /// Commands of gnuplot for palette, range, numbers and words of the bar.
+  /// Commands of gnuplot for the palette, range, numbers and words of the scale. Its words give the
+  /// pressure in units of viscosity times velocity over length.
   std::vector<std::string> settings() const;
 };
 
-/// A proportional scale from the smallest to the largest of the pressures.
+/// A linear scale from the smallest to the largest of the pressures that are finite.
 PressureColours proportional_colours(const std::vector<double>& pressures);
 
-/// A scale for pixels of which a few may have a much larger pressure than all others. If the
-/// largest of all is more than three times the largest that remains without the highest 0.5 %, the
-/// bar ends at the latter, rounded up; and likewise for the lowest. In this case, and also if an
-/// end of the bar is more than ten times the pressure `usual` (> 0), the scale is logarithmic above
-/// about `usual`.
+/// A scale for the pressures of pixels, of which a few may be much larger than all others. If the
+/// largest is more than three times the largest that remains without the highest 0.5 %, the scale
+/// ends at the latter, rounded up; likewise for the lowest. If such an end is cut, or if an end is
+/// more than ten times the pressure `usual` >= 0, the scale is linear below about `usual` and
+/// logarithmic beyond it. The limits are free choices.
 PressureColours robust_colours(const std::vector<double>& pixels, double usual);
 
 }  // namespace viscontact::report

@@ -1,6 +1,6 @@
-// Reads the columns to draw from a sweep's file and draws them (sweep_plot.hpp). Values are in the
-// units of the case; a column that is missing or empty is an Error(kBadInput). The file must be
-// read row by row, because it may be larger than the memory.
+// Reads the columns to draw from a sweep's CSV file and draws them (sweep_plot.hpp). Values are in
+// the units of the case, sizes in pixels. A column that is missing or has no number is an
+// Error(kBadInput). Used by `sweep`. Files larger than the memory must be read row by row.
 #include "viscontact/report/pictures/sweep_plot.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// Reads the chosen columns of a sweep's file, row by row.
+/// Reads a sweep's file row by row.
 class SweepRows {
  public:
   explicit SweepRows(const std::filesystem::path& path) : path_(path), file_(path) {
@@ -34,20 +34,20 @@ class SweepRows {
     names_ = csv_fields(line);
   }
 
-  /// The indices of a column and of the key by which it is divided, if any.
+  /// The index of a column, and that of the key by which it is divided, if any.
   struct Place {
     std::size_t column;
     std::optional<std::size_t> divisor;
   };
-  /// The indices of "COLUMN" or "COLUMN/KEY", where the name of the column in the file is COLUMN
-  /// followed by `ending`.
+  /// The indices for "COLUMN" or "COLUMN/KEY"; the file names the column COLUMN with `ending`
+  /// added. Throws Error(kBadInput), which lists the columns, if the file has no such column.
   Place find(const std::string& name, const std::string& ending = "") const {
     const auto slash = name.find('/');
     if (slash == std::string::npos) return {index_of(name + ending), {}};
     return {index_of(name.substr(0, slash) + ending), index_of(name.substr(slash + 1))};
   }
 
-  /// Reads the next row; returns false at the end. Blank lines are skipped.
+  /// Reads the next row that is not blank; returns false at the end of the file.
   bool next() {
     std::string line;
     do
@@ -57,6 +57,7 @@ class SweepRows {
     return true;
   }
 
+  /// The value in the row that was read last; NaN if it is not a number.
   double value(const Place& place) const {
     const double value = parse_number(fields_.at(place.column)).value_or(kNoValue);
     return place.divisor ? value / parse_number(fields_.at(*place.divisor)).value_or(kNoValue)
@@ -77,7 +78,7 @@ class SweepRows {
   std::vector<std::string> names_, fields_;
 };
 
-/// True if all finite values are positive and span a decade or more. The axis is then logarithmic,
+/// True if all finite values are > 0 and span a decade or more. The axis then is logarithmic,
 /// because a linear one would show little of the small values.
 bool is_logarithmic(const std::vector<double>& values) {
   double low = std::numeric_limits<double>::infinity(), high = 0;
@@ -89,10 +90,10 @@ bool is_logarithmic(const std::vector<double>& values) {
   return low > 0 && high >= 10 * low;
 }
 
-constexpr int kSweepWidth = 860;                                     // [pixels]
-constexpr const char *kMean = ".mean", *kError = ".standard_error";  // endings of columns of means
+constexpr int kSweepWidth = 860;                                     // [pixels], a free choice
+constexpr const char *kMean = ".mean", *kError = ".standard_error";  // ends of names of columns
 
-/// Throws Error(kBadInput) if no value can be drawn.
+/// Throws Error(kBadInput) if none of the values is finite.
 void check_has_value(const std::filesystem::path& path, const std::vector<double>& values,
                      bool one_column) {
   if (std::ranges::none_of(values, [](double v) { return std::isfinite(v); }))
@@ -118,7 +119,7 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
               false, false,  {kLegendBelow},
               {}};
   std::vector<Curve> bars;
-  std::map<std::vector<double>, std::size_t> first_curves;  // of the values of the other keys
+  std::map<std::vector<double>, std::size_t> first_curves;  // by the values of plot.others
   const auto first_curve_of_row = [&] {
     std::vector<double> values;
     std::string words;
@@ -160,15 +161,15 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
     }
   }
   check_has_value(path, ys, false);
-  // The rows of random samples are not in the order of x.
+  // The rows of a sweep with random samples are not in the order of x.
   for (auto& curve : panel.curves)
     std::ranges::sort(curve.points, {}, &std::pair<double, double>::first);
   panel.curves.insert(panel.curves.end(), bars.begin(), bars.end());
-  // The range of x leaves room beside the ends of the bars.
+  // Room around the curves, so that bars of errors at the ends can be seen.
   if (!bars.empty())
     panel.settings.emplace_back("set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06");
   panel.x_log = is_logarithmic(xs);
-  // On a logarithmic axis a bar that reaches 0 would have no lower end.
+  // On a logarithmic axis, a bar of errors that reaches 0 would have no lower end.
   panel.y_log =
       is_logarithmic(ys) && std::ranges::none_of(lower_ends, [](double end) { return end <= 0; });
   for (const auto& [axis, logarithmic] : {std::pair('x', panel.x_log), std::pair('y', panel.y_log)})
@@ -182,15 +183,14 @@ std::string label(const std::string& name, bool logarithmic) {
   return logarithmic ? fmt::format("log10 {}", name) : name;
 }
 
-/// An axis of a map. `low` and `high` are its ends: values, or their logarithms to base 10.
+/// An axis of a map. `low` and `high` are its ends: values or, if logarithmic, decimal logarithms.
 struct MapAxis {
   std::set<double> values;
   bool logarithmic = false;
   double low = 0, high = 0;
 };
 
-/// The axis with the values at the centres of cells. On its scale, it extends half a mean cell
-/// beyond the first and the last value.
+/// The axis of these values, at least two. It extends beyond both ends by half the mean step.
 MapAxis axis_of(const std::set<double>& values) {
   const bool logarithmic = is_logarithmic({values.begin(), values.end()});
   const double first = scaled(*values.begin(), logarithmic);
@@ -199,11 +199,9 @@ MapAxis axis_of(const std::set<double>& values) {
   return {values, logarithmic, first - margin, last + margin};
 }
 
-/// For each pixel along the axis, the value that it shows. This is the nearest value, so that grids
-/// of unequal spacing are drawn at the right places.
+/// For each pixel along the axis, the nearest value, so that uneven steps of values are seen.
 std::vector<double> values_of_pixels(const MapAxis& axis) {
-  // Programs that show a picture with few pixels smooth it. With eight pixels for each value, the
-  // edges of the values stay sharp.
+  // Some programs smooth a picture of few pixels; with eight for each value, edges stay sharp.
   const auto pixels = 8 * axis.values.size();
   std::vector<double> found;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -216,11 +214,11 @@ std::vector<double> values_of_pixels(const MapAxis& axis) {
   return found;
 }
 
-/// Commands of gnuplot for the colours of values from `low` to `high`.
+/// Commands of gnuplot for the colours of values from `low` to `high` (or of their logarithms).
 std::vector<std::string> map_colours(double low, double high) {
   const double reach = std::max(-low, high);
   if (low < -reach / 10 && high > reach / 10)
-    // For values of both signs, a scale from blue over grey to red (Moreland 2009).
+    // Values of both signs: from blue over grey at 0 to red (Moreland 2009).
     return {"set palette defined (-1 '#3b4cc0', 0 '#dddddd', 1 '#b40426')",
             fmt::format("set cbrange [{}:{}]", -reach, reach)};
   // The lightness of this scale (cividis, Nunez et al. 2018) increases from end to end, so that

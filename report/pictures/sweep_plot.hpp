@@ -1,5 +1,5 @@
-// The picture of a sweep, from its CSV file. Values are in the units of the case. `sweep --plot`
-// makes it. A change must keep that files larger than the memory can be drawn.
+// The picture of a sweep, which varies keys of a case, from its CSV file, in the units of the case.
+// A change must keep that `sweep --plot` can draw files larger than the memory.
 #pragma once
 
 #include <filesystem>
@@ -11,25 +11,24 @@
 
 namespace viscontact::report {
 
-/// What to draw. A column is a column of the file, or "COLUMN/KEY" for its quotient by a key that
-/// the sweep varies.
+/// What to draw. A column is "COLUMN" of the file, or "COLUMN/KEY", its quotient by a varied key.
 struct SweepPlot {
-  std::string x;                     ///< key of the horizontal axis
-  std::string y;                     ///< key for a map of columns[0]; empty: lines over x
-  std::vector<std::string> columns;  ///< at least one
-  /// The other keys of a grid that have several values. Lines over x are drawn for each combination
-  /// of these values. Without effect on a map.
+  std::string x;                     ///< varied key on the horizontal axis
+  std::string y;                     ///< key on the vertical axis of a map; empty: lines over x
+  std::vector<std::string> columns;  ///< at least one; a map shows the first only
+  /// The other keys with several values in a grid. Lines are drawn for each combination of these
+  /// values. Without effect on a map.
   std::vector<std::string> others{};
   /// Whether the file has the columns COLUMN.mean and COLUMN.standard_error in place of COLUMN.
-  /// Lines then have bars of one standard error on both sides.
+  /// Lines then have bars of one standard error to both sides.
   bool is_of_means = false;
 };
 
-/// A picture with lines, or with a heat map over the grid of two
-/// keys. Axes and colours are logarithmic if all values are positive and span a decade or more.
-/// Throws Error(kBadInput) that lists the columns of the file if a column does not exist,
-/// Error(kBadInput) if there is nothing to draw, and Error(kExternalProgram) if gnuplot is missing
-/// or fails.
+/// The content of a picture with lines, or with colours over the grid of two keys. Axes and colours
+/// are logarithmic if all values are > 0 and span a decade or more. Throws Error(kBadInput) if a
+/// column does not exist, in a message that lists the columns, if there is no number to draw, or if
+/// a map has fewer than two values along an axis; Error(kExternalProgram) if gnuplot is missing or
+/// fails; and Error(kInterrupted) if `stop` requests a stop.
 std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot& plot,
                        const results::PictureFormat& format, const StopToken& stop = {});
 

@@ -1,8 +1,11 @@
-// The address of the page keeps what is seen: after # it has the time, the view as far as it was
-// moved, and the colours of particles, so that a copied address shows the same. The file also saves
-// the motion as a film.
+// The address of the page keeps what the reader sees, so that a copied address shows the same:
+// after # it has the time, the view as far as it was moved, and the choice of colours. The file
+// also saves the motion as a film. A change must keep the keys, because readers have saved
+// addresses. controls.js, the last file of the script, calls showAddress(). Only makeFilm() throws.
 
-/** What is seen, as key=value pairs; lengths are in the widths of the canvas and of the motion. */
+// What the reader sees, as key=value pairs: the time t [unit of the case], the shift x, y of the
+// view in widths of the canvas, `zoom` (the diagonal of the motion's box in widths of the canvas),
+// the angles of the view `turn` and `above` [rad], and the choice of colours.
 function addressOfView() {
   const round = x => String(Number(x.toPrecision(5)));
   const parts = {t: round(player.time)};
@@ -16,7 +19,7 @@ function addressOfView() {
   return '#' + new URLSearchParams(parts).toString();
 }
 
-/** Shows what an address says; numbers that are not finite are left out. */
+// Shows what the address of the page says. A value that is no finite number is left out.
 function showAddress() {
   if (!location.hash || location.hash === shownAddress) return;
   const parts = new URLSearchParams(location.hash.slice(1));
@@ -38,29 +41,30 @@ function showAddress() {
 
 let shownAddress = '';
 let addressTimer = 0;
-/** Changes the address a little after the last change of what is seen; a film goes on meanwhile. */
+// Changes the address 0.3 s after the last change of the picture, if the motion does not play.
 function keepAddress() {
   clearTimeout(addressTimer);
   addressTimer = setTimeout(() => {
     const address = addressOfView();
     if (player.playing || address === shownAddress) return;
     shownAddress = address;
-    // The whole address, as the page may stand in another one; replacing it adds no entry to the history.
+    // The whole address is given, because "#..." alone could be taken relative to another page in
+    // which this page is embedded. replace() adds no entry to the history of the browser.
     location.replace(document.URL.split('#')[0] + address);
   }, 300);
 }
 
-/** The kind of film that the browser can record; nothing if it cannot, or if nothing moves. */
+// The kind of film that the browser can record; null or undefined if it can record none, or if
+// there are fewer than two frames.
 function filmType() {
   if (!canvas.captureStream || !window.MediaRecorder || frames < 2) return null;
   return ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'].find(
     kind => MediaRecorder.isTypeSupported(kind));
 }
 
-/**
- * Plays the motion once and saves what the canvas shows as a film (WebM). Resolves to the film, or
- * to nothing if the browser cannot make one or the reader pauses the motion.
- */
+// Plays the motion once and records what the canvas shows. Returns a promise of the film (a WebM
+// Blob), or of null if the browser cannot make one or if the reader pauses the motion; the promise
+// fails if the browser refuses to record. 30 pictures and 8e6 bits in a second are free choices.
 async function makeFilm() {
   const type = filmType();
   if (!type) return null;

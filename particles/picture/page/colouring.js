@@ -1,9 +1,13 @@
 // Colours of particles by their speed, radius, mass or force (the sum of the normal forces of their
-// contacts), chosen by the list #colour. The scale goes from 0, or from the least radius or mass, to
-// the largest value; a few speeds and forces may be above its end.
+// contacts), which the reader chooses in the list #colour of the page. Values are in the units of
+// the case. The scale of speeds and forces goes from 0 to the value that 98 % of the particles do
+// not exceed, that of radii and masses from the least to the largest. Nothing is thrown.
+// picture.js, address.js and controls.js use this file. A change must agree with particles/picture:
+// page_data.cpp writes the blocks `masses` and `speeds`, particles_page.cpp the elements.
 
+// Number of colours; any number >= 2 works.
 const kColours = 64;
-/** A colour of the scale: level 0 to kColours - 1, darkened or lightened for the rims of balls. */
+// The colour at level 0 to kColours - 1; light < 0 mixes in |light| of black, light > 0 of white.
 function scaleColour(level, light = 0) {
   // The lightness of this scale (cividis, Nunez et al. 2018) rises from end to end, so that
   // colour-blind readers can read it.
@@ -15,9 +19,10 @@ function scaleColour(level, light = 0) {
 }
 
 const masses = optional('masses', Float32Array);
-// Speeds in all frames as bytes, 0 to 255 for motion.topSpeed.
+// For each frame and particle: its speed, from 0 to 255 for motion.topSpeed.
 const speeds = optional('speeds', Uint8Array);
-/** For each choice: the values in a frame, in `values`, and whether they differ between frames. */
+// For each choice in the list: its words and unit; `changes` is true if its values differ between
+// frames; read() writes the values of all particles in a frame into `values`.
 const quantities = {
   speed: {
     words: 'speed', unit: motion.units.speed, changes: true,
@@ -40,11 +45,13 @@ const quantities = {
   },
 };
 
+// The name of the choice (empty: none), the ends of its scale, and its values in a frame.
 const colouring = {name: '', low: 0, high: 0, frame: -1, values: new Float32Array(count)};
 const colourChoice = document.getElementById('colour');
 const particleScale = document.getElementById('particle-scale');
 
-/** Finds the ends of the scale from at most 40 frames, and shows it; another name shows no colours. */
+// Makes the choice with this name: finds the ends of its scale, from at most 40 frames to be fast,
+// and shows the scale. Another name chooses nothing.
 function setColouring(name) {
   const isOffered = name && [...colourChoice.options].some(option => option.value === name);
   const quantity = isOffered && frames && count ? quantities[name] : null;
@@ -77,23 +84,23 @@ function setColouring(name) {
   }));
 }
 
-/** Computes the values of the frame whose contacts are shown. */
+// Computes the values of the frame whose contacts are drawn (lines.frame of motion.js).
 function readColours() {
   if (!colouring.name || colouring.frame === lines.frame) return;
   quantities[colouring.name].read(lines.frame, colouring.values);
   colouring.frame = lines.frame;
 }
 
-/** The colour of a particle: a level of the scale; -1 without one, and -2 for one of a body. */
+// The colour of particle k: its level on the scale; if none is chosen, -1, or -2 in a rigid body.
 function lookOf(k) {
   if (!colouring.name) return isInBody(k) ? -2 : -1;
   const share = (colouring.values[k] - colouring.low) / (colouring.high - colouring.low || 1);
   return Math.round((kColours - 1) * Math.min(1, Math.max(0, share)));
 }
-/** Fill and edge of a disc with this colour. */
+// Colours of the fill and the edge of a disc for a result of lookOf().
 const discColours = look =>
   look >= 0 ? [scaleColour(look), scaleColour(look, -0.45)] : look === -2 ? style.discOfBody : disc;
-/** Colours of a ball with this colour, from its brightest point to its rim, then of its edge. */
+// Likewise for a sphere: three colours from its brightest point to its rim, then its edge.
 const ballColours = look =>
   look >= 0 ? [scaleColour(look, 0.6), scaleColour(look), scaleColour(look, -0.3), scaleColour(look, -0.5)]
             : look === -2 ? style.ballOfBody : style.ball;

@@ -1,20 +1,23 @@
 // Pointers, controls and keys. On the canvas, the values of the particle at the pointer are shown;
 // one pointer moves or turns the view (view.js), and two pointers or a wheel zoom. The controls
-// under the picture, and keys, change the time of the motion and what is drawn. This file is the
-// last of the script and starts the page.
+// under the picture, and keys, change the time of the motion and what is drawn. Places of pointers
+// are in device pixels of the canvas, times in the unit of the case. Speeds of pointers and the
+// wheel are free choices. particles/picture/particles_page.cpp writes the elements with these ids.
+// This file ends the script and starts the page. Tests use window.viscontactPlayer.
 
 const readout = document.getElementById('readout');
 const pointer = {x: 0, y: 0, inside: false};
-let hovered = -1;  // the particle at the pointer; -1 if there is none
-// The units that the case says, each after a blank; empty if it says none.
+let hovered = -1;  // number of the particle at the pointer; -1: none
+// The units of the case, each after a blank; empty if the case says none.
 const [lengthUnit, timeUnit] = motion.units.areSaid
   ? [` ${motion.units.length}`, ` ${motion.units.time}`] : ['', ''];
 
+// Finds the particle at the pointer and shows its values.
 function readPointer() {
   hovered = -1;
   if (pointer.inside && frames) {
     placeParticles();
-    const reach = 3 * dots;  // so that very small particles can be hit
+    const reach = 3 * dots;  // least radius of a target, so that small particles can be hit
     for (let j = count - 1; j >= 0 && hovered < 0; --j) {
       const k = flat ? j : order[j], r = Math.max(reach, pageRadius[k]);
       const dx = pageX[k] - pointer.x, dy = pageY[k] - pointer.y;
@@ -24,7 +27,7 @@ function readPointer() {
   if (hovered < 0) { readout.textContent = ''; return; }
   const contacts = presentContacts().filter(
     i => pairs[2 * lines.pair[i]] === hovered || pairs[2 * lines.pair[i] + 1] === hovered).length;
-  // On an axis, the first coordinate is 0 for all particles.
+  // The first coordinate of a particle on an axis is always 0 and is not shown.
   const first = hovered * dim + (motion.hasAxis ? 1 : 0);
   const place = [...positions.subarray(first, hovered * dim + dim)].map(number).join(', ');
   const name = ids ? ids[hovered] : hovered * motion.every;
@@ -34,6 +37,7 @@ function readPointer() {
       `${contacts} contact${contacts === 1 ? '' : 's'}`;
 }
 
+// The pointers that are pressed: their ids, with the places where they were last.
 const held = new Map();
 const onCanvas = event => {
   const box = canvas.getBoundingClientRect();
@@ -44,7 +48,7 @@ const onCanvas = event => {
 };
 
 canvas.addEventListener('pointerdown', event => {
-  // Pointers of events that a script made cannot be captured.
+  // setPointerCapture() fails for an event that a script has made, as in tests.
   if (event.isTrusted) canvas.setPointerCapture(event.pointerId);
   held.set(event.pointerId, onCanvas(event));
   Object.assign(pointer, onCanvas(event), {inside: true});
@@ -79,7 +83,7 @@ canvas.addEventListener('pointermove', event => {
 
 const letGo = event => {
   held.delete(event.pointerId);
-  // After a finger is lifted, the values that it read stay.
+  // When a finger is lifted, the values of the particle that it pointed at remain.
   if (event.type === 'pointerleave' && event.pointerType === 'mouse') pointer.inside = false;
   redraw();
 };
@@ -92,10 +96,11 @@ canvas.addEventListener('wheel', event => {
 }, {passive: false});
 canvas.addEventListener('dblclick', () => { showAll(); redraw(); });
 
-const kSeconds = 10;  // duration of the whole motion at speed 1
+const kSeconds = 10;  // [s] for the whole motion at speed 1, a free choice
 const slider = document.getElementById('time'), clock = document.getElementById('clock');
 const button = document.getElementById('play');
 const speed = document.getElementById('speed');
+// Digits after the point of a shown time; the motion is at least 100 steps of the last digit long.
 const digits = Math.min(9, Math.max(0, 2 - Math.floor(Math.log10((lastTime - firstTime) || 1))));
 let lastTick = 0;
 
@@ -125,18 +130,18 @@ const player = {
   draw,
   makeFilm,
   address: addressOfView,
-  /** The quantity that colours show, the ends of its scale, and its values in the shown frame. */
+  // The choice of colours, the ends of its scale, and the values in the shown frame.
   colouring: () => ({...colouring, values: [...colouring.values]}),
-  /** Width [device pixels] and colour of the line of each contact at the present time. */
+  // Width [device pixels] and colour of the line of each contact at the present time.
   contacts: () => presentContacts().map(i => ({width: widthOf(i), colour: colours[colourOf(i)]})),
-  particles: () => pageRadius.filter(r => r > 0).length,  // that are shown
+  particles: () => pageRadius.filter(r => r > 0).length,  // number of the shown ones
   first: firstTime,
   last: lastTime,
 };
 
 function tick(now) {
   if (!player.playing) return;
-  // A page that was hidden continues at the time at which it was hidden.
+  // A step is at most 0.25 s long, so that a page that was hidden goes on where it was hidden.
   const seconds = Math.min(0.25, Math.max(0, (now - lastTick) / 1000));
   lastTick = now;
   player.seek(player.time + seconds * Number(speed.value) * (lastTime - firstTime) / kSeconds);
@@ -188,7 +193,7 @@ const kKeys = {
   '-': () => zoom(0.8),
 };
 document.addEventListener('keydown', event => {
-  // Buttons, boxes and lists use keys themselves.
+  // Buttons, check boxes and lists have their own use of keys.
   const own = event.target.closest('button, select, input:not([type=range])');
   if (own || event.ctrlKey || event.metaKey || event.altKey || !frames || !kKeys[event.key]) return;
   event.preventDefault();

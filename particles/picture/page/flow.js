@@ -1,14 +1,17 @@
-// Draws the flow behind the particles: speed or pressure as an image of a grid, and streamlines.
-// particles/picture/particles_page.cpp writes the data; their layout must be changed there and here
-// together. particles/picture/page/picture.js calls viscontactFlow.
+// Draws the flow behind the particles: its speed or pressure as an image of a grid, and its
+// streamlines. Points of the flow and times are in the units of the case, places on the canvas in
+// device pixels. particles/picture/particles_page.cpp writes the settings, and flow_blocks() of
+// page_data.cpp the blocks of numbers; a change of their layout must be made there and here.
+// Nothing is checked or thrown. particles/picture/page/picture.js calls viscontactFlow.
 'use strict';
 const viscontactFlow = (() => {
-  const kNothing = 255, kLevels = 254;  // level of a point without flow; highest level
+  const kNothing = 255, kLevels = 254;  // level of a point without flow; highest level of others
+  // Marks a line without an arrow; the number of steps of a coordinate across the window.
   const kNoArrow = 65535, kSteps = 65535;
 
   const rgb = text => [1, 3, 5].map(at => parseInt(text.slice(at, at + 2), 16));
 
-  /** Red, green, blue of each level, interpolated between the colours of a scale. */
+  // Red, green and blue (0 to 255) of each level, interpolated between the colours of a scale.
   function tableOf(colours) {
     const nodes = colours.map(rgb), table = [];
     for (let level = 0; level <= kLevels; ++level) {
@@ -19,10 +22,9 @@ const viscontactFlow = (() => {
     return table;
   }
 
-  /**
-   * `bytes` returns the block of numbers with an id. `toPage` gives the place {x, y} of a point on
-   * the canvas. The result draws the flow that is nearest to a time.
-   */
+  // Makes the object whose draw() draws the flow of the time that is nearest to a given time.
+  // `settings` has the grid, its window and the scales of colours. bytes(id) returns a block of
+  // numbers as an ArrayBuffer. toPage(x, y) returns the place {x, y} of a point on the canvas.
   return (settings, bytes, toPage) => {
     const [left, right, bottom, top] = settings.window, {columns, rows} = settings;
     const times = new Float64Array(bytes('flow-times'));
@@ -36,8 +38,9 @@ const viscontactFlow = (() => {
     const image = document.createElement('canvas'), brush = image.getContext('2d');
     image.width = columns;
     image.height = rows;
-    let painted = '';  // which flow and field the image shows
+    let painted = '';  // the field and the number of the flow that the image shows
 
+    // The number of the flow whose time is nearest to `time`.
     function nearest(time) {
       let best = 0;
       for (let i = 1; i < times.length; ++i)
@@ -45,6 +48,7 @@ const viscontactFlow = (() => {
       return best;
     }
 
+    // Paints `field` ("speed" or "pressure") of a flow into `image`, a pixel for each point.
     function paint(flow, field) {
       if (painted === field + flow) return;
       painted = field + flow;
@@ -61,7 +65,7 @@ const viscontactFlow = (() => {
       brush.putImageData(pixels, 0, 0);
     }
 
-    /** The lines of a flow as paths on the canvas; the ends of sides are rounded off. */
+    // The streamlines of a flow and their arrows as paths on the canvas; corners are rounded off.
     function lines(flow, dots) {
       const origin = {...toPage(left, bottom)}, end = {...toPage(right, top)};
       const scaleX = (end.x - origin.x) / kSteps, scaleY = (end.y - origin.y) / kSteps;
@@ -94,7 +98,7 @@ const viscontactFlow = (() => {
       path.closePath();
     }
 
-    /** Draws the half or the whole of the flow that the grid has. */
+    // Draws the part of the flow that is on the grid: all of it, or with an axis one half.
     function drawGrid(pen, flow, field, withLines, dots) {
       const from = {...toPage(left, top)}, to = {...toPage(right, bottom)};
       pen.save();
@@ -103,7 +107,8 @@ const viscontactFlow = (() => {
       pen.clip();
       if (field !== 'none') {
         paint(flow, field);
-        // The points of the grid are the centres of pixels, and the outermost are on the sides.
+        // The outermost points of the grid are on the sides of the window. They are centres of
+        // pixels, so the image is half a pixel larger on each side.
         const width = (to.x - from.x) / (columns - 1), height = (to.y - from.y) / (rows - 1);
         pen.imageSmoothingEnabled = true;
         pen.imageSmoothingQuality = 'high';
@@ -112,7 +117,8 @@ const viscontactFlow = (() => {
       }
       if (withLines) {
         const {path, arrows} = lines(flow, dots);
-        // Without colours, the lines are on the page's own ground, which may be dark.
+        // Without colours of the speed or pressure, the lines are on the ground of the page, which
+        // may be dark; this grey can be seen on a light and a dark ground.
         pen.strokeStyle = pen.fillStyle = field === 'none' ? '#7d8794' : settings.lineColour;
         pen.lineWidth = dots;
         pen.globalAlpha = 0.6;
@@ -124,6 +130,7 @@ const viscontactFlow = (() => {
     }
 
     return {
+      // `field`: "speed", "pressure" or "none"; `dots`: device pixels in a CSS pixel.
       draw(pen, time, field, withLines, dots) {
         if (!times.length || (field === 'none' && !withLines)) return;
         const flow = nearest(time);

@@ -1,12 +1,12 @@
-// Reads the motion of particles from the page, and gives positions, obstacles and contacts at any
-// time. Lengths and times are in the units of the case, angles in radians. A frame is the state at
-// one of the times `times`; frames, particles and coordinates have numbers from 0. The page was
-// written by particles/picture/particles_page.cpp and page_data.cpp: settings as JSON, arrays as
-// blocks of base64. Nothing is checked; a change of their layout must be made there and here. This
-// file and those that particles/picture/CMakeLists.txt lists after it are one script, so each may
-// use the names of all.
+// Reads a motion of particles from the page and gives positions, obstacles (planes and circles) and
+// contacts at any time. Lengths and times are in the units of the case, angles in radians. A frame
+// is the state at one of the times `times`. Frames, particles, pairs of particles and coordinates
+// are counted from 0. particles/picture/particles_page.cpp writes the settings as JSON, and
+// page_data.cpp the arrays as blocks of base64. Nothing is checked; a change of their layout must
+// be made there and here. This file is the first of those that particles/picture/CMakeLists.txt
+// joins into one script, so the others use all its names.
 
-// The text of a number with four digits.
+// A number as a text with four significant digits.
 const number = x => String(Number(x.toPrecision(4))).replace('-', '\u2212');
 const text = id => document.getElementById(id).textContent;
 function bytes(id) {
@@ -16,34 +16,37 @@ function bytes(id) {
 }
 const motion = JSON.parse(text('motion'));
 const dim = motion.dimension, flat = dim === 2;
-const style = motion.style;  // SceneStyle of particles/picture/scene.hpp
-// The corner of the periodic cell with the smallest coordinates, and the lengths of the cell; a
-// length is 0 if the motion is not periodic in this direction.
+const style = motion.style;  // colours and proportions: SceneStyle of particles/picture/scene.hpp
+// The corner of the periodic cell with the smallest coordinates, and the lengths of its sides; a
+// length is 0 if the motion is not periodic along this axis.
 const [cellX, cellY, cellZ, periodX, periodY, periodZ] = motion.cell;
 const radii = new Float32Array(bytes('radii')), times = new Float64Array(bytes('times'));
-// The ids of the particles in the files. Without this block, the id of particle k is k.
+// The id of each particle in the files of the case. Without ids, the id of particle k is k.
 const ids = document.getElementById('ids') ? new Int32Array(bytes('ids')) : null;
-// Positions as written: frame by frame, particle by particle, motion.dimension numbers each. A
-// coordinate is motion.low + motion.step * number (writtenPlace()).
+// Coordinates as the page has them: frame by frame, particle by particle, motion.dimension numbers
+// each. The coordinate is motion.low + motion.step * number (writtenPlace()).
 const written = motion.bytes === 2 ? new Uint16Array(bytes('positions'))
                                    : new Float32Array(bytes('positions'));
+// For each frame and plane six numbers: a point of the plane and its unit normal into the side of
+// the particles. For a circle: its centre, then 0, 0 and its radius.
 const planeNumbers = new Float32Array(bytes('planes'));
 const optional = (id, Kind) => (document.getElementById(id) ? new Kind(bytes(id)) : null);
 const writtenAngles = optional('angles', Float32Array);
-// Unit quaternions (w, x, y, z) of spheres, and for each particle the number of its rigid body, or
-// -1 if it has none.
+// For each frame and sphere a unit quaternion (w, x, y, z); for each particle the number of its
+// rigid body, or -1 if it has none.
 const writtenOrientations = optional('orientations', Float32Array);
 const bodies = optional('bodies', Int32Array);
-// For each particle the first frame that has it, if sources pour in particles during the motion.
+// For each particle the first frame in which it exists, if particles are added during the motion.
 const firstFrames = optional('firstFrames', Int32Array);
-// Two semi-axes of each particle, the first one along its angle, if there are ellipses.
+// Two semi-axes for each particle, the first along its angle, if not all are discs.
 const semiAxes = optional('semiAxes', Float32Array);
-// 1 for each plate with round ends: its semi-axes are half of its length and the radius of its
-// ends.
+// 1 for a plate with round ends: its semi-axes are half of its length and the radius of its ends.
 const plates = optional('plates', Int8Array);
-// For each pair x + 3 y + 9 z, if the contact is with the image of the second particle that is
-// shifted by x, y and z periods, each -1, 0 or 1.
+// In a periodic motion the contact of a pair is with an image of the second particle, a copy that
+// is shifted by x, y and z periods, each -1, 0 or 1. For each pair: the number x + 3 y + 9 z.
 const images = optional('images', Int8Array);
+// For each pair the numbers of its particles, or -1 - j in place of the first for obstacle j; and
+// the place in contactBytes at which the contacts of each frame begin, then the end.
 const pairs = new Int32Array(bytes('pairs')), offsets = new Uint32Array(bytes('offsets'));
 const contactBytes = new Uint8Array(bytes('contacts'));
 const count = radii.length, frames = times.length;
@@ -54,24 +57,25 @@ const middle = low.map((l, d) => (l + high[d]) / 2);
 const diagonal = Math.hypot(...low.map((l, d) => high[d] - l));
 const firstTime = frames ? times[0] : 0, lastTime = frames ? times[frames - 1] : 0;
 
-const positions = new Float32Array(count * dim);  // at the present time
+const positions = new Float32Array(count * dim);  // at the time given to setTime()
 const angles = new Float32Array(writtenAngles ? count : 0);
 const orientations = new Float32Array(writtenOrientations ? 4 * count : 0);
-// The obstacles at the present time: {point, normal, radius}. An obstacle with a radius > 0 is a
-// circle about `point`, and its normal is 0; an obstacle with the radius 0 is a plane.
+// The obstacles at that time: {point, normal, radius}. A plane has the radius 0. A circle has a
+// radius > 0, its centre as `point` and the normal 0; the particles are inside.
 let planes = [];
-let presentFrame = 0;  // the last frame that is not after the present time
+let presentFrame = 0;  // the last frame that is not after that time
+// The contacts of frame number `frame`, as readContacts() decodes them.
 const lines = {
   frame: -1,
   count: 0,
   pair: new Int32Array(pairs.length / 2),
   level: new Uint8Array(pairs.length / 2),
-  // Friction as a share of Coulomb's bound, 0 to 254, or 255 if the contact slides.
+  // 0 to 254: friction over Coulomb's bound (coefficient times normal force); 255: it slides.
   friction: new Uint8Array(pairs.length / 2),
-  force: new Uint8Array(pairs.length / 2),  // normal force, 0 to 255 for the widest lines
+  force: new Uint8Array(pairs.length / 2),  // normal force: 255 for motion.topForce
 };
 
-/** The frame at or before a time, and the share (0 to 1) of the way to the next frame. */
+// The last frame that is not after a time, and the share (0 to 1) of the way to the next one.
 function placeOf(time) {
   let a = 0, b = frames - 1;
   while (b - a > 1) {
@@ -82,11 +86,11 @@ function placeOf(time) {
   return {frame: a, share: length > 0 ? Math.min(1, Math.max(0, (time - times[a]) / length)) : 0};
 }
 
-/** Coordinate d (from 0) of particle k in a frame. */
+// Coordinate d of particle k in a frame.
 const writtenPlace = (frame, k, d) =>
   motion.low[d] + motion.step[d] * written[(frame * count + k) * dim + d];
 
-/** Interpolates positions and planes between two frames; contacts are those of the nearer frame. */
+// Interpolates the motion at a time between two frames. Contacts are those of the nearer frame.
 function setTime(time) {
   const {frame, share} = placeOf(time), n = count * dim;
   const from = frame * n, to = Math.min(frame + 1, frames - 1) * n;
@@ -118,7 +122,7 @@ function setTime(time) {
   readContacts(Math.min(frames - 1, frame + Math.round(share)));
 }
 
-/** Interpolates orientations between two frames, along the shorter way. */
+// Interpolates the orientations between two frames along the shorter way.
 function setOrientations(frame, next, share) {
   for (let k = 0; k < orientations.length; k += 4) {
     const from = 4 * count * frame + k, to = 4 * count * next + k;
@@ -134,14 +138,11 @@ function setOrientations(frame, next, share) {
   }
 }
 
-/**
- * Decodes the contacts of a frame into `lines`. The bytes of a contact are, in this order:
- * - the index of its pair minus that of the contact before, seven bits in each byte, the lowest
- *   first; the highest bit of a byte says that another byte follows;
- * - the impulse that its film has absorbed, from 0 to 255 for the largest possible one;
- * - in a motion with friction, the friction as lines.friction has it;
- * - in a motion with forces, the normal force, from 0 to 255 for the largest one.
- */
+// Decodes the contacts of a frame into `lines`. The bytes of a contact are, in this order:
+// - the number of its pair minus that of the contact before it, seven bits in each byte, the lowest
+//   first; the highest bit of a byte says that another byte follows;
+// - `level`: minus gamma, the impulse that its film has absorbed, from 0 to 255 for the largest;
+// - in a motion with friction, `friction`; in a motion with forces, `force`, as `lines` says.
 function readContacts(frame) {
   if (lines.frame === frame) return;
   lines.frame = frame;

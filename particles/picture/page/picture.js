@@ -1,11 +1,15 @@
 // Draws the whole picture: the flow (flow.js), the obstacles (view.js), discs and spheres, marks of
-// their rotation, rigid bodies, links and contacts, in light or dark colours.
-// particles/picture/frame_picture.cpp draws the same in the still picture.
+// their rotation, rigid bodies, links and contacts, in light or dark colours. Positions and radii
+// of the motion (motion.js) are in the case's unit of length; places, radii and widths on the
+// canvas are in device pixels, y downwards, `dots` of them in a CSS pixel. Limits of widths without
+// a reason are free choices. Nothing is checked or thrown. Used by the other scripts. A change must
+// agree with particles/picture/frame_picture.cpp, which draws the still picture.
 
-const kLargestSprite = 512;  // [device pixels]
+const kLargestSprite = 512;  // largest diameter of a copied picture (sprites) [device pixels]
 const disc = motion.flow ? style.discInFluid : style.disc;
 const isInBody = k => bodies !== null && bodies[k] >= 0;
 
+// Paints a disc or a sphere. Its colour `look` is a result of lookOf() (colouring.js).
 function paintParticle(p, x, y, r, look) {
   const rim = Math.min(2 * dots, Math.max(0.5, 0.07 * r));
   if (flat) {
@@ -25,8 +29,9 @@ function paintParticle(p, x, y, r, look) {
   p.stroke();
 }
 
-// Copying a picture is faster than drawing thousands of spheres. There is one picture for each
-// power of two in size, so that none is reduced to less than half its size, and for each colour.
+// Copying a picture of a sphere is faster than painting it, which matters for thousands of them.
+// There is one picture for each colour and each diameter that is a power of two, so that none is
+// drawn at less than half of its size.
 const sprites = new Map();
 function spriteFor(size, look) {
   const side = 2 ** Math.ceil(Math.log2(Math.max(4, size)));
@@ -40,6 +45,7 @@ function spriteFor(size, look) {
   return sprites.get(key);
 }
 
+// Draws a particle: as a square if it is smaller than a pixel, otherwise painted or copied.
 function particle(x, y, r, look) {
   if (r < 1) {
     pen.fillStyle = flat ? discColours(look)[0] : ballColours(look)[1];
@@ -52,11 +58,12 @@ function particle(x, y, r, look) {
   }
 }
 
+// For each particle: place, radius (0: not shown) and, in space, depth (larger: nearer).
 const pageX = new Float32Array(count), pageY = new Float32Array(count);
 const pageRadius = new Float32Array(count), depths = new Float32Array(count);
-const order = new Uint32Array(count);  // from far to near
+const order = new Uint32Array(count);  // the particles from far to near
 
-// Whether the particle is there at the present time; a source may pour it in later.
+// Whether particle k exists at the present time; a source may add it later.
 const isThere = k => !firstFrames || presentFrame >= firstFrames[k];
 
 function placeParticles() {
@@ -71,10 +78,8 @@ function placeParticles() {
   if (!flat) sortByDepth();
 }
 
-/**
- * Sorts the particles into 4096 layers of depth; within a layer they keep their order. Particles
- * that overlap on the page are in different layers, unless they are very small.
- */
+// Sorts the particles into 4096 layers of depth; within a layer they keep their order. Only very
+// small particles that overlap on the page can be in one layer, because the layers are thin.
 function sortByDepth() {
   const layers = 4096, start = new Uint32Array(layers + 1);
   const half = diagonal / 2, centre = dot(axes[2], middle);
@@ -93,13 +98,13 @@ const isSeen = k => {
          pageY[k] > -r && pageY[k] < canvas.height + r;
 };
 
+// For each sphere its place in `order`, and the first contact that is drawn after it; for each
+// contact the next one after the same sphere; -1: none.
 const rank = new Uint32Array(flat ? 0 : count), chain = new Int32Array(flat ? 0 : count);
 const chained = new Int32Array(flat ? 0 : lines.pair.length);
 
-/**
- * Draws the spheres from far to near. A contact is drawn with the nearer of its particles: over
- * both particles, and under everything in front of them.
- */
+// Draws the spheres from far to near. A contact is drawn just after the nearer of its particles:
+// over both particles, and under everything in front of them.
 function drawSpheres() {
   chain.fill(-1);
   if (withContacts) {
@@ -131,7 +136,7 @@ function drawSpheres() {
 function drawDiscs() {
   for (let k = 0; k < count; ++k) {
     const x = positions[2 * k], y = positions[2 * k + 1], r = radii[k];
-    // The image at the other side of the cell, if the disc sticks out of it.
+    // The shift to the opposite side of the cell, if a part of the disc is outside of one side.
     const besideX = !periodX ? 0 : x - r < cellX ? periodX : x + r > cellX + periodX ? -periodX : 0;
     const besideY = !periodY ? 0 : y - r < cellY ? periodY : y + r > cellY + periodY ? -periodY : 0;
     for (const shiftX of besideX ? [0, besideX] : [0])
@@ -148,7 +153,7 @@ function drawDiscs() {
   }
 }
 
-/** A disc, ellipse or plate in a fluid where not all are discs. */
+// Draws a disc, ellipse or plate with round ends, in a motion where not all particles are discs.
 function drawEllipse(k, x, y) {
   const scale = pageRadius[k] / radii[k];
   const [a, b] = [Math.max(scale * semiAxes[2 * k], 0.35), Math.max(scale * semiAxes[2 * k + 1], 0.35)];
@@ -168,7 +173,7 @@ function drawEllipse(k, x, y) {
   pen.stroke();
 }
 
-/** A dot at the rim, which shows how far a disc has turned. */
+// Draws a dot in the direction of a disc's angle, which shows how far the disc has turned.
 function drawMark(k, x, y) {
   const r = semiAxes ? pageRadius[k] / radii[k] * semiAxes[2 * k] : pageRadius[k];
   if (r < 4 * dots) return;
@@ -180,7 +185,7 @@ function drawMark(k, x, y) {
   pen.fill();
 }
 
-/** Dots on a sphere where its three axes come out of it, as far as they are seen. */
+// Draws dots on sphere k, on the reader's side, at the ends of the three axes that turn with it.
 function drawAxes(k) {
   const r = pageRadius[k];
   if (r < 5 * dots) return;
@@ -194,7 +199,7 @@ function drawAxes(k) {
   for (const axis of sphereAxes)
     for (const side of [1, -1]) {
       const toward = side * dot(axes[2], axis);
-      if (toward < style.leastToward) continue;  // seen from the side
+      if (toward < style.leastToward) continue;  // near the rim, or on the other side
       pen.beginPath();
       pen.arc(pageX[k] + side * r * dot(axes[0], axis), pageY[k] - side * r * dot(axes[1], axis),
               style.axisRadius * r * Math.sqrt(toward), 0, 2 * Math.PI);
@@ -202,14 +207,12 @@ function drawAxes(k) {
     }
 }
 
-/** The place on the page of an image of a particle; each call overwrites it. */
+// The place on the canvas of particle k shifted by sign * shift; each call overwrites it.
 const shifted = (k, shift, sign) =>
   project(...[0, 1, 2].map(d => (d < dim ? positions[k * dim + d] + sign * shift[d] : 0)));
 
-/**
- * Calls line(x1, y1, x2, y2) for the line on the page from one particle to the nearest image of
- * another; twice if it crosses a period.
- */
+// Calls line(x1, y1, x2, y2) for the line from one particle to the nearest copy of another that is
+// shifted by periods; if it is shifted, also for the line that ends at the other particle itself.
 function betweenParticles(first, second, line) {
   const shift = [periodX, periodY, periodZ].map((period, d) => {
     const apart = positions[second * dim + d] - positions[first * dim + d];
@@ -224,7 +227,7 @@ function betweenParticles(first, second, line) {
 const traceLine = (x1, y1, x2, y2) => { pen.moveTo(x1, y1); pen.lineTo(x2, y2); };
 const between = (low, x, high) => Math.min(high, Math.max(low, x));
 
-/** Lines that join the discs of each rigid body. */
+// Draws lines that join the discs of each rigid body.
 function drawBodies() {
   if (!bodies) return;
   const last = new Map();
@@ -243,7 +246,7 @@ function drawBodies() {
   }
 }
 
-/** A zigzag line with straight ends. */
+// Traces the zigzag line of a spring, whose corners are `width` beside its straight line.
 function traceSpring(width, x1, y1, x2, y2) {
   const turns = style.springTurns, end = style.springEnd;
   const length = Math.hypot(x2 - x1, y2 - y1) || 1;
@@ -257,7 +260,8 @@ function traceSpring(width, x1, y1, x2, y2) {
   pen.lineTo(x2, y2);
 }
 
-/** Arms as bars, springs as zigzag lines and hinges as rings. */
+// Draws arms (which keep two particles at a prescribed distance) as bars, springs as zigzag lines,
+// and hinges (which hold a particle at a place) as rings.
 function drawLinks() {
   const smaller = ([first, second]) => Math.min(pageRadius[first], pageRadius[second]);
   pen.strokeStyle = theme.edge;
@@ -287,10 +291,10 @@ function drawLinks() {
   }
 }
 
-let withContacts = true;  // whether the reader wants to see them
+let withContacts = true;  // whether the reader wants to see contacts
 
-// The colours of contacts: first for gamma = 0, from no friction to contacts that slide, then for
-// gamma < 0 from light to dark.
+// The colours of contacts: first without a film of fluid, from no friction to sliding, then with
+// one, from little to much impulse that it has absorbed. Contacts i are those of `lines`.
 const ofFriction = motion.friction.length ? motion.friction : [motion.touching];
 const colours = [...ofFriction, ...motion.colours];
 const slides = i => lines.friction[i] === 255;
@@ -301,14 +305,14 @@ function colourOf(i) {
     : ofFriction.length + Math.round(level / 255 * (motion.colours.length - 1));
 }
 
-/** The ends on the page of the line in the middle of a plate; twice the centre of another disc. */
+// The ends of the middle line of plate k, the centres of its round ends; of a disc, its centre.
 function spineOf(k) {
   const half = plates[k] ? pageRadius[k] / radii[k] * (semiAxes[2 * k] - semiAxes[2 * k + 1]) : 0;
   const x = half * Math.cos(angles[k]), y = -half * Math.sin(angles[k]);
   return [[pageX[k] + x, pageY[k] + y], [pageX[k] - x, pageY[k] - y]];
 }
 
-/** The point of the line from a to b that is nearest to x. */
+// The point of the line from a to b that is nearest to x.
 function nearestOnLine([a, b], x) {
   const along = [b[0] - a[0], b[1] - a[1]], square = along[0] ** 2 + along[1] ** 2;
   const share = square ? ((x[0] - a[0]) * along[0] + (x[1] - a[1]) * along[1]) / square : 0;
@@ -316,7 +320,7 @@ function nearestOnLine([a, b], x) {
   return [a[0] + at * along[0], a[1] + at * along[1]];
 }
 
-/** Traces the line between the nearest points in the middle of two plates or discs. */
+// Traces the shortest line between the middle lines (spineOf()) of two plates or discs.
 function traceBetweenSpines(first, second) {
   const one = spineOf(first), other = spineOf(second);
   const lines = [...one.map(x => [x, nearestOnLine(other, x)]),
@@ -329,11 +333,9 @@ function traceBetweenSpines(first, second) {
 
 const kNoShift = [0, 0, 0];
 
-/**
- * The shift of the image of the second particle that touches the first one in contact i. The number
- * of the image is right at the time of the frame of the contacts; at the present time one of the
- * particles may have left the cell and come in again at the other side.
- */
+// In contact i, the shift of the second particle to the image that touches the first one [case's
+// length]. `images` is right at the time of the frame of the contact. Since then a particle may
+// have left the cell and come in again at the other side, which adds a period.
 function shiftOf(i) {
   if (!images) return kNoShift;
   const image = images[lines.pair[i]];
@@ -347,10 +349,8 @@ function shiftOf(i) {
   });
 }
 
-/**
- * The line of a contact, from a centre to the other centre or to the foot on the plane, and with
- * plates between the nearest points in their middle.
- */
+// Traces the line of contact i: between the centres or, with plates, the middle lines of two
+// particles, or from a particle to the nearest point of an obstacle.
 function traceContact(i) {
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
   if (first < 0) {
@@ -366,7 +366,7 @@ function traceContact(i) {
   }
   const shift = shiftOf(i);
   if (shift.some(s => s)) {
-    // Across a period the line is drawn at both sides of the cell.
+    // The line to a shifted image is drawn at both sides of the cell.
     const beyond = {...shifted(second, shift, 1)}, before = shifted(first, shift, -1);
     traceLine(pageX[first], pageY[first], beyond.x, beyond.y);
     traceLine(before.x, before.y, pageX[second], pageY[second]);
@@ -377,7 +377,8 @@ function traceContact(i) {
   }
 }
 
-/** The width in device pixels that a LineWidth of scene.hpp means for a radius in device pixels. */
+// The width of a line for a radius, from a LineWidth of particles/picture/scene.hpp: share of the
+// radius, least and largest width.
 const lineWidth = ([share, least, most], radius) => {
   const unit = style.pageUnit * dots;
   return between(unit * least, share * radius, unit * most);
@@ -395,12 +396,12 @@ function widthOf(i) {
   return Math.max(least, widest * lines.force[i] / 255);
 }
 
-/** Whether both particles of a contact are there. */
+// Whether both bodies of contact i exist at the present time.
 const contactThere = i => {
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
   return isThere(second) && (first < 0 || isThere(first));
 };
-/** The contacts at the present time, as indices of `lines`. */
+// The contacts at the present time.
 const presentContacts = () => Array.from({length: lines.count}, (_, i) => i).filter(contactThere);
 
 const contactSeen = i => {
@@ -408,10 +409,8 @@ const contactSeen = i => {
   return contactThere(i) && (isSeen(second) || (first >= 0 && isSeen(first)));
 };
 
-/**
- * Draws the contacts, wide lines over thin ones. All of one width, in quarters of a pixel, and one
- * colour are drawn at once.
- */
+// Draws the contacts, wide lines over thin ones. All contacts with one width, rounded to quarters
+// of a pixel, and one colour are drawn together, because that is faster than one by one.
 function drawContacts() {
   const kinds = new Map();
   for (let i = 0; i < lines.count; ++i) {
@@ -441,7 +440,7 @@ const flow = motion.flow ? viscontactFlow(motion.flow, bytes, (x, y) => project(
 const flowField = document.getElementById('flow');
 const streamlines = document.getElementById('streamlines');
 
-/** Draws only in the cell, where the motion has periods. */
+// Restricts drawing to the cell along the axes that have periods.
 function clipToCell() {
   const from = {...project(cellX, cellY, 0)};
   const to = {...project(cellX + periodX, cellY + periodY, 0)};
@@ -451,7 +450,7 @@ function clipToCell() {
   pen.clip();
 }
 
-/** The sides of the cell that are one, as dashed lines. */
+// Draws the sides of the cell across which the motion is periodic as dashed lines.
 function drawPeriods() {
   const from = {...project(cellX, cellY, 0)};
   const to = {...project(cellX + periodX, cellY + periodY, 0)};
@@ -510,13 +509,14 @@ function draw() {
 }
 
 let asked = false;
+// Draws the picture at the next refresh of the screen, once for all calls until then.
 function redraw() {
   if (asked) return;
   asked = true;
   requestAnimationFrame(() => { asked = false; readPointer(); draw(); });
 }
 
-// Printed pages are light.
+// A printed page has light colours, whatever the screen has.
 const setTheme = isDark => { theme = isDark ? kThemes.dark : kThemes.light; draw(); };
 dark.addEventListener('change', () => setTheme(dark.matches));
 window.addEventListener('beforeprint', () => setTheme(false));

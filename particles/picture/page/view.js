@@ -1,10 +1,16 @@
-// The view: which part of the motion (motion.js) the canvas shows, and from which direction. Places
-// on the canvas are in device pixels with y downwards, lengths of the motion in the unit of the
-// case. The file also draws the obstacles: planes, and circles around the particles.
+// The view: which part of the motion (motion.js) the canvas shows, and from which direction; and
+// the drawing of the obstacles, which are planes and circles around the particles. Places on the
+// canvas are in device pixels with y downwards, points and lengths of the motion in the case's unit
+// of length. Nothing is checked or thrown. picture.js, controls.js and address.js, which belong to
+// the same script, use all names. view_of() and the planes in particles/picture/frame_picture.cpp,
+// which draws the still picture, must stay like those here.
 
 const canvas = document.getElementById('stage'), pen = canvas.getContext('2d');
+// `scale` is in device pixels per length; `x`, `y` is where the middle of the box appears, from the
+// middle of the canvas [device pixels]; `turn` and `above` are angles of view [rad]; `moved` is
+// true if the reader has moved the picture.
 const view = {scale: 1, x: 0, y: 0, turn: Math.PI / 6, above: Math.PI / 9, moved: false};
-let axes;  // unit vectors to the right, upwards and towards the reader
+let axes;  // unit vectors of the motion to the right, upwards and towards the reader
 let dots = 1;  // device pixels in a CSS pixel
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const plus = (a, s, b) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
@@ -16,17 +22,16 @@ function setAxes() {
               : [[c, s, 0], [-s * sa, c * sa, ca], [s * ca, -c * ca, sa]];
 }
 
-/**
- * The magnification by perspective at a depth towards the reader, who is four diagonals of the box
- * away; 0 near the reader and behind.
- */
+// The magnification at a depth [case's length] in front of the middle of the box, over that in the
+// middle, from which the reader is four diagonals of the box away. 0: too near or behind.
 function nearness(depth) {
   if (flat) return 1;
   const distance = 4 * diagonal;
   return depth < 0.8 * distance ? distance / (distance - depth) : 0;
 }
 
-const onPage = {x: 0, y: 0, near: 0};  // result of project(); each call overwrites it
+const onPage = {x: 0, y: 0, near: 0};  // the result of project(), which each call overwrites
+// The place {x, y} of a point on the canvas, and its nearness().
 function project(px, py, pz) {
   const x = px - middle[0], y = py - middle[1], z = pz - middle[2], [r, u, t] = axes;
   onPage.near = nearness(t[0] * x + t[1] * y + t[2] * z);
@@ -36,7 +41,7 @@ function project(px, py, pz) {
   return onPage;
 }
 
-/** Sets the view in which the box of the motion fills the canvas. */
+// Sets the view in which the box of the motion fills the canvas.
 function showAll() {
   setAxes();
   Object.assign(view, {scale: 1, x: 0, y: 0, moved: false});
@@ -53,6 +58,8 @@ function showAll() {
   view.y = -view.scale * (top + bottom) / 2;
 }
 
+// Multiplies the scale by a factor; the point (x, y) of the canvas stays where it is. The largest
+// scale, at which a millionth of the box fills the canvas, and the smallest are free choices.
 function zoom(factor, x = canvas.width / 2, y = canvas.height / 2) {
   const most = 1e6 * Math.max(canvas.width, canvas.height) / diagonal;
   const next = Math.min(most, Math.max(1e-9 * most, view.scale * factor));
@@ -77,7 +84,7 @@ function resize() {
   draw();
 }
 
-/** The part of a polygon, or of a line with two ends, with normal.(x - point) >= -slack. */
+// The part of a polygon, or of a line with two ends, with normal.(x - point) >= -slack.
 function clip(polygon, point, normal, slack = 0) {
   const kept = [];
   polygon.forEach((a, i) => {
@@ -89,6 +96,8 @@ function clip(polygon, point, normal, slack = 0) {
   return kept;
 }
 
+// The part of a polygon or line in plane `own` on the free side of all other planes. With the
+// slack, round-off removes nothing where planes coincide.
 function clipByPlanes(polygon, own) {
   planes.forEach((plane, i) => {
     if (i !== own) polygon = clip(polygon, plane.point, plane.normal, 1e-4 * diagonal);
@@ -96,6 +105,7 @@ function clipByPlanes(polygon, own) {
   return polygon;
 }
 
+// The part of a polygon or line in the box of the motion.
 function clipByRoom(polygon) {
   for (let d = 0; d < 3; ++d) {
     const axis = [0, 1, 2].map(e => (e === d ? 1 : 0));
@@ -111,7 +121,7 @@ function trace(polygon) {
   });
 }
 
-/** In two dimensions: the part of space that the canvas shows, as a polygon. */
+// Motions in the plane: the corners of the part of the plane that the canvas shows.
 function seen() {
   const at = (x, y) => [middle[0] + (x - canvas.width / 2 - view.x) / view.scale,
                         middle[1] - (y - canvas.height / 2 - view.y) / view.scale, 0];
@@ -124,6 +134,7 @@ function traceCircle(point, radius) {
   pen.arc(p.x, p.y, radius * view.scale, 0, 2 * Math.PI);
 }
 
+// Motions in the plane: fills what is behind planes and outside circles.
 function drawSolids() {
   const all = seen();
   pen.fillStyle = theme.solid;
@@ -139,6 +150,7 @@ function drawSolids() {
   }
 }
 
+// Motions in the plane: draws the planes and circles themselves as lines.
 function drawLines() {
   const all = seen(), far = corner => Math.hypot(...plus(corner, -1, middle));
   pen.strokeStyle = theme.edge;
@@ -158,10 +170,8 @@ function drawLines() {
   });
 }
 
-/**
- * In three dimensions: a plane seen from its free side is a patch with a grid; of a plane seen from
- * behind, only the edges are drawn.
- */
+// Motions in space: draws the planes that are seen from their free side, where the particles are,
+// as patches with a grid (`fromFreeSide`), or the edges of the others. The grid has steps of 10^n.
 function drawPatches(fromFreeSide) {
   const step = 10 ** Math.round(Math.log10(diagonal / 8));
   planes.forEach(({point, normal}, i) => {
