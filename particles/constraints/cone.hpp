@@ -50,13 +50,23 @@ inline ConePoint jordan_quotient(const ConePoint& z, const ConePoint& x) {
   return {y, (z[1] - y * x[1]) / x[0], (z[2] - y * x[2]) / x[0]};
 }
 
-/// The largest t with x + t d in the cone, for an x inside it; infinity if there is none.
-inline double length_to_boundary(const ConePoint& x, const ConePoint& d) {
+/// A point inside a cone of interior points.
+struct InnerPoint {
+  ConePoint x{};  ///< the point, in the coordinates of SecondOrderCone or LinearCones
+  /// Of a SecondOrderCone: x_0 - (x_1^2 + x_2^2)^(1/2), which is > 0. Near the boundary of the cone
+  /// the difference of the numbers in `x` has no digits, and this number has all of them.
+  double inside = 0;
+};
+
+/// The largest t with u + t d in the second-order cone; infinity if there is none.
+inline double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
+  const auto& x = u.x;
   double length = std::numeric_limits<double>::infinity();
   if (d[0] < 0) length = -x[0] / d[0];
   // The boundary is at a root of a t^2 + 2 b t + c, the determinant of x + t d. The formula avoids
   // the difference of nearly equal numbers.
-  const double a = determinant(d), b = x[0] * d[0] - x[1] * d[1] - x[2] * d[2], c = determinant(x);
+  const double a = determinant(d), b = x[0] * d[0] - x[1] * d[1] - x[2] * d[2],
+               c = u.inside * (x[0] + beside_axis(x));
   const double square = b * b - a * c;
   if (!(square >= 0)) return length;
   const double sum = -(b + std::copysign(std::sqrt(square), b));
@@ -65,80 +75,107 @@ inline double length_to_boundary(const ConePoint& x, const ConePoint& d) {
   return length;
 }
 
-/// The scaling of a point u and a dual point r, both inside the cone: the symmetric matrix W with
-/// W^-1 u = W r that maps the cone onto itself. W is size_ times a matrix that depends on point_.
+/// The scaling of a point u and a dual point r, both inside the second-order cone: the symmetric
+/// matrix W with W^-1 u = W r that maps the cone onto itself. With a unit vector d of directions 1
+/// and 2, and the vector d' at right angles to d, a point x has the numbers x_0 + d.x, x_0 - d.x and
+/// d'.x. W multiplies each number by a factor of its own. Near a solution one number of u and one of
+/// r are much smaller than the components; they come from InnerPoint::inside and keep their digits.
 class ConeScaling {
  public:
   ConeScaling() = default;
   /// For points inside the cone.
-  ConeScaling(const ConePoint& u, const ConePoint& r) {
-    const double of_u = std::sqrt(determinant(u)), of_r = std::sqrt(determinant(r));
-    size_ = std::sqrt(of_u / of_r);
-    const double length = std::sqrt(2 * (1 + inner(u, r) / (of_u * of_r)));
-    for (std::size_t k = 0; k < 3; ++k)
-      point_[k] = (u[k] / of_u + (k == 0 ? 1 : -1) * r[k] / of_r) / length;
+  ConeScaling(const InnerPoint& u, const InnerPoint& r) {
+    const double of_u = std::sqrt(u.inside * (u.x[0] + beside_axis(u.x)));
+    const double of_r = std::sqrt(r.inside * (r.x[0] + beside_axis(r.x)));
+    const ConePoint along{0, u.x[1] / of_u - r.x[1] / of_r, u.x[2] / of_u - r.x[2] / of_r};
+    const double length = beside_axis(along);
+    if (length > 0) direction_ = {0, along[1] / length, along[2] / length};
+    const auto of_point = numbers(u), of_dual = numbers(r);
+    for (std::size_t k = 0; k < 2; ++k) square_[k] = of_point[k] / of_dual[k];
+    square_[2] = std::sqrt(square_[0] * square_[1]);
+    for (std::size_t k = 0; k < 3; ++k) scaled_[k] = std::sqrt(square_[k]) * of_dual[k];
   }
 
-  /// W x.
-  ConePoint times(const ConePoint& x) const { return product(x, size_, 1); }
+  /// The numbers of a point.
+  ConePoint numbers(const ConePoint& x) const {
+    const double along = direction_[1] * x[1] + direction_[2] * x[2];
+    return {x[0] + along, x[0] - along, direction_[1] * x[2] - direction_[2] * x[1]};
+  }
+  /// The point with these numbers.
+  ConePoint point(const ConePoint& y) const {
+    const double along = (y[0] - y[1]) / 2;
+    return {(y[0] + y[1]) / 2, along * direction_[1] - y[2] * direction_[2],
+            along * direction_[2] + y[2] * direction_[1]};
+  }
+  /// W r = W^-1 u.
+  ConePoint scaled() const { return point(scaled_); }
+  /// u.r.
+  double product_of_points() const { return inner(scaled(), scaled()); }
+  /// The numbers of W x.
+  ConePoint times(const ConePoint& x) const {
+    auto y = numbers(x);
+    for (std::size_t k = 0; k < 3; ++k) y[k] *= std::sqrt(square_[k]);
+    return y;
+  }
   /// W^-1 x.
-  ConePoint divide(const ConePoint& x) const { return product(x, 1 / size_, -1); }
+  ConePoint divide(const ConePoint& x) const {
+    auto y = numbers(x);
+    for (std::size_t k = 0; k < 3; ++k) y[k] /= std::sqrt(square_[k]);
+    return point(y);
+  }
 
-  /// (W^2 + shift I)^-1, row by row, for a number shift >= 0. It is computed from the eigenvalues
-  /// of W^2, so that points near the boundary of the cone lose no digits.
+  /// (W^2 + shift I)^-1 times the point with these numbers, for a number shift >= 0.
+  ConePoint solve(double shift, const ConePoint& y) const {
+    return point(
+        {y[0] / (square_[0] + shift), y[1] / (square_[1] + shift), y[2] / (square_[2] + shift)});
+  }
+  /// (W^2 + shift I)^-1, row by row.
   std::array<ConePoint, 3> inverse_square(double shift) const {
-    const auto [along, against, across, direction] = eigenvalues(shift);
-    std::array<ConePoint, 3> inverse =
-        beside(1 / along / 2 + 1 / against / 2, 1 / across, direction);
-    inverse[0][0] = (1 / along + 1 / against) / 2;
+    const double along = 1 / (square_[0] + shift), against = 1 / (square_[1] + shift);
+    auto inverse = beside((along + against) / 2, 1 / (square_[2] + shift));
+    inverse[0][0] = (along + against) / 2;
     for (std::size_t k = 1; k < 3; ++k)
-      inverse[0][k] = inverse[k][0] = (1 / along - 1 / against) / 2 * direction[k];
+      inverse[0][k] = inverse[k][0] = (along - against) / 2 * direction_[k];
     return inverse;
   }
-  /// The inverse of the matrix that remains of W^2 + shift I without its first row and column. Its
-  /// entries are in rows and columns 1 and 2 of the result; row and column 0 are 0.
-  std::array<ConePoint, 3> inverse_square_beside(double shift) const {
-    const auto [along, against, across, direction] = eigenvalues(shift);
-    return beside(2 / (along + against), 1 / across, direction);
+  /// solve() with the matrix that remains of W^2 + shift I without its first row and column.
+  ConePoint solve_beside(double shift, const ConePoint& y) const {
+    const double along = (y[0] - y[1]) / (square_[0] + square_[1] + 2 * shift);
+    return point({along, -along, y[2] / (square_[2] + shift)});
   }
-  /// (W^2)_01 x_1 + (W^2)_02 x_2.
-  double square_along(const ConePoint& x) const {
-    const auto [along, against, across, direction] = eigenvalues(0);
-    return (along - against) / 2 * (direction[1] * x[1] + direction[2] * x[2]);
+  /// The inverse of that matrix. Its entries are in rows and columns 1 and 2 of the result; row and
+  /// column 0 are 0.
+  std::array<ConePoint, 3> inverse_square_beside(double shift) const {
+    return beside(2 / (square_[0] + square_[1] + 2 * shift), 1 / (square_[2] + shift));
+  }
+  /// The du_0 with which the second number of W^2 dr + du is that of a goal, for given dr and other
+  /// components of du.
+  double first_change(const ConePoint& goal, const ConePoint& dr, const ConePoint& du) const {
+    return goal[1] - square_[1] * numbers(dr)[1] - numbers(ConePoint{0, du[1], du[2]})[1];
   }
 
  private:
-  // Eigenvalues of W^2 + shift I: `along` of the vector (1, direction), `against` of (1,
-  // -direction), and `across` of the vector at right angles to both.
-  struct Eigenvalues {
-    double along, against, across;
-    ConePoint direction;
-  };
-  Eigenvalues eigenvalues(double shift) const {
-    const double length = beside_axis(point_), grown = point_[0] + length, square = size_ * size_;
-    const ConePoint direction =
-        length > 0 ? ConePoint{0, point_[1] / length, point_[2] / length} : ConePoint{0, 1, 0};
-    return {square * grown * grown + shift, square / (grown * grown) + shift, square + shift,
-            direction};
+  ConePoint numbers(const InnerPoint& of) const {
+    auto y = numbers(of.x);
+    const double beside = beside_axis(of.x);
+    const double along = direction_[1] * of.x[1] + direction_[2] * of.x[2];
+    // |x| - |d.x| = (d'.x)^2/(|x| + |d.x|)
+    y[along < 0 ? 0 : 1] = of.inside + (beside > 0 ? y[2] * y[2] / (beside + std::abs(along)) : 0);
+    return y;
   }
   // The matrix in rows and columns 1 and 2 that has the eigenvalue `along` for the vector
-  // `direction`, and `across` for the vector at right angles to it.
-  static std::array<ConePoint, 3> beside(double along, double across, const ConePoint& direction) {
+  // direction_, and `across` for the vector at right angles to it.
+  std::array<ConePoint, 3> beside(double along, double across) const {
     std::array<ConePoint, 3> matrix{};
     for (std::size_t k = 1; k < 3; ++k)
       for (std::size_t l = 1; l < 3; ++l)
-        matrix[k][l] = (along - across) * direction[k] * direction[l] + (k == l ? across : 0);
+        matrix[k][l] = (along - across) * direction_[k] * direction_[l] + (k == l ? across : 0);
     return matrix;
   }
-  ConePoint product(const ConePoint& x, double factor, double sign) const {
-    const double beside = point_[1] * x[1] + point_[2] * x[2];
-    const double along = sign * x[0] + beside / (1 + point_[0]);
-    return {factor * (point_[0] * x[0] + sign * beside), factor * (x[1] + point_[1] * along),
-            factor * (x[2] + point_[2] * along)};
-  }
 
-  double size_ = 1;
-  ConePoint point_{1, 0, 0};  // of determinant 1
+  ConePoint direction_{0, 1, 0};  // d
+  ConePoint square_{1, 1, 1};     // squares of the factors of W
+  ConePoint scaled_{1, 1, 0};     // numbers of W r
 };
 
 /// The operations that interior points need on a cone, for a second-order cone.
@@ -151,8 +188,16 @@ struct SecondOrderCone {
     return jordan_quotient(z, x);
   }
   /// particles::length_to_boundary(); the number of rows, which LinearCones needs, is not used.
-  static double length_to_boundary(const ConePoint& x, const ConePoint& d, std::size_t) {
-    return particles::length_to_boundary(x, d);
+  static double length_to_boundary(const InnerPoint& u, const ConePoint& d, std::size_t) {
+    return particles::length_to_boundary(u, d);
+  }
+  /// Adds t d to a point, which stays inside the cone.
+  static void move(InnerPoint& u, double t, const ConePoint& d) {
+    const double before = beside_axis(u.x);
+    const double twice = 2 * (u.x[1] * d[1] + u.x[2] * d[2]) + t * (d[1] * d[1] + d[2] * d[2]);
+    for (std::size_t k = 0; k < 3; ++k) u.x[k] += t * d[k];
+    const double sum = before + beside_axis(u.x);
+    u.inside += t * (d[0] - (sum > 0 ? twice / sum : 0));
   }
   /// The unit of the product: product(unit, x) = x.
   static ConePoint unit(std::size_t) { return {1, 0, 0}; }
@@ -171,15 +216,26 @@ struct SecondOrderCone {
 /// inside the cone, and points near the boundary lose no digits in them. In one dimension the only
 /// coordinate is x_0. Coordinates that a cone does not have are 0.
 struct LinearCones {
-  /// The scaling W of a point u and a dual point r. It is diagonal: the roots of the ratios of
-  /// their coordinates.
+  /// The functions of ConeScaling. The numbers of a point are its coordinates, and W is diagonal:
+  /// the squares of its factors are the ratios of the coordinates of u and r.
   class Scaling {
    public:
     Scaling() = default;
     /// For points inside the cone.
-    Scaling(const ConePoint& u, const ConePoint& r) {
-      for (std::size_t k = 0; k < 3; ++k) square_[k] = r[k] > 0 ? u[k] / r[k] : 1;
+    Scaling(const InnerPoint& u, const InnerPoint& r) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        square_[k] = r.x[k] > 0 ? u.x[k] / r.x[k] : 1;
+        scaled_[k] = std::sqrt(u.x[k] * r.x[k]);
+      }
     }
+    /// The coordinates of a point.
+    static ConePoint numbers(const ConePoint& x) { return x; }
+    /// The point with these coordinates.
+    static ConePoint point(const ConePoint& y) { return y; }
+    /// W r = W^-1 u.
+    ConePoint scaled() const { return scaled_; }
+    /// u.r.
+    double product_of_points() const { return inner(scaled_, scaled_); }
     /// W x.
     ConePoint times(const ConePoint& x) const {
       ConePoint y;
@@ -192,23 +248,35 @@ struct LinearCones {
       for (std::size_t k = 0; k < 3; ++k) y[k] = x[k] / std::sqrt(square_[k]);
       return y;
     }
+    /// (W^2 + shift I)^-1 x.
+    ConePoint solve(double shift, const ConePoint& x) const {
+      return {x[0] / (square_[0] + shift), x[1] / (square_[1] + shift),
+              x[2] / (square_[2] + shift)};
+    }
     /// (W^2 + shift I)^-1 in coordinates, row by row.
     std::array<ConePoint, 3> inverse_square(double shift) const {
       std::array<ConePoint, 3> inverse{};
       for (std::size_t k = 0; k < 3; ++k) inverse[k][k] = 1 / (square_[k] + shift);
       return inverse;
     }
-    /// The function of ConeScaling, which takes and gives components, not coordinates.
+    /// The function of ConeScaling.
+    ConePoint solve_beside(double shift, const ConePoint& x) const {
+      const double along = (x[0] - x[1]) / (square_[0] + square_[1] + 2 * shift);
+      return {along, -along, 0};
+    }
+    /// The function of ConeScaling, which gives components, not coordinates.
     std::array<ConePoint, 3> inverse_square_beside(double shift) const {
       std::array<ConePoint, 3> inverse{};
       inverse[1][1] = 2 / (square_[0] + square_[1] + 2 * shift);
       return inverse;
     }
-    /// The function of ConeScaling, of components, not coordinates.
-    double square_along(const ConePoint& x) const { return (square_[0] - square_[1]) / 2 * x[1]; }
+    /// The function of ConeScaling. du and the result are components, goal and dr coordinates.
+    double first_change(const ConePoint& goal, const ConePoint& dr, const ConePoint& du) const {
+      return std::numbers::sqrt2 * (goal[1] - square_[1] * dr[1]) + du[1];
+    }
 
    private:
-    ConePoint square_{1, 1, 1};
+    ConePoint square_{1, 1, 1}, scaled_{};
   };
   /// Products of the coordinates.
   static ConePoint product(const ConePoint& x, const ConePoint& y) {
@@ -222,11 +290,15 @@ struct LinearCones {
     return y;
   }
   /// The largest t with x + t d in the cone, for an x inside it that has `rows` coordinates.
-  static double length_to_boundary(const ConePoint& x, const ConePoint& d, std::size_t rows) {
+  static double length_to_boundary(const InnerPoint& u, const ConePoint& d, std::size_t rows) {
     double length = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < rows; ++k)
-      if (d[k] < 0) length = std::min(length, -x[k] / d[k]);
+      if (d[k] < 0) length = std::min(length, -u.x[k] / d[k]);
     return length;
+  }
+  /// Adds t d to a point, which stays inside the cone.
+  static void move(InnerPoint& u, double t, const ConePoint& d) {
+    for (std::size_t k = 0; k < 3; ++k) u.x[k] += t * d[k];
   }
   /// The unit of the product in a cone with `rows` coordinates: 1 for each of them.
   static ConePoint unit(std::size_t rows) { return {1, rows > 1 ? 1.0 : 0.0, 0}; }

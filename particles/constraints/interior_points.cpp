@@ -145,16 +145,16 @@ double InteriorPoints<D>::measure() {
     largest = largest_or_nan(largest, std::abs(part.error));
   }
   for (auto& part : cones_) {
-    add_impulse(part, part.r, error_);
+    add_impulse(part, part.r.x, error_);
     part.error = values(part, true, y_);
-    for (std::size_t k = 0; k < dimension(part); ++k) part.error[k] -= part.u[k];
+    for (std::size_t k = 0; k < dimension(part); ++k) part.error[k] -= part.u.x[k];
     if (part.is_bound_given) {
       // There is no row for z.
       auto components = Cone::coordinates(part.error);
       components[0] = 0;
       part.error = Cone::coordinates(components);
     }
-    add_product(inner(part.u, part.r));
+    add_product(part.scaling.product_of_points());
     for (const double e : part.error) largest = largest_or_nan(largest, std::abs(e));
   }
   if (degree_ > 0) gap_ /= degree_;
@@ -176,11 +176,8 @@ void InteriorPoints<D>::set_scaling(Single& part) {
 
 template <int D>
 void InteriorPoints<D>::set_scaling(Cones& part) {
-  part.scaling = typename Cone::Scaling(part.u, part.r);
-  for (std::size_t k = 0; k < 3; ++k) part.goal[k] = -part.u[k];
-  part.inverse = part.is_bound_given
-                     ? in_other_coordinates(part.scaling.inverse_square_beside(kRegularisation))
-                     : part.scaling.inverse_square(kRegularisation);
+  part.goal = part.scaling.times(part.scaling.scaled());
+  for (double& number : part.goal) number = -number;
 }
 
 /// A matrix of a part in the coordinates of its cone, given in its components, and back.
@@ -206,7 +203,9 @@ bool InteriorPoints<D>::factorise() {
   }
   for (auto& part : cones_) {
     set_scaling(part);
-    const auto weights = in_other_coordinates(part.inverse);
+    const auto weights = part.is_bound_given
+                             ? part.scaling.inverse_square_beside(kRegularisation)
+                             : in_other_coordinates(part.scaling.inverse_square(kRegularisation));
     for (std::size_t k = 0; k < part.rows; ++k)
       for (std::size_t l = 0; l < part.rows; ++l) {
         const std::size_t i = part.first + k, j = part.first + l;
@@ -216,6 +215,13 @@ bool InteriorPoints<D>::factorise() {
       }
   }
   return matrix_.factorise();
+}
+
+/// The change of r with which W^2 dr + du has these numbers, if du is the regularisation's.
+template <int D>
+ConePoint InteriorPoints<D>::change_of_r(const Cones& part, const ConePoint& numbers) {
+  return part.is_bound_given ? part.scaling.solve_beside(kRegularisation, numbers)
+                             : part.scaling.solve(kRegularisation, numbers);
 }
 
 /// Sets the changes of y, u and r that reach the goals, by this number of solutions. Rounding
@@ -230,9 +236,9 @@ void InteriorPoints<D>::find_direction(int solutions) {
     part.change_of_u = part.error;
   }
   for (auto& part : cones_) {
-    ConePoint left{};
-    for (std::size_t k = 0; k < dimension(part); ++k) left[k] = part.goal[k] - part.error[k];
-    for (std::size_t k = 0; k < 3; ++k) part.change_of_r[k] = inner(part.inverse[k], left);
+    auto left = part.scaling.numbers(part.error);
+    for (std::size_t k = 0; k < 3; ++k) left[k] = part.goal[k] - left[k];
+    part.change_of_r = change_of_r(part, left);
     add_impulse(part, part.change_of_r, right_);
     part.change_of_u = part.error;
   }
@@ -245,9 +251,10 @@ void InteriorPoints<D>::find_direction(int solutions) {
     }
     for (auto& part : cones_) {
       const auto moved = values(part, false, right_);
+      const auto less = change_of_r(part, part.scaling.numbers(moved));
       for (std::size_t k = 0; k < dimension(part); ++k) {
         part.change_of_u[k] += moved[k];
-        part.change_of_r[k] -= inner(part.inverse[k], moved);
+        part.change_of_r[k] -= less[k];
       }
     }
     if (n == 0) {
@@ -270,10 +277,10 @@ void InteriorPoints<D>::find_direction(int solutions) {
     for (std::size_t k = 0; k < dimension(part); ++k)
       part.change_of_u[k] += kRegularisation * part.change_of_r[k];
     if (!part.is_bound_given) continue;
-    // The change of z follows from the first row of W^2 dr + du = goal.
+    // The change of z follows from the second number of W^2 dr + du, which the goal gives with all
+    // digits: the first one is much larger.
     auto change = Cone::coordinates(part.change_of_u);
-    change[0] = Cone::coordinates(part.goal)[0] -
-                part.scaling.square_along(Cone::coordinates(part.change_of_r));
+    change[0] = part.scaling.first_change(part.goal, part.change_of_r, change);
     part.change_of_u = Cone::coordinates(change);
   }
 }
@@ -301,19 +308,19 @@ void InteriorPoints<D>::set_corrector(double gap_before, double length) {
     if (!part.is_equation)
       after += (part.u + length * part.change_of_u) * (part.r + length * part.change_of_r);
   for (const auto& part : cones_)
-    for (std::size_t k = 0; k < dimension(part); ++k)
-      after +=
-          (part.u[k] + length * part.change_of_u[k]) * (part.r[k] + length * part.change_of_r[k]);
+    after += part.scaling.product_of_points() +
+             length * (inner(part.u.x, part.change_of_r) + inner(part.change_of_u, part.r.x) +
+                       length * inner(part.change_of_u, part.change_of_r));
   const double ratio = std::clamp(after / (degree_ * gap_before), 0.0, 1.0);
   const double centre = ratio * ratio * ratio * gap_before;
   for (auto& part : singles_)
     if (!part.is_equation)
       part.goal = (centre - part.change_of_u * part.change_of_r) / part.r - part.u;
   for (auto& part : cones_) {
-    const auto scaled = part.scaling.times(part.r);
+    const auto scaled = part.scaling.scaled();
     const auto square = Cone::product(scaled, scaled);
-    const auto second =
-        Cone::product(part.scaling.divide(part.change_of_u), part.scaling.times(part.change_of_r));
+    const auto second = Cone::product(part.scaling.divide(part.change_of_u),
+                                      part.scaling.point(part.scaling.times(part.change_of_r)));
     ConePoint goal = Cone::unit(dimension(part));
     for (std::size_t k = 0; k < 3; ++k) goal[k] = centre * goal[k] - square[k] - second[k];
     part.goal = part.scaling.times(Cone::quotient(goal, scaled));
@@ -328,11 +335,11 @@ void InteriorPoints<D>::move(double length) {
     if (!part.is_equation) part.u += length * part.change_of_u;
     part.r += length * part.change_of_r;
   }
-  for (auto& part : cones_)
-    for (std::size_t k = 0; k < dimension(part); ++k) {
-      part.u[k] += length * part.change_of_u[k];
-      part.r[k] += length * part.change_of_r[k];
-    }
+  for (auto& part : cones_) {
+    Cone::move(part.u, length, part.change_of_u);
+    Cone::move(part.r, length, part.change_of_r);
+    part.scaling = typename Cone::Scaling(part.u, part.r);
+  }
 }
 
 /// Takes the impulses. Those of contacts that open are 0 at the solution, and are made exactly 0,
@@ -345,7 +352,7 @@ void InteriorPoints<D>::take_impulses() {
     impulses_[part.row] = part.base + (is_open ? 0 : part.scale * part.r);
   }
   for (const auto& part : cones_) {
-    const auto r = part.is_bound_given ? part.r : Cone::without_open_part(part.u, part.r);
+    const auto r = part.is_bound_given ? part.r.x : Cone::without_open_part(part.u.x, part.r.x);
     const auto impulse = impulse_of(part, r);
     for (std::size_t k = 0; k < part.rows; ++k) impulses_[part.row + k] = impulse[part.first + k];
   }
@@ -366,9 +373,12 @@ void InteriorPoints<D>::start(double size) {
     double share = 1;
     if (part.is_bound_given) share = part.scaled_bound / (Cone::coordinates(unit)[0] * size);
     for (std::size_t k = 0; k < 3; ++k) {
-      part.r[k] = size * unit[k] * share;
-      part.u[k] = size * unit[k] / share;
+      part.r.x[k] = size * unit[k] * share;
+      part.u.x[k] = size * unit[k] / share;
     }
+    part.r.inside = size * share;
+    part.u.inside = size / share;
+    part.scaling = typename Cone::Scaling(part.u, part.r);
   }
 }
 

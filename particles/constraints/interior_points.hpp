@@ -69,13 +69,12 @@ class InteriorPoints {
     std::size_t block = 0, row = 0, rows = 1;  // row: the first one
     std::size_t first = 0;                     // component of u and r that is of the first row
     ConePoint scale{};                         // of the components
-    ConePoint u{}, r{};                        // the present point
+    InnerPoint u, r;                           // the present point
     ConePoint change_of_u{}, change_of_r{};
     double scaled_bound = 0;  // first component of r of a given bound
     ConePoint error{};        // value of the rows minus u
-    ConePoint goal{};         // W^2 dr + du
+    ConePoint goal{};         // numbers of W^2 dr + du
     typename Cone::Scaling scaling;
-    std::array<ConePoint, 3> inverse{};  // d(r)/d(goal - error)
   };
   // Components of u and r.
   static std::size_t dimension(const Cones& part) { return part.first + part.rows; }
@@ -87,6 +86,7 @@ class InteriorPoints {
   double value(const Single& part, const std::vector<Motion<D>>& y) const;
   static void set_scaling(Single& part);
   static void set_scaling(Cones& part);
+  static ConePoint change_of_r(const Cones& part, const ConePoint& numbers);
   static std::array<ConePoint, 3> in_other_coordinates(const std::array<ConePoint, 3>& matrix);
   double largest_value() const;
   double measure();

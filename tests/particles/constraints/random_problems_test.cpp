@@ -117,7 +117,8 @@ TEST(RandomConstraintProblems, ObeyTheRelaxationInSpace) { solve_random_problems
 TEST(RandomConstraintProblems, ObeyGivenLoadsInThePlane) { solve_random_problems<2>(true, true); }
 TEST(RandomConstraintProblems, ObeyGivenLoadsInSpace) { solve_random_problems<3>(true, true); }
 
-TEST(InteriorPointsOfFriction, SolveRedundantProblemsInThePlane) {
+template <int D>
+void solve_redundant_problems() {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
     RandomConstraints what;
@@ -125,17 +126,19 @@ TEST(InteriorPointsOfFriction, SolveRedundantProblemsInThePlane) {
     what.friction = 0.05 * seed;
     what.has_links = seed % 2 == 0;
     what.has_films = seed % 3 == 0;
-    auto problem = random_constraints<2>(what, {}, seed);
+    auto problem = random_constraints<D>(what, {}, seed);
     make_convex(problem, {}, seed);
-    const auto w = row_mobilities<2>(problem);
-    UnitMatrix<2> matrix(problem, true);
-    InteriorPoints<2> interior(problem, w, matrix);
+    const auto w = row_mobilities<D>(problem);
+    UnitMatrix<D> matrix(problem, true);
+    InteriorPoints<D> interior(problem, w, matrix);
     // The method is known for 10 to 40 iterations, whatever the problem is.
     EXPECT_LE(interior.solve(1e-8, 100), 40);
     // A residual bounds what is missing from a condition but for a factor below 10, as above.
     expect_solved(problem, interior.impulses(), 1e-7);
   }
 }
+TEST(InteriorPointsOfFriction, SolveRedundantProblemsInThePlane) { solve_redundant_problems<2>(); }
+TEST(InteriorPointsOfFriction, SolveRedundantProblemsInSpace) { solve_redundant_problems<3>(); }
 
 /// Films that pull, and nothing else: without their impulses nothing moves, and the guess is wrong.
 TEST(InteriorPointsOfFriction, BeginWithTheImpulsesOfTheFilms) {
