@@ -21,7 +21,7 @@ TEST(SecondOrderCone, KeepsTheDigitsOfProductsNearTheBoundary) {
   Random random(1);
   for (int n = 0; n < 200; ++n) {
     SCOPED_TRACE(n);
-    const double angle = random.between(0, 6), turned = random.between(0, 1e-9);
+    const double angle = random.uniform(0, 6), turned = random.uniform(0, 1e-9);
     const double u = random.decades(-2, 2), r = random.decades(-2, 2);
     const double i = u * random.decades(-15, 0), j = r * random.decades(-15, 0);
     const InnerPoint point{{u + i, u * std::cos(angle), u * std::sin(angle)}, i};
