@@ -296,8 +296,8 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     // must also have an error of kExact of the first one, or not be able to halve the error again.
     const bool is_linear = D == 2 || here <= kExact * first ||
                            ((is_fresh || !problem_.is_convex) && here > before / 2);
-    // For spheres the matrix also changes while they slip. It is factorised again if the last step
-    // with earlier factors has not reduced the error to kSlow of it.
+    // For spheres the matrix also changes while they slip. In convex problems it is factorised
+    // again if a step with earlier factors did not reduce the error to kSlow of it.
     if (D == 3 && problem_.is_convex && !is_fresh && here > kSlow * before) has_factor_ = false;
     if (here == 0 || (length == 1 && last == branches_ && is_linear)) break;
     // In convex problems the error may grow on the way to the minimum. If it is of the size of
