@@ -1,10 +1,9 @@
-// Sparse LU or Cholesky factorisation of a matrix of dense blocks of K x K numbers, and the
-// assembly of the matrices of contacts and links that it factorises (block_factor.hpp). The
-// factorisation is left-looking: it computes one column of L and row of U after the other, and
-// subtracts from each the products of all earlier ones. The numbers of the matrix may have any
-// units. factorise() returns false for a singular matrix; nothing is thrown or checked.
-// constraint_system.cpp, interior_points.cpp and proximal_step.cpp use it. A change of the order of
-// sums changes the last bits of all results of steps with friction or links.
+// Sparse LU or Cholesky factorisation of a matrix of dense blocks of K x K numbers in any units,
+// and the assembly of such matrices for contacts and links (block_factor.hpp). The factorisation is
+// left-looking: it computes one column of L and row of U after the other, and subtracts from each
+// the products of all earlier ones. factorise() returns false for a singular matrix; nothing is
+// thrown or checked. constraint_system.cpp, interior_points.cpp and proximal_step.cpp use it. A
+// change of the order of sums changes the last bits of all results of steps with friction or links.
 #include "viscontact/particles/constraints/block_factor.hpp"
 
 #include <metis.h>
@@ -47,8 +46,7 @@ inline Block transposed(const Block& a) {
 }
 
 // A block on the diagonal can have eigenvalues that differ by a factor of 1e9. Products with its
-// inverse would lose the digits of the small ones. Substitutions with its factors, as in the
-// following functions, keep them.
+// inverse would lose the digits of the small ones; substitutions with its factors keep them.
 
 /// Replaces the lower triangle of a symmetric block by its Cholesky factor L, but the diagonal by
 /// the inverses of that of L. Returns false if the block is not positive definite.
@@ -170,9 +168,8 @@ std::vector<std::int32_t> order_of_elimination(std::size_t bodies,
   }
   std::vector<std::int32_t> order(bodies);
   Eigen::SparseMatrix<double> pattern(count, count);
-  // From these numbers of bodies on METIS is worth its time, which is longer than that of AMD. With
-  // its order a factorisation takes 0.58 of the time with AMD's order for 2000 spheres in a box,
-  // and 0.86 for 10 000 discs.
+  // From these numbers of bodies on METIS is worth its time. With its order a factorisation takes
+  // 0.58 of the time with AMD's order for 2000 spheres, and 0.86 for 10 000 discs.
   constexpr std::size_t kManyBodies = K == 6 ? 500 : 5000;
   static_assert(std::is_same_v<idx_t, std::int32_t>);
   if (bodies >= kManyBodies && !edges.empty()) {

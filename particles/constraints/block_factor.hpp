@@ -2,9 +2,9 @@
 // contacts and links of a time step that it factorises (UnitMatrix). The matrix has a row of blocks
 // for each body: a particle, or a rigid body of several particles. Its pattern is symmetric.
 // Lengths [L], masses [M] and times [T] are in any consistent units. A singular matrix makes
-// factorise() return false; nothing is thrown, and arguments are not checked. Used by
-// constraint_system.cpp, interior_points.hpp and proximal_step.hpp. The bits of all results of
-// steps with friction or links depend on the order of elimination and on the order of sums.
+// factorise() return false; nothing is checked or thrown. Used by constraint_system.cpp,
+// interior_points.hpp and proximal_step.hpp. The bits of all results of steps with friction or
+// links depend on the order of elimination and on the order of sums.
 #pragma once
 
 #include <array>
@@ -56,8 +56,7 @@ class BlockFactor {
     const auto& place = edges_[edge];
     return (place.later == from ? below_ : above_)[place.entry];
   }
-  /// True if edge[from] is eliminated after the other body, so that this block is below the
-  /// diagonal.
+  /// True if this block is below the diagonal: edge[from] is eliminated after the other body.
   bool is_below(std::size_t edge, std::size_t from) const { return edges_[edge].later == from; }
 
   /// Replaces A by its factors. Returns false, with unusable factors, if a block on the diagonal
@@ -91,10 +90,10 @@ class BlockFactor {
   std::vector<Block> below_;  // blocks of A below the diagonal, then L
   std::vector<Block> above_;  // blocks of A above the diagonal, each at the place of its mirror
                               // image in below_; then U. Empty if A is symmetric.
-  // Of factorise(), which computes one column after the other. next_entry_: the first entry of each
-  // finished column that has not been used yet. first_in_row_, next_in_row_: for each row the
-  // linked list of the columns whose next entry is in it, -1 at its end. entry_in_row_: the entry
-  // of the present column in each row.
+  // Of factorise(), which computes one column after the other. next_entry_: the first unused entry
+  // of each finished column. first_in_row_, next_in_row_: for each row the linked list of the
+  // columns whose next entry is in it, ended by -1. entry_in_row_: the entry of the present column
+  // in each row.
   std::vector<std::int32_t> first_in_row_, next_in_row_;
   std::vector<std::size_t> next_entry_, entry_in_row_;
   mutable std::vector<Vec> permuted_;

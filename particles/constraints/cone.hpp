@@ -2,14 +2,12 @@
 // that the method of interior points needs: products, the distance to the boundary, and the scaling
 // of Nesterov & Todd between a point of the cone and a dual point (Alizadeh & Goldfarb 2003,
 // "Second-order cone programming"; Vandenberghe 2010, "The CVXOPT linear and quadratic cone program
-// solvers"). In one dimension the cone is x_0 >= 0, and in two dimensions |x_1| <= x_0, which are
-// two linear conditions.
+// solvers"). In one dimension the cone is x_0 >= 0, in two |x_1| <= x_0.
 //
 // All components of a point have the same unit, which the caller chooses: the root of [M L^2/T] in
 // interior_points.hpp, [M L/T] in constraint_solver.cpp. Only these two use this header. Nothing is
 // checked or thrown: operations that need a point inside the cone give NaN or infinity for another
-// one. A change must keep the accuracy for points near the boundary, because points near a solution
-// are there.
+// one. A change must keep the accuracy near the boundary, where solutions are.
 #pragma once
 
 #include <algorithm>
@@ -33,16 +31,14 @@ inline double inner(const ConePoint& x, const ConePoint& y) {
 /// The distance of a point from the axis of the cone, (x_1^2 + x_2^2)^(1/2).
 inline double beside_axis(const ConePoint& x) { return std::hypot(x[1], x[2]); }
 
-/// x_0^2 - x_1^2 - x_2^2, for x_0 > 0 positive inside the cone and 0 on its boundary. It is
-/// computed as a product of two factors, which has fewer rounding errors than a difference of
-/// squares.
+/// x_0^2 - x_1^2 - x_2^2, for x_0 > 0 positive inside the cone and 0 on its boundary. The product
+/// of two factors has fewer rounding errors than the difference of squares.
 inline double determinant(const ConePoint& x) {
   const double beside = beside_axis(x);
   return (x[0] - beside) * (x[0] + beside);
 }
 
-/// The product of the Jordan algebra of the cone: (x.y, x_0 y_1 + y_0 x_1, x_0 y_2 + y_0 x_2),
-/// where x.y is inner(x, y).
+/// The product of the cone's Jordan algebra: (inner(x, y), x_0 y_1 + y_0 x_1, x_0 y_2 + y_0 x_2).
 inline ConePoint jordan_product(const ConePoint& x, const ConePoint& y) {
   return {inner(x, y), x[0] * y[1] + y[0] * x[1], x[0] * y[2] + y[0] * x[2]};
 }
@@ -56,9 +52,8 @@ inline ConePoint jordan_quotient(const ConePoint& z, const ConePoint& x) {
 /// A point inside a cone.
 struct InnerPoint {
   ConePoint x{};  ///< the point, in the coordinates of SecondOrderCone or LinearCones
-  /// In a SecondOrderCone x_0 - (x_1^2 + x_2^2)^(1/2), > 0, with a small relative error;
-  /// LinearCones do not use it. Near the boundary this difference, computed from `x`, is only a
-  /// rounding error.
+  /// In a SecondOrderCone x_0 - (x_1^2 + x_2^2)^(1/2), > 0, with a small relative error, which the
+  /// difference computed from `x` does not have near the boundary. Not used by LinearCones.
   double inside = 0;
 };
 
@@ -161,9 +156,8 @@ class ConeScaling {
   }
 
  private:
-  // The numbers of a point. The smaller one of x_0 + d.x and x_0 - d.x is x_0 - |d.x|, which is
-  // computed as InnerPoint::inside plus b - |d.x|, with the distance b from the axis and
-  // b - |d.x| = (d'.x)^2/(b + |d.x|).
+  // The numbers of a point. The smaller one of x_0 + d.x and x_0 - d.x is InnerPoint::inside plus b
+  // - |d.x| = (d'.x)^2/(b + |d.x|), with the distance b from the axis.
   ConePoint numbers(const InnerPoint& of) const {
     auto y = numbers(of.x);
     const double beside = beside_axis(of.x);
@@ -186,8 +180,7 @@ class ConeScaling {
   ConePoint scaled_{1, 1, 0};     // numbers of W r
 };
 
-/// The operations of InteriorPoints on a second-order cone of three dimensions (contacts of
-/// spheres). LinearCones has the same functions, so that either can be a template argument.
+/// The operations of interior_points.hpp on a cone of three dimensions (contacts of spheres).
 struct SecondOrderCone {
   using Scaling = ConeScaling;  ///< scaling of Nesterov & Todd
   /// The product of the cone, jordan_product().
@@ -200,8 +193,8 @@ struct SecondOrderCone {
   static double length_to_boundary(const InnerPoint& u, const ConePoint& d, std::size_t) {
     return particles::length_to_boundary(u, d);
   }
-  /// Adds t d to a point, which must stay inside the cone. The change of `inside` is computed from
-  /// the change `twice` t of the squared distance from the axis, without loss of digits.
+  /// Adds t d to a point, which must stay inside the cone. The change of `inside` follows from that
+  /// of the squared distance from the axis, t `twice`.
   static void move(InnerPoint& u, double t, const ConePoint& d) {
     const double before = beside_axis(u.x);
     const double twice = 2 * (u.x[1] * d[1] + u.x[2] * d[2]) + t * (d[1] * d[1] + d[2] * d[2]);
@@ -211,9 +204,8 @@ struct SecondOrderCone {
   }
   /// The unit of the product, product(unit, x) = x. The argument is for LinearCones only.
   static ConePoint unit(std::size_t) { return {1, 0, 0}; }
-  /// An estimate of the dual point at the solution, where u.r = 0, from points u and r near it. If
-  /// u is farther from the boundary than r is large, u is inside the cone at the solution, and the
-  /// result is 0; otherwise it is r.
+  /// An estimate of the dual point at the solution, where u.r = 0, from points u and r near it. It
+  /// is 0 if u is farther from the boundary than r is large; otherwise it is r.
   static ConePoint without_open_part(const ConePoint& u, const ConePoint& r) {
     return u[0] - beside_axis(u) > r[0] + beside_axis(r) ? ConePoint{} : r;
   }
@@ -224,9 +216,8 @@ struct SecondOrderCone {
 
 /// The operations of SecondOrderCone for cones of one and two dimensions (contacts of discs). In
 /// two dimensions, |x_1| <= x_0, points have the coordinates (x_0 + x_1)/2^0.5 and (x_0 -
-/// x_1)/2^0.5. Both are positive inside the cone, and have small relative errors also near the
-/// boundary. In one dimension the only coordinate is x_0. Coordinates that a cone does not have are
-/// 0.
+/// x_1)/2^0.5. Both are > 0 inside the cone, and have small relative errors also near the boundary.
+/// In one dimension the coordinate is x_0. Other coordinates are 0.
 struct LinearCones {
   /// The functions of ConeScaling for points given by coordinates, which are also their numbers. W
   /// is diagonal in them: the squares of its entries are the ratios of the coordinates of u and r.
@@ -282,8 +273,7 @@ struct LinearCones {
       inverse[1][1] = 2 / (square_[0] + square_[1] + 2 * shift);
       return inverse;
     }
-    /// As ConeScaling::first_change(). `du` and the result are components, `goal` and `dr`
-    /// coordinates.
+    /// As ConeScaling::first_change(), but `goal` and `dr` are coordinates.
     double first_change(const ConePoint& goal, const ConePoint& dr, const ConePoint& du) const {
       return std::numbers::sqrt2 * (goal[1] - square_[1] * dr[1]) + du[1];
     }

@@ -1,9 +1,8 @@
 // The problem for the impulses of the contacts and links of a time step (constraint_problem.hpp):
 // motions for given impulses, mobilities, residuals, and the tangents and rows of contacts.
-// Lengths, masses and times are in any consistent units. Nothing is checked or thrown. Used by
-// constraints/, impacts/ and fluid/fluid_friction.cpp. A change of residual_of() alters which steps
-// count as converged. The two arms of a contact must end at one point, or friction would change the
-// angular momentum of a pair.
+// Lengths, masses and times are in any consistent units. Nothing is thrown. Used by constraints/,
+// impacts/ and fluid/fluid_friction.cpp. A change of residual_of() alters which steps count as
+// converged. Both arms of a contact must end at one point, to keep a pair's angular momentum.
 #include "viscontact/particles/constraints/constraint_problem.hpp"
 
 #include <algorithm>

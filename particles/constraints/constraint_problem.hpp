@@ -5,12 +5,12 @@
 // the length of the step, M are the masses m and moments of inertia I, u the velocities and w the
 // angular velocities, J the matrix of the coefficients of all rows, p the impulses of the rows.
 // Lengths [L], masses [M] and times [T] are in any consistent units. A row of an angle of a link
-// has values in [rad] and moments of impulses [M L^2/T] as impulses; where a comment says [L] and
-// [M L/T], read these for it. Nothing is checked or thrown.
+// has values in [rad] and moments of impulses [M L^2/T] as impulses; read these for [L] and [M L/T]
+// then. Nothing is checked or thrown.
 //
 // constraint_system.cpp (the steps), impacts/ (collisions) and fluid/fluid_friction.cpp make such
 // problems, and the other files of constraints/ solve them. A change must keep that contacts
-// without friction obey (5.4), and that the impulses of a pair have no moment together.
+// without friction obey (5.4), and the angular momentum of each pair.
 #pragma once
 
 #include <array>
@@ -74,9 +74,8 @@ struct RigidUnit {
   }
 };
 
-/// The unit of a particle that belongs to no rigid body, from h/m [T/M] and h/I [T/(M L^2)], both
-/// > 0, and from its motion without contacts and links: D numbers `displacement` [L] and kTurns
-/// numbers `turn` [rad].
+/// The unit of a particle without a rigid body: h/m [T/M], h/I [T/(M L^2)], both > 0, and its
+/// motion without contacts and links, D numbers `displacement` [L] and kTurns numbers `turn` [rad].
 template <int D>
 RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const double* displacement,
                               const double* turn);
@@ -93,17 +92,15 @@ struct RowPart {
 };
 
 /// A row of the problem. Its value after the motions of the units is `offset` plus the sum of its
-/// parts. A row of a contact has a part for each of its two particles, or one at an obstacle; a row
-/// of a link may have any number.
+/// parts: one for each particle of a contact, and any number in a link.
 struct ConstraintRow {
   double offset = 0;           ///< value of the row if no unit moves [L]
   std::size_t first_part = 0;  ///< number of the first part in ConstraintProblem::parts
   std::size_t parts = 0;       ///< number of parts, which follow each other there
 };
 
-/// What bounds the magnitude of the tangential impulse of a contact. The coefficient of friction is
-/// mu_s, and the load of the solids is the part of the normal impulse that the film does not
-/// absorb.
+/// What bounds the magnitude of the tangential impulse of a contact. mu_s is the coefficient of
+/// friction, the load of the solids the part of the normal impulse that the film does not absorb.
 enum class FrictionBound : unsigned char {
   kCoulomb,  ///< mu_s times the load of the solids in the solution: Coulomb's law, (5.7)
   kCone,   ///< the same in the convex relaxation of Coulomb's law, (5.9), for contacts without film
@@ -112,9 +109,8 @@ enum class FrictionBound : unsigned char {
 
 /// A contact, or the equations of a link (a bilateral constraint). A contact has one row for its
 /// gap and, with friction, D - 1 more for the tangential displacements of its surfaces. A link has
-/// up to kMostRows rows, whose values must be 0 or, if it is elastic, -compliance times their
-/// impulses. All rows of a block have parts of the same units, each of them once, in the same
-/// order.
+/// up to kMostRows rows, whose values must be -compliance times their impulses. All rows of a block
+/// have parts of the same units, each once, in the same order.
 struct ConstraintBlock {
   std::size_t row = 0;     ///< number of its first row
   std::size_t rows = 1;    ///< number of its rows, 1 to kMostRows
@@ -123,24 +119,21 @@ struct ConstraintBlock {
   /// impulse that the film had absorbed before the step; in a collision (impacts/) it may be > 0.
   double lowest = 0;
   double friction = 0;  ///< mu_s [1], >= 0
-  /// Impulse gamma^n - gamma_min that the film can still absorb before the solids touch [M L/T], >=
-  /// 0; infinite if they never touch.
+  /// Impulse gamma^n - gamma_min that the film can still absorb [M L/T], >= 0; infinite: no limit.
   double capacity = 0;
   double allowed = 0,    ///< largest residual of the gap, or of the rows of a link [L], > 0
       allowed_slip = 0;  ///< largest residual of the tangential rows [L], > 0
   /// Of a link: v + compliance p = 0 holds for the value v and the impulse p of each row [T/M] (of
   /// an angle [T/(M L^2)]), >= 0; 0 if the link is rigid.
   double compliance = 0;
-  /// Of a contact with more than one row. A contact of kCone must have no film: `lowest` and
-  /// `capacity` are 0.
+  /// Only with more than one row. With kCone `lowest` and `capacity` must be 0: no film.
   FrictionBound friction_bound = FrictionBound::kCoulomb;
   double given_load = 0;  ///< load that bounds the friction with kGiven [M L/T], >= 0
   /// True if the impulses obey (5.9), that is, are in the FrictionCone.
   bool is_in_cone() const { return rows > 1 && friction_bound == FrictionBound::kCone; }
   /// True if the contact has a film, which takes the first part of a normal impulse.
   bool has_film() const { return capacity > lowest; }
-  /// Largest magnitude of the tangential impulse at this normal impulse, both [M L/T]; not for
-  /// kCone.
+  /// Largest tangential impulse at this normal impulse, both [M L/T], >= 0; not for kCone.
   double bound(double normal_impulse) const {
     return friction * (friction_bound == FrictionBound::kGiven
                            ? given_load
@@ -151,11 +144,11 @@ struct ConstraintBlock {
 /// Largest number of rows of a block.
 inline constexpr std::size_t kMostRows = 3;
 
-/// The problem of a step: find impulses p of the rows such that the motions y = y* + h M^-1 J^T p
-/// of the units, with y* = h (u*, w*) without constraints, obey the following. Each contact with
-/// the normal impulse p_n has gap >= 0, p_n >= lowest, and one of them with equality. Each
-/// tangential impulse obeys the law of the FrictionBound of its contact. Each row of a link has the
-/// value -compliance p.
+/// The problem of a step: find impulses p of the rows and motions y = y* + h M^-1 J^T p of the
+/// units, y* = h (u*, w*) without constraints, that obey the following. Each contact with the
+/// normal impulse p_n has gap >= 0, p_n >= lowest, and one of them with equality. Each tangential
+/// impulse obeys the law of the FrictionBound of its contact. Each row of a link has the value
+/// -compliance p.
 template <int D>
 struct ConstraintProblem {
   std::vector<RigidUnit<D>> units;      ///< all units that have a contact or link
@@ -163,14 +156,11 @@ struct ConstraintProblem {
   std::vector<ConstraintRow> rows;      ///< rows of all blocks, in the order of the blocks
   std::vector<ConstraintBlock> blocks;  ///< all contacts and links
   std::vector<double> impulses;         ///< of the rows [M L/T]: a guess, then the solution
-  /// True if no contact has FrictionBound::kCoulomb, so that the solution minimises a convex
-  /// function.
+  /// True if no contact has kCoulomb, so that the solution minimises a convex function.
   bool is_convex = false;
-  /// True if an approximate solution of a convex problem is enough, with which the caller finds the
-  /// contacts that carry load.
+  /// True if an approximate solution of a convex problem is enough.
   bool is_rough = false;
-  /// False: the solver replaces each given_load by the load in a first solution, and solves again.
-  /// True: it keeps the given loads.
+  /// False: the solver replaces each given_load by that of a first solution, and solves again.
   bool keeps_loads = false;
   /// True if links hold long chains of units together, as those of a membrane do. The solver then
   /// makes few Gauss-Seidel sweeps, because they carry impulses too slowly along a chain.

@@ -1,11 +1,11 @@
 // Decides which methods solve the problem of contacts with friction and links of a time step, in
 // which order and with which parameters (constraint_solver.hpp): Gauss-Seidel sweeps, proximal
 // steps and interior points. Impulses are in [M L/T], residuals and values of rows in [L], the
-// mobilities w_ of rows in [T/M], in any consistent units. Residuals that are called allowed are at
-// most 1 when divided by ConstraintBlock::allowed or allowed_slip. Nothing is thrown; an unsolved
-// problem has SolverResult::residual > 1. Used by constraint_system.cpp, impacts/ and
-// fluid/fluid_friction.cpp. Constants without another reason are free choices: a change alters the
-// time of a solution, which problems are not solved, and results within their tolerances.
+// mobilities w_ of rows in [T/M], in any consistent units. A residual is allowed if it is at most
+// ConstraintBlock::allowed or allowed_slip. Nothing is thrown; an unsolved problem has
+// SolverResult::residual > 1. Used by constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp.
+// Constants without another reason are free choices: a change alters the time of a solution, which
+// problems are not solved, and results within their tolerances.
 //
 // `epsilon` [1] is the parameter of a proximal step: a row with the mobility w is a spring of the
 // compliance epsilon w [T/M] that pushes with the impulse `center` when the row's value is 0. A
@@ -27,9 +27,9 @@
 namespace viscontact::particles {
 namespace {
 
-/// The mobility of each row [T/M]. Both tangential rows of a contact get the larger of their two,
-/// because the friction's bound is a circle. With kLeastImpulses all gaps get the largest mobility
-/// of all first rows, so that redundant contacts share an impulse as if all were equally stiff.
+/// The mobility of each row [T/M]. Both tangential rows of a contact get the larger of their two.
+/// With kLeastImpulses all gaps get the largest mobility of all first rows, so that redundant
+/// contacts share an impulse as if all were equally stiff.
 template <int D>
 std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, ConstraintStart start) {
   auto w = row_mobilities(problem);
@@ -84,9 +84,9 @@ class Iteration {
   }
 
   /// Repeats kSweeps sweeps as long as these reduce the residual to less than `gain` of it. A sweep
-  /// takes a small part of the time of a factorisation, so that slow progress is enough. It is not
-  /// enough before interior points, whose time does not depend on where they begin, or if units
-  /// make long chains: there sweeps are worth their time only if a few of them solve the problem.
+  /// takes a small part of the time of a factorisation, so that slow progress is enough. Before
+  /// interior points, whose time does not depend on their start, and in long chains of units,
+  /// sweeps are worth their time only if a few of them solve the problem.
   void sweep_while_it_gains(int max_iterations) {
     const double gain = problem_.is_convex || problem_.has_long_chains ? 0.1 : 0.7;
     double before = std::numeric_limits<double>::infinity();
@@ -159,10 +159,9 @@ class Iteration {
   /// which those of the slips are. Between jammed particles that stick, slips are never 0, so that
   /// further steps would increase impulses without end and change gaps by more than their small
   /// tolerance. The steps of this function therefore start from the last impulses in the rows of
-  /// gaps and links only. The tangential rows keep one center, from which the present motions give
-  /// the present friction with kEpsilonOfSlips too. This epsilon is so large that the small changes
-  /// of the motions hardly change the friction. Returns true if the problem is solved; otherwise
-  /// restores the impulses.
+  /// gaps and links only. The tangential rows keep a center with which the present motions give the
+  /// present friction. Their epsilon is so large that the small changes of the motions hardly
+  /// change it. Returns true if the problem is solved; otherwise restores the impulses.
   bool close_gaps(std::vector<double> center, int max_iterations) {
     constexpr int kMostSteps = 12, kMostIterations = 200;
     constexpr double kEpsilonOfSlips = 1e-3, kLeastEpsilon = 1e-6, kFactor = 3;
@@ -193,8 +192,8 @@ class Iteration {
   }
 
   /// Solves a convex problem. If the friction of its contacts is bounded by given loads, a solution
-  /// by interior points first replaces these by its own loads, unless they are to be kept or a
-  /// rough solution is enough.
+  /// by interior points first replaces these by its own loads, unless they are kept or the solution
+  /// is rough.
   void solve_with_own_loads(int max_iterations) {
     if (has_given_loads_ && !problem_.keeps_loads && !problem_.is_rough) {
       find_interior_solution(max_iterations);
@@ -252,9 +251,9 @@ class Iteration {
 
   /// Takes a proximal step of a convex problem, and changes epsilon for the next one. Without
   /// rounding errors each step would lead nearer to the solution. The errors of the impulses are
-  /// the rounding errors of the gaps divided by epsilon. Therefore epsilon rises to kFirstEpsilon.
-  /// Then it falls to kLeastEpsilon, so that impulses between jammed particles can grow fast, and
-  /// rises again.
+  /// the rounding errors of the gaps divided by epsilon. Therefore epsilon rises. From
+  /// kFirstEpsilon it falls to kLeastEpsilon, so that impulses between jammed particles grow fast,
+  /// and rises again.
   void take_convex_step(int max_iterations) {
     constexpr int kMostIterations = 50;
     constexpr double kLeastEpsilon = 1e-8, kFactor = 10, kLittle = 0.9;
@@ -354,8 +353,7 @@ class Iteration {
     return std::move(best_);
   }
 
-  // Epsilon of the first proximal step of a problem with Coulomb's law; bench/README.md lists
-  // others that were tried.
+  // Epsilon of the first proximal step with Coulomb's law; bench/README.md lists others tried.
   static constexpr double kFirstEpsilon = 0.1;
 
   ConstraintProblem<D>& problem_;

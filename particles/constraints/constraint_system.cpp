@@ -2,8 +2,7 @@
 // step, and finds constraints that contradict each other (constraint_system.hpp). Lengths [L],
 // masses [M] and times [T] are in any consistent units. Nothing is thrown; residual() tells whether
 // a step is solved. projection/ uses it. A change must keep that hinges and arms hold after finite
-// turns of bodies, and not only to first order. A unit is a particle, or a rigid body of several
-// ones.
+// turns. A unit is a particle, or a rigid body of several.
 #include "viscontact/particles/constraints/constraint_system.hpp"
 
 #include <algorithm>
@@ -111,8 +110,7 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c,
   block.capacity = tangents.capacity;
   block.allowed = contact.allowed;
   block.allowed_slip = allowed_slip;
-  // The film of smooth particles absorbs every impulse, its capacity is infinite, so that there is
-  // no friction.
+  // The film of smooth particles absorbs every impulse, so that there is no friction.
   const bool rubs = block.friction > 0 && std::isfinite(block.capacity);
   block.rows = rubs ? static_cast<std::size_t>(D) : 1;
   if (problem_.is_convex && rubs) {
@@ -162,8 +160,7 @@ UnitMotion ConstraintSystem<D>::motion_of(std::int32_t unit,
   return result;
 }
 
-/// Sets the displacements and turns of all particles of `system` from the motions of their units,
-/// with finite turns of rigid bodies.
+/// Moves the particles of `system` with their units, with finite turns of rigid bodies.
 template <int D>
 void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system,
                                          std::span<const Motion<D>> motions) {
@@ -254,8 +251,7 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
   }
 }
 
-/// The residual of a contact [L]. If has_given_up(), it is that of Coulomb's law, though the
-/// solution has given loads.
+/// The residual of a contact [L]; of Coulomb's law, also if the solution has given loads.
 template <int D>
 BlockResidual ConstraintSystem<D>::residual_of_contact(
     std::size_t c, const ConstraintSolution<D>& solution) const {
@@ -350,8 +346,7 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     constexpr int kPatience = 3;
     growing = change < last_change ? 0 : growing + 1;
     last_change = change;
-    // A correction of half of what is allowed leaves the other half to the residual of the
-    // solution.
+    // The other half of what is allowed is for the residual of the solution.
     if (change <= 0.5 || growing == kPatience || is_rough || n == kMostCorrections ||
         (result.iterations >= max_iterations && !has_given_up_) || !(solution.result.residual <= 1))
       break;

@@ -25,8 +25,7 @@ namespace viscontact::particles {
 
 /// A time step and what its constraints depend on, besides contacts. The arrays that can be written
 /// belong to the simulation: before solve() they hold the motion without contacts and links, after
-/// it the motion with them. h [T] is the length of the step, w are the angular velocities, I the
-/// moments of inertia.
+/// it that with them. h [T] is the step's length, w are angular velocities, I moments of inertia.
 struct ConstraintStep {
   const ContactLaws& laws;           ///< the laws of all contacts
   std::span<const Plane> obstacles;  ///< planes, which may move, and circles
@@ -53,8 +52,7 @@ class ConstraintSystem {
   ConstraintSystem(const ConstraintStep& step, const Particles& particles,
                    std::span<double> displacements, std::span<const double> mobilities);
 
-  /// Adds the particles of all links to `system`, so that the step moves them. Must be called
-  /// before the first contact is added.
+  /// Adds the particles of all links to `system`. Must be called before a contact is added.
   void join_linked(ContactSystem<D>& system) const;
 
   /// Adds a contact, that of `pair`. It must be called for each contact of the ContactSystem, in
@@ -83,8 +81,7 @@ class ConstraintSystem {
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double allowed_slip,
                      int max_iterations);
 
-  /// True if a call of solve() did not solve Coulomb's law, so that the loads that bound friction
-  /// are given.
+  /// True if solve() did not solve Coulomb's law, and given loads bound the friction.
   bool has_given_up() const { return has_given_up_; }
 
   /// Writes the impulse of friction of contact number `c`, and the part of the normal impulse that
@@ -95,16 +92,14 @@ class ConstraintSystem {
   }
   /// Residual of contact number `c` in the last solution [L].
   const BlockResidual& residual(std::size_t c) const { return residuals_[c]; }
-  /// Residual of link number `l` of links() in the last solution [L]; of an angle times the mean
-  /// radius.
+  /// Residual of link `l` of links() in the last solution [L]; of angles times the mean radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
   /// By how much the motion that violates the constraints of the last solve() least violates each
   /// of them [L] (angles [rad]), >= 0: first of all contacts, then of all links. That motion has
   /// the least sum of v^2/w over the rows of rigid links and the negative gaps, with the value v
   /// and the mobility w of a row. If some motion satisfies all of these constraints, the result is
   /// 0 but for rounding errors. Otherwise they contradict each other: together the impulses v/w
-  /// move nothing (Farkas' lemma), and a constraint that has no part in the contradiction has the
-  /// violation 0.
+  /// move nothing (Farkas' lemma), and constraints without a part in this have 0.
   std::vector<double> least_violations() const;
 
  private:
@@ -134,8 +129,7 @@ class ConstraintSystem {
   std::vector<double> carried_;               // parts of the impulses that solids carry [M L/T]
   std::vector<BlockResidual> residuals_;
   std::vector<double> link_residuals_, link_forces_;
-  // Place in problem_.units of each particle and of each rigid body; -1 if the step does not move
-  // it.
+  // Place in problem_.units of each particle and of each rigid body; -1: not in the step.
   std::vector<std::int32_t> unit_of_particle_, unit_of_body_;
   std::vector<Vector> offsets_;  // of each particle, from the centre of its rigid body [L]
   ConstraintProblem<D> problem_;

@@ -15,8 +15,7 @@ namespace viscontact::particles {
 /// The method of nonsmooth contact dynamics (Jean 1999, "The non-smooth contact dynamics method"):
 /// one block (contact or link) after the other gets the impulses that satisfy its own conditions
 /// while all others keep theirs. Every second sweep goes through the blocks in reverse order. In
-/// practice sweeps always converge, but slowly in large packings. The solver uses them to find a
-/// good start for other methods.
+/// practice sweeps always converge, but slowly in large packings.
 template <int D>
 class ContactSweeps {
  public:

@@ -2,8 +2,8 @@
 // (interior_points.hpp). Each iteration computes a predictor, whose goal is u.r = 0 for all pairs
 // of a displacement u and an impulse r, and from it the goal of a corrector, whose change of u, r
 // and the motions y is made. u and r are scaled, with the unit L (M/T)^(1/2). Nothing is thrown;
-// solve() stops if a matrix is singular. Used by constraint_solver.cpp. A change of the order of
-// sums changes the results by rounding errors.
+// solve() stops if a matrix is singular. Used by constraint_solver.cpp. Results depend on the order
+// of sums.
 #include "viscontact/particles/constraints/interior_points.hpp"
 
 #include <algorithm>
@@ -17,8 +17,7 @@ namespace {
 /// matrix at 1e10 times the masses, so that its factorisation keeps six digits of the masses.
 constexpr double kRegularisation = 1e-10;
 
-/// Part of the way to the first boundary of a cone at which a step ends, < 1 so that points stay
-/// inside [1]; a free choice near 1.
+/// Part of the way to the first boundary at which a step ends [1]; a free choice below 1.
 constexpr double kInside = 0.995;
 
 }  // namespace
@@ -63,8 +62,7 @@ void InteriorPoints<D>::set_parts() {
       single.compliance = block.compliance * unit * unit;
       singles_.push_back(single);
     }
-    // Friction is left out if its largest impulse moves nothing by more than half of what is
-    // allowed.
+    // Friction is left out if it moves nothing by more than half of what is allowed.
     if (!block.is_contact || block.rows == 1) continue;
     const double bound = block.bound(0);
     if (!(bound * w_[block.row + 1] > block.allowed_slip / 2)) continue;
@@ -113,8 +111,7 @@ void InteriorPoints<D>::add_impulse(const Cones& part, const ConePoint& r,
     problem_.add_impulse(part.row + k, impulse[part.first + k], to);
 }
 
-/// The largest magnitude of a scaled value of a row, with its offset, for the motions y_; NaN if
-/// one is NaN.
+/// The largest scaled value of a row, with its offset, for the motions y_; NaN if one is NaN.
 template <int D>
 double InteriorPoints<D>::largest_value() const {
   double largest = 0;
@@ -190,8 +187,7 @@ void InteriorPoints<D>::set_scaling(Cones& part) {
   for (double& number : part.goal) number = -number;
 }
 
-/// Converts a matrix for components of points to one for coordinates (cone.hpp), or back: the
-/// conversion is its own inverse.
+/// Converts a matrix for components of points to one for coordinates (cone.hpp), or back.
 template <int D>
 std::array<ConePoint, 3> InteriorPoints<D>::in_other_coordinates(
     const std::array<ConePoint, 3>& matrix) {
@@ -238,9 +234,8 @@ ConePoint InteriorPoints<D>::change_of_r(const Cones& part, const ConePoint& num
 }
 
 /// Sets the changes of y, u and r with which, to first order, all errors become 0 and the goals are
-/// reached, by one or two `solutions` with the factors of the matrix. After the first one, rounding
-/// errors of the motions times large entries of the matrix are errors of the impulses, which a
-/// second solution removes.
+/// reached, by one or two `solutions` with the factors of the matrix. A second solution removes the
+/// rounding errors of the motions, which large entries of the matrix multiply.
 template <int D>
 void InteriorPoints<D>::find_direction(int solutions) {
   right_ = error_;
@@ -299,8 +294,7 @@ void InteriorPoints<D>::find_direction(int solutions) {
   }
 }
 
-/// The largest length of a step, as a multiple of the changes and at most 1/kInside, with which all
-/// points stay in their cones.
+/// The largest multiple of the changes, at most 1/kInside, that leaves all points in their cones.
 template <int D>
 double InteriorPoints<D>::length_to_boundary() const {
   double length = 1 / kInside;
@@ -360,9 +354,8 @@ void InteriorPoints<D>::move(double length) {
   }
 }
 
-/// Sets impulses_ from the present point. Contacts that seem to open, because u > r, get the
-/// impulse `lowest` exactly, which they have at the solution, so that no film absorbs a small
-/// remainder.
+/// Sets impulses_ from the present point. Contacts that seem to open, because u > r, get their
+/// lowest impulse exactly, so that no film absorbs a small remainder.
 template <int D>
 void InteriorPoints<D>::take_impulses() {
   std::ranges::fill(impulses_, 0.0);

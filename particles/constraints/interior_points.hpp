@@ -1,9 +1,8 @@
 // Solves convex problems for the impulses of contacts with friction and links, docs/physics.md
 // (5.9) and (5.17), by interior points (constraint_problem.hpp defines problem, rows and units).
 // Lengths [L], masses [M] and times [T] are in any consistent units; h is the length of the step,
-// M/h are the masses and moments of inertia over h. Nothing is checked or thrown: the caller must
-// measure the residuals of the result. constraint_solver.cpp uses it. The bits of results depend on
-// the order of sums.
+// M/h are the masses and moments of inertia over h. Nothing is thrown: the caller must measure the
+// residuals. constraint_solver.cpp uses it. Results depend on the order of sums.
 #pragma once
 
 #include <array>
@@ -39,8 +38,7 @@ template <int D>
 class InteriorPoints {
  public:
   /// All arguments must outlive this object. `w` are the row_mobilities() of the problem [T/M], >
-  /// 0. `matrix` is made for the problem with is_symmetric. Others may use it between two calls of
-  /// solve(), which overwrites it.
+  /// 0. `matrix` is made for the problem with is_symmetric; solve() overwrites it.
   InteriorPoints(const ConstraintProblem<D>& problem, const std::vector<double>& w,
                  UnitMatrix<D>& matrix);
 
@@ -57,9 +55,8 @@ class InteriorPoints {
   static constexpr std::size_t kMotion = static_cast<std::size_t>(D + kTurns<D>);
   using Cone = std::conditional_t<D == 2, LinearCones, SecondOrderCone>;
   // The conditions of the problem are parts of two kinds, Single and Cones. The value of a row is
-  // multiplied by `scale`, its impulse divided by it. With scale = 1/w^(1/2) both are in the unit
-  // L (M/T)^(1/2), and the row has the mobility 1. The numbers below are scaled unless they have
-  // another unit.
+  // multiplied by `scale`, its impulse divided by it. With scale = 1/w^(1/2) both are in the unit L
+  // (M/T)^(1/2), as all numbers below without another unit.
   //
   // A gap that is not in a cone, or a row of a link.
   struct Single {

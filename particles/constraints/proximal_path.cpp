@@ -3,8 +3,8 @@
 // On the path from the motions y_0 the error is (1 - share) times that of y_0, and the solution is
 // at share = 1. Only for discs, for which the path consists of straight pieces, on each of which no
 // contact changes its branch (open, closed without friction, sticking, slipping). Lengths, masses
-// and times are in any consistent units. Nothing is thrown. proximal_step.cpp uses it. A change of
-// the order of sums changes the results by rounding errors.
+// and times are in any consistent units. Nothing is thrown. proximal_step.cpp uses it. Results
+// depend on the order of sums.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -81,8 +81,7 @@ typename ProximalStep<D>::Exit ProximalStep<D>::exit_of(std::size_t b, double si
   unprojected(b, 0, q.data());
   for (std::size_t k = 0; k < block.rows; ++k)
     change[k] = -sign * rho_[block.row + k] * changes_[block.row + k];
-  // The branch ends where one of its conditions `value` >= 0, which changes at the rate `by`,
-  // fails.
+  // The branch ends where a condition `value` >= 0, which changes at the rate `by`, fails.
   const auto test = [&](double value, double by, Branch next) {
     if (!(by < 0)) return;
     const double length = std::max(0.0, -value / by);
@@ -140,9 +139,8 @@ double ProximalStep<D>::follow_path(int& iterations) {
   auto best_y = y_;
   auto best_values = values_;
   // The path is followed so that `share` grows on pieces whose matrix has a positive determinant,
-  // and falls where it is negative. In this direction it leads to a solution, because the
-  // topological degree of the equation is 1: for large motions it behaves as one with a positive
-  // determinant.
+  // and falls where it is negative. So it leads to a solution, because the topological degree of
+  // the equation is 1.
   double share = 0, best = 0, sign = matrix_.sign_of_determinant();
   for (Eigen::Index n = 0;; ++n) {
     // The direction of this piece follows from `first`, because its matrix is that of the factors

@@ -1,7 +1,7 @@
 // Newton's method for a step of the proximal method for contacts with friction and links, whose
 // equation and symbols proximal_step.hpp gives. Lengths, masses and times are in any consistent
 // units. Nothing is thrown; failed() tells whether a step found its solution. Used by
-// constraint_solver.cpp. A change of the order of sums changes the results by rounding errors.
+// constraint_solver.cpp. Results depend on the order of sums.
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 #include <algorithm>
@@ -34,8 +34,7 @@ void ProximalStep<D>::set_epsilon(double of_gaps, double of_slips) {
   has_factor_ = false;
 }
 
-/// Sets `q` to P^k - rho (b + J y) [M L/T] of block `b` after a step of length `t` [1] along
-/// direction_.
+/// Sets `q` to P^k - rho (b + J y) [M L/T] of block `b` after a step t direction_.
 template <int D>
 void ProximalStep<D>::unprojected(std::size_t b, double t, double* q) const {
   const auto& block = problem_.blocks[b];
@@ -195,8 +194,7 @@ void ProximalStep<D>::find_direction() {
 template <int D>
 double ProximalStep<D>::length_of_step(double before) {
   if (problem_.is_convex) return length_to_minimum();
-  // The step is halved until it reduces the error by at least kPromised of what it would if the
-  // equation were linear.
+  // The step is halved until the error falls by kPromised of its fall in a linear equation.
   constexpr double kPromised = 0.1;
   constexpr int kMostHalvings = 8;
   double length = 1;

@@ -1,8 +1,7 @@
 // One step of the proximal method for the impulses of the contacts with friction and links of a
 // time step, computed by Newton's method (constraint_problem.hpp defines problem, rows and units).
-// Lengths, masses and times are in any consistent units. Nothing is checked or thrown; failed()
-// tells whether a step found its solution. constraint_solver.cpp uses it. The bits of results
-// depend on the order of sums.
+// Lengths, masses and times are in any consistent units. Nothing is thrown; failed() tells whether
+// a step was solved. constraint_solver.cpp uses it. Results depend on the order of sums.
 #pragma once
 
 #include <array>
@@ -59,15 +58,13 @@ class ProximalStep {
 
   /// Solves from the impulses P^k = `center` [M L/T] of all rows, with the motions `start` [L, rad]
   /// of all units as the first guess. Returns the number of factorisations and solutions with
-  /// factors. If it reaches about `max_iterations`, there may be no solution although failed() is
-  /// false.
+  /// factors; if it is `max_iterations` or more, the step may be unsolved.
   int solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
             int max_iterations);
 
   /// True if the last solve() gave up: a matrix was singular, or no step reduced the error.
   bool failed() const { return failed_; }
-  /// True if the last solve() followed a path, because no step of Newton's method reduced the
-  /// error.
+  /// True if the last solve() followed a path, because no step of Newton's method was good.
   bool followed_path() const { return paths_ > 0; }
   /// Impulses of the rows that the last solve() found [M L/T].
   const std::vector<double>& impulses() const { return projected_; }
@@ -79,8 +76,7 @@ class ProximalStep {
   // makes the next ones more expensive. The value is a free choice.
   static constexpr int kMostCrossings = 30;
   // The branch of the projection in which a block is: open or closed; no friction, sticking, or
-  // slipping with a friction of positive or negative (kSlipsBack) sign in the first tangential row.
-  // The matrix depends on it.
+  // slipping with friction > 0 (kSlips) or < 0 (kSlipsBack) in the first tangential row.
   enum class Friction : unsigned char { kNone, kSticks, kSlips, kSlipsBack };
   struct Branch {
     bool is_closed = false;

@@ -42,8 +42,7 @@ ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
   return scales.of(particles, w, length);
 }
 
-/// Adds the residuals of the links to `result`, and names contradicting links if some residuals are
-/// not allowed.
+/// Adds the residuals of the links to `result`, and names links that contradict each other.
 template <int D>
 void StepProjection<D>::examine_links(const SolverSettings& settings, double mean_radius,
                                       ProjectionResult& result) {
@@ -73,8 +72,8 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
   const auto violations = constraints_->least_violations();
   const double largest = *std::ranges::max_element(violations);
   if (largest > kBroken * mean_radius) {
-    // Violations below this part of the largest one do not count, because least_violations() has
-    // errors of about 1e-6 of it.
+    // Violations below this part of the largest one do not count: least_violations() has errors of
+    // 1e-6.
     constexpr double kPart = 1e-3;
     const std::size_t contacts = chosen_.size();
     for (std::size_t b = 0; b < contacts; ++b)

@@ -161,8 +161,7 @@ SolverResult StepProjection<D>::solve_contacts(bool is_rough, double length, int
 template <int D>
 void StepProjection<D>::allow(double length, double fraction) {
   auto scales = residual_scales();
-  // The other half is for the rounding errors of examine(), which computes residuals in another
-  // way.
+  // The other half is for rounding errors: examine() computes residuals in another way.
   for (auto& contact : system_.contacts)
     contact.allowed = scales.of(contact).allowed(length, fraction) / 2;
   if (!constraints_) return;
@@ -173,10 +172,9 @@ void StepProjection<D>::allow(double length, double fraction) {
 }
 
 /// Returns `pairs` and, from the third round on, also pairs that are connected with them and whose
-/// gaps may close next: those up to the largest change of a displacement by the contacts. If an
-/// impulse goes through a chain of particles, each round would otherwise find only the next pair of
-/// the chain. The search goes through 1 pair in the third round, and twice as many in each further
-/// round.
+/// gaps may close next: those up to the largest change of a displacement by the contacts. Otherwise
+/// each round would find only the next pair of a chain through which an impulse goes. The search
+/// goes through 1 pair in the third round, and twice as many in each further one.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
     const std::vector<std::size_t>& pairs, int round) {
@@ -208,12 +206,11 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   tolerated_ = settings.tolerance * mean_radius / 2;
   // With friction another solution takes more time than contacts that stay open do. Therefore pairs
   // whose gaps are nearly closed (below kMargin mean radii, a free choice) are chosen early. With
-  // Coulomb's law this begins when a solution has closed the gaps of further pairs, and not before
-  // the first solution, because nearly closed contacts can be redundant: loads of particles that
-  // stand by themselves would be shared with neighbours, and iterations are added. With the convex
-  // relaxation, (5.9), it begins before the first solution, but only for pairs with a film, because
-  // the relaxation pushes particles without a film apart where they slide, also if their gap stays
-  // open.
+  // Coulomb's law this begins when a solution has closed further gaps, and not before the first
+  // one, because redundant contacts would take loads from particles that stand by themselves, and
+  // cost iterations. With the convex relaxation, (5.9), it begins before the first solution, but
+  // only for pairs with a film, because the relaxation would push sliding particles without a film
+  // apart, also if their gap stayed open.
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
@@ -330,8 +327,7 @@ typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
 template <int D>
 ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, double w,
                                     double length) {
-  // The rounding error is taken as 128 units in the last place of the sum of the lengths below, a
-  // free choice above the errors of a sum of some ten terms.
+  // Rounding errors are taken as 128 units in the last place of the sum of the lengths below.
   constexpr double kRounding = 128 * std::numeric_limits<double>::epsilon();
   ResidualScale scale{w, std::numeric_limits<double>::infinity(), length};
   double around = 0;
@@ -346,7 +342,7 @@ ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, dou
     if (body >= 0) around = std::max(around, island_impulses_[index_of(system_.island(body))]);
   }
   scale.rounding += std::sqrt(scale.w) * around;
-  // Solvers compute squares of displacements and products of these, which underflow far below this
+  // Solvers compute squares of displacements and products of these, which underflow below this
   // length [L]. A particle that moves by less is at rest in any unit of length.
   constexpr double kAtRest = 1e-100;
   scale.rounding = std::max(kRounding * scale.rounding, kAtRest);
