@@ -2,8 +2,7 @@
 // and the assembly of such matrices for contacts and links (block_factor.hpp). The factorisation is
 // left-looking: it computes one column of L and row of U after the other, and subtracts from each
 // the products of all earlier ones. factorise() returns false for a singular matrix; nothing is
-// thrown or checked. constraint_system.cpp, interior_points.cpp and proximal_step.cpp use it. A
-// change of the order of sums changes the last bits of all results of steps with friction or links.
+// thrown or checked. Used by the other files of constraints/. Results depend on the order of sums.
 #include "viscontact/particles/constraints/block_factor.hpp"
 
 #include <metis.h>
@@ -296,8 +295,7 @@ bool BlockFactor<K>::factorise_column(std::size_t j) {
   return true;
 }
 
-/// Makes `entry` the next entry of column k, and puts the column into the list of its row. Does
-/// nothing more if `entry` is behind the last entry of the column.
+/// Makes `entry` the next entry of column k, and puts k into the list of its row, if it has one.
 template <int K>
 void BlockFactor<K>::enlist(std::size_t k, std::size_t entry) {
   next_entry_[k] = entry;

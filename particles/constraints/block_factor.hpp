@@ -1,10 +1,9 @@
-// Sparse LU factorisation of a matrix of small dense blocks (BlockFactor), and the matrices of the
-// contacts and links of a time step that it factorises (UnitMatrix). The matrix has a row of blocks
-// for each body: a particle, or a rigid body of several particles. Its pattern is symmetric.
-// Lengths [L], masses [M] and times [T] are in any consistent units. A singular matrix makes
-// factorise() return false; nothing is checked or thrown. Used by constraint_system.cpp,
-// interior_points.hpp and proximal_step.hpp. The bits of all results of steps with friction or
-// links depend on the order of elimination and on the order of sums.
+// Sparse LU factorisation of a matrix of small dense blocks with a symmetric pattern (BlockFactor),
+// and the matrices of the contacts and links of a time step that it factorises (UnitMatrix). A row
+// of blocks belongs to a body: a particle, or a rigid body of several. Units are any consistent
+// ones. A singular matrix makes factorise() return false; nothing is checked or thrown. Used by
+// constraint_system.cpp, interior_points.hpp and proximal_step.hpp. Results depend on the order of
+// elimination and of sums, by rounding errors.
 #pragma once
 
 #include <array>
@@ -35,9 +34,8 @@ class BlockFactor {
   /// The numbers of two connected bodies, which differ; from 0 to the number of bodies - 1.
   using Edge = std::array<std::int32_t, 2>;
 
-  /// Finds the order of elimination and the pattern of L for `bodies` >= 0 bodies that `edges`
-  /// connect. An edge may occur several times; its occurrences share their blocks. `is_symmetric`:
-  /// A will be symmetric and positive definite. The other functions need a call of this one.
+  /// Finds the order of elimination and the pattern of L for `bodies` bodies that `edges` connect,
+  /// each once or several times. `is_symmetric`: A will be symmetric. Must be called first.
   void analyse(std::size_t bodies, std::span<const Edge> edges, bool is_symmetric);
 
   /// Number of bodies that analyse() was given.
@@ -66,7 +64,7 @@ class BlockFactor {
   int sign_of_determinant() const { return sign_; }
 
   /// Replaces `values`, one Vec for each body, by A^-1 times them. Needs a factorise() that
-  /// returned true. Two threads must not call it at once, because it uses a common work array.
+  /// returned true. Not for two threads at once: it uses a work array of the object.
   void solve(std::span<Vec> values) const;
 
  private:
@@ -88,12 +86,9 @@ class BlockFactor {
   // Of each block of D: the row with which each row was exchanged.
   std::vector<std::array<unsigned char, static_cast<std::size_t>(K)>> pivots_;
   std::vector<Block> below_;  // blocks of A below the diagonal, then L
-  std::vector<Block> above_;  // blocks of A above the diagonal, each at the place of its mirror
-                              // image in below_; then U. Empty if A is symmetric.
-  // Of factorise(), which computes one column after the other. next_entry_: the first unused entry
-  // of each finished column. first_in_row_, next_in_row_: for each row the linked list of the
-  // columns whose next entry is in it, ended by -1. entry_in_row_: the entry of the present column
-  // in each row.
+  std::vector<Block> above_;  // blocks of A above the diagonal, in the order of below_; then U
+  // For factorise(): for each row a linked list of the columns whose next entry is in it, ended by
+  // -1; the next entry of each column; the entry of the present column in each row.
   std::vector<std::int32_t> first_in_row_, next_in_row_;
   std::vector<std::size_t> next_entry_, entry_in_row_;
   mutable std::vector<Vec> permuted_;
@@ -103,10 +98,10 @@ class BlockFactor {
 
 /// The matrix M/h + sum of weight * row^T other. M/h are the masses and moments of inertia of all
 /// units over the length h of the step [M/T, M L^2/T]; a unit is a particle, or a rigid body of
-/// several ones. A row holds the coefficients by which a gap, a tangential displacement or the
-/// equation of a link depends on the motions of its units. A block of constraints holds the rows of
-/// one contact or link. A Motion holds the D components of a displacement [L] and those of a
-/// rotation [rad] (1 for D = 2, 3 for D = 3), or an impulse [M L/T] and its moment [M L^2/T].
+/// several ones. A row holds the coefficients by which a gap, a tangential displacement or a link's
+/// equation depends on the motions of its units; a block of constraints holds the rows of one
+/// contact or link. A Motion is a displacement [L] and a rotation [rad], or an impulse [M L/T] and
+/// its moment [M L^2/T].
 template <int D>
 class UnitMatrix {
  public:
@@ -123,8 +118,7 @@ class UnitMatrix {
   bool factorise() { return factor_.factorise(); }
   /// Sign of its determinant, 1 or -1. Needs a factorise() that returned true.
   int sign_of_determinant() const { return factor_.sign_of_determinant(); }
-  /// Replaces impulses by the inverse matrix times them, which are motions, one for each unit.
-  /// Needs a factorise() that returned true.
+  /// Replaces the impulses on all units by the motions that they cause. Needs factorise().
   void solve(std::span<Motion<D>> values) const { factor_.solve(values); }
   /// The motions of solve() as a new array.
   std::vector<Motion<D>> solution_of(std::span<const Motion<D>> impulses) const {

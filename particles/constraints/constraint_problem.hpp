@@ -4,9 +4,9 @@
 // gap, a tangential displacement of two surfaces, or the left side of a link's equation. h [T] is
 // the length of the step, M are the masses m and moments of inertia I, u the velocities and w the
 // angular velocities, J the matrix of the coefficients of all rows, p the impulses of the rows.
-// Lengths [L], masses [M] and times [T] are in any consistent units. A row of an angle of a link
-// has values in [rad] and moments of impulses [M L^2/T] as impulses; read these for [L] and [M L/T]
-// then. Nothing is checked or thrown.
+// Lengths [L], masses [M] and times [T] are in any consistent units. For a link's row of angles
+// read [rad] for [L] of its value and [M L^2/T] for [M L/T] of its impulse. Nothing is checked or
+// thrown.
 //
 // constraint_system.cpp (the steps), impacts/ (collisions) and fluid/fluid_friction.cpp make such
 // problems, and the other files of constraints/ solve them. A change must keep that contacts
@@ -201,9 +201,8 @@ std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
                                std::span<const double> impulses);
 
 /// Makes the problem convex: each contact with friction gets FrictionBound::kGiven, with the load
-/// that its solids have at problem.impulses as given_load, (5.17). Sets is_convex and keeps_loads,
-/// and clears is_rough. In the solution gaps, films and links are exact, and friction takes energy.
-/// Coulomb's law has an error if the loads of the solution differ from the given ones.
+/// of its solids at problem.impulses as given_load, (5.17). Sets is_convex and keeps_loads, clears
+/// is_rough. In the solution gaps, films and links are exact; Coulomb's law is not if loads change.
 template <int D>
 void give_loads(ConstraintProblem<D>& problem);
 

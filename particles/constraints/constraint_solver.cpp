@@ -1,15 +1,14 @@
 // Decides which methods solve the problem of contacts with friction and links of a time step, in
 // which order and with which parameters (constraint_solver.hpp): Gauss-Seidel sweeps, proximal
-// steps and interior points. Impulses are in [M L/T], residuals and values of rows in [L], the
-// mobilities w_ of rows in [T/M], in any consistent units. A residual is allowed if it is at most
-// ConstraintBlock::allowed or allowed_slip. Nothing is thrown; an unsolved problem has
+// steps and interior points. Units are any consistent ones. A residual [L] is allowed if it is at
+// most ConstraintBlock::allowed or allowed_slip. Nothing is thrown; an unsolved problem has
 // SolverResult::residual > 1. Used by constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp.
-// Constants without another reason are free choices: a change alters the time of a solution, which
-// problems are not solved, and results within their tolerances.
+// Constants without another reason are free choices: they change the time of a solution, which
+// problems are solved, and results within tolerances.
 //
-// `epsilon` [1] is the parameter of a proximal step: a row with the mobility w is a spring of the
-// compliance epsilon w [T/M] that pushes with the impulse `center` when the row's value is 0. A
-// smaller epsilon brings the step nearer to the solution, but makes it harder to compute.
+// `epsilon` [1] is the parameter of a proximal step: the impulse of a row with the value v and the
+// mobility w is center - v/(epsilon w), projected on the allowed impulses. A smaller epsilon brings
+// the step nearer to the solution, but makes it harder to compute.
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 
 #include <algorithm>
@@ -112,9 +111,9 @@ class Iteration {
 
   /// Takes a proximal step of a problem with Coulomb's law. Between jammed particles that stick,
   /// impulses that balance each other must grow until a contact slips or opens. Steps with a small
-  /// epsilon reach this state fast, but Newton's method, which computes a step, fails more often.
-  /// Therefore epsilon falls after a success and grows after a failure, which leaves the impulses
-  /// unchanged. If a step with the largest epsilon fails, sweeps are made.
+  /// epsilon reach this state fast, but fail more often. Therefore epsilon falls after a success
+  /// and grows after a failure, which leaves the impulses unchanged. If a step with the largest
+  /// epsilon fails, sweeps are made.
   void take_proximal_step(int max_iterations) {
     constexpr int kMostIterations = 200, kFewIterations = 2;
     constexpr double kLeastEpsilon = 1e-12, kLargestEpsilon = 1, kFactor = 3, kLargeFactor = 10;
@@ -134,8 +133,8 @@ class Iteration {
       proximal_->set_epsilon(epsilon_);
       return;
     }
-    // close_gaps() is tried first after kManySteps steps, because most problems are solved in
-    // fewer, and again when the number of steps has grown by a quarter.
+    // Most problems are solved in fewer than kManySteps steps. close_gaps() is tried then, and
+    // again when the number of steps has grown by a quarter.
     constexpr int kManySteps = 15, kShareOfSteps = 4;
     if (residual_ > 1 && ++steps_ >= std::max(kManySteps, next_try_) && largest_slip() <= 1) {
       if (close_gaps(center, max_iterations)) return;
@@ -286,9 +285,9 @@ class Iteration {
     proximal_->set_epsilon(epsilon_);
   }
 
-  /// Adds the change of the impulses since `center`, the last step, as many times as possible until
-  /// the first contact slips or opens. Between jammed particles, impulses that balance each other
-  /// grow by the same small amounts in each step until then, and the residual does not change.
+  /// Adds the change of the impulses since `center` as often as no contact slips or opens. Between
+  /// jammed particles, impulses that balance each other grow by the same small amounts in each step
+  /// until then, and the residual does not change.
   void extend_change(const std::vector<double>& center) {
     const auto& p = problem_.impulses;
     double length = std::numeric_limits<double>::infinity();

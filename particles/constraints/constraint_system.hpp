@@ -2,9 +2,8 @@
 // step on particles that turn: makes the problem of constraint_problem.hpp, solves it, and writes
 // the solution to contacts, particles and bodies. Lengths [L], masses [M] and times [T] are in any
 // consistent units; D is 2 (discs) or 3 (spheres). Nothing is checked or thrown; residual() and
-// link_residual() tell whether a step is solved. projection/ uses it. A change must keep the order
-// of units, contacts and links, because results depend on it by rounding errors, and the order of
-// State::link_forces, which restart files store.
+// link_residual() tell whether a step is solved. projection/ uses it. Results depend on the order
+// of units, contacts and links; restart files store the link forces in their order.
 #pragma once
 
 #include <cstddef>
@@ -46,17 +45,17 @@ struct ConstraintStep {
 template <int D>
 class ConstraintSystem {
  public:
-  /// All arguments must outlive this object. `displacements`: of all particles [L], D numbers for
-  /// each, without contacts and links, which solve() replaces by those with them. `mobilities`: h/m
-  /// of all particles of the mass m [T/M], > 0.
+  /// All arguments must outlive this object. `displacements`: of all particles without contacts and
+  /// links [L], D numbers for each; solve() changes them. `mobilities`: h/m of all particles [T/M],
+  /// > 0, with the mass m.
   ConstraintSystem(const ConstraintStep& step, const Particles& particles,
                    std::span<double> displacements, std::span<const double> mobilities);
 
   /// Adds the particles of all links to `system`. Must be called before a contact is added.
   void join_linked(ContactSystem<D>& system) const;
 
-  /// Adds a contact, that of `pair`. It must be called for each contact of the ContactSystem, in
-  /// their order, before solve(). `memory` holds the first guess of the friction.
+  /// Adds the contact of `pair`. To be called for each contact of the ContactSystem, in their
+  /// order. `memory` holds the first guess of the friction.
   void add(const Contact<D>& contact, const Pair& pair, const PairMemory& memory);
 
   /// The equations of all links, then those of the stops of hinges (bounds of their angles).

@@ -1,9 +1,8 @@
 // Iterations of the interior-point method for convex problems of contacts with friction and links
 // (interior_points.hpp). Each iteration computes a predictor, whose goal is u.r = 0 for all pairs
 // of a displacement u and an impulse r, and from it the goal of a corrector, whose change of u, r
-// and the motions y is made. u and r are scaled, with the unit L (M/T)^(1/2). Nothing is thrown;
-// solve() stops if a matrix is singular. Used by constraint_solver.cpp. Results depend on the order
-// of sums.
+// and the motions y is made. u and r are scaled, with the unit L (M/T)^(1/2). Nothing is thrown.
+// Used by constraint_solver.cpp. Results depend on the order of sums.
 #include "viscontact/particles/constraints/interior_points.hpp"
 
 #include <algorithm>
@@ -82,8 +81,7 @@ double InteriorPoints<D>::value(const Single& part, const std::vector<Motion<D>>
   return part.scale * problem_.product(part.row, y);
 }
 
-/// The scaled values of the rows of a part for the motions `y`, in the coordinates of its cone; the
-/// component z of a cone with a given bound, which has no row, is 0.
+/// The scaled values of the rows of a part for the motions `y`, in the coordinates of its cone.
 template <int D>
 ConePoint InteriorPoints<D>::values(const Cones& part, bool with_offset,
                                     const std::vector<Motion<D>>& y) const {
@@ -155,7 +153,7 @@ double InteriorPoints<D>::measure() {
     part.error = values(part, true, y_);
     for (std::size_t k = 0; k < dimension(part); ++k) part.error[k] -= part.u.x[k];
     if (part.is_bound_given) {
-      // Component z has no row and therefore no error.
+      // The component z of u has no row and therefore no error.
       auto components = Cone::coordinates(part.error);
       components[0] = 0;
       part.error = Cone::coordinates(components);
@@ -180,7 +178,6 @@ void InteriorPoints<D>::set_scaling(Single& part) {
   part.weight = 1 / ((part.is_equation ? part.compliance : part.u / part.r) + kRegularisation);
 }
 
-/// Sets the goal of the predictor; move() and start() have set the scaling.
 template <int D>
 void InteriorPoints<D>::set_scaling(Cones& part) {
   part.goal = part.scaling.times(part.scaling.scaled());
@@ -225,8 +222,8 @@ bool InteriorPoints<D>::factorise() {
   return matrix_.factorise();
 }
 
-/// The change dr of r with which (W^2 + kRegularisation I) dr has these numbers (cone.hpp). If a
-/// bound is given, component 0 of dr is 0 and of the product is free.
+/// The change dr of r with which (W^2 + kRegularisation I) dr has these numbers (cone.hpp); if a
+/// bound is given, dr_0 = 0, and component 0 of the product is not set.
 template <int D>
 ConePoint InteriorPoints<D>::change_of_r(const Cones& part, const ConePoint& numbers) {
   return part.is_bound_given ? part.scaling.solve_beside(kRegularisation, numbers)
@@ -310,9 +307,8 @@ double InteriorPoints<D>::length_to_boundary() const {
 }
 
 /// Sets the goals of the corrector, from the changes of the predictor, whose step has the `length`,
-/// and from gap_ before it. It aims at equal products u o r of a size that is smaller the more the
-/// predictor reduces the gap, and takes the product of the predictor's changes into account
-/// (Mehrotra 1992, "On the implementation of a primal-dual interior point method").
+/// and from gap_ before it. The corrector aims at equal products of all u and r, the smaller the
+/// more the predictor reduces gap_, and corrects the product of the predictor's changes.
 template <int D>
 void InteriorPoints<D>::set_corrector(double gap_before, double length) {
   double after = 0;

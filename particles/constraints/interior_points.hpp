@@ -32,8 +32,8 @@ namespace viscontact::particles {
 /// The method is the predictor-corrector method of Mehrotra (1992), scaled after Nesterov & Todd
 /// (1997, "Self-scaled barriers and interior-point methods for convex programming"). Each iteration
 /// factorises a UnitMatrix. To keep it regular if rows are redundant, a small multiple of the
-/// change of r in an iteration is added to the change of u; it vanishes at the solution. The number
-/// of iterations, 10 to 25 in general, hardly depends on the problem.
+/// change of r in an iteration is added to the change of u; it vanishes at the solution. Most
+/// problems take 10 to 25 iterations.
 template <int D>
 class InteriorPoints {
  public:

@@ -1,10 +1,9 @@
 // The path that a step of the proximal method for contacts with friction follows if no step of
 // Newton's method reduces its error: equation, symbols and branches are those of proximal_step.hpp.
 // On the path from the motions y_0 the error is (1 - share) times that of y_0, and the solution is
-// at share = 1. Only for discs, for which the path consists of straight pieces, on each of which no
-// contact changes its branch (open, closed without friction, sticking, slipping). Lengths, masses
-// and times are in any consistent units. Nothing is thrown. proximal_step.cpp uses it. Results
-// depend on the order of sums.
+// at share = 1. It is for discs only, and consists of straight pieces, on each of which no contact
+// changes its branch (open, without friction, sticking, slipping). Units are any consistent ones.
+// Nothing is thrown. proximal_step.cpp uses it. Results depend on the order of sums.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -15,8 +14,8 @@
 namespace viscontact::particles {
 
 /// The change of the matrix when block `block` changes its branch: J^T column (row J), for the two
-/// rows J of a contact. It is the product of a column and a row, because the projection is
-/// continuous. `column` has no dimension, `row` [M/T] contains rho.
+/// rows J of a contact. It is a product of a column [1] and a row [M/T], because the projection is
+/// continuous.
 template <int D>
 struct ProximalStep<D>::Crossing {
   std::size_t block = 0;
@@ -139,12 +138,10 @@ double ProximalStep<D>::follow_path(int& iterations) {
   auto best_y = y_;
   auto best_values = values_;
   // The path is followed so that `share` grows on pieces whose matrix has a positive determinant,
-  // and falls where it is negative. So it leads to a solution, because the topological degree of
-  // the equation is 1.
+  // and falls where it is negative. So it leads to a solution, as the equation's degree is 1.
   double share = 0, best = 0, sign = matrix_.sign_of_determinant();
   for (Eigen::Index n = 0;; ++n) {
-    // The direction of this piece follows from `first`, because its matrix is that of the factors
-    // plus the changes by all crossings (Sherman & Morrison 1950).
+    // The matrix of this piece is that of the factors plus the crossings (Sherman & Morrison 1950).
     direction_ = first;
     const auto small = changes.topLeftCorner(n, n).partialPivLu();
     if (n > 0) {

@@ -250,7 +250,6 @@ double ProximalStep<D>::rounding_error() const {
 template <int D>
 int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
                            int max_iterations) {
-  // Free choices; each comment below says what the constant decides.
   constexpr double kSlow = 0.1, kExact = 1e-10;
   constexpr int kMostPaths = 3;
   constexpr double kLeastShare = 0.05;
@@ -299,8 +298,8 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     if (D == 3 && problem_.is_convex && !is_fresh && here > kSlow * before) has_factor_ = false;
     if (here == 0 || (length == 1 && last == branches_ && is_linear)) break;
     // In convex problems the error may grow on the way to the minimum. If it is of the size of
-    // rounding errors, iterations go on as long as they halve it, because between jammed particles
-    // impulses that must grow to a solution depend on small errors.
+    // rounding errors, iterations go on as long as they halve it, because impulses that must grow
+    // between jammed particles need small errors.
     const bool is_rounding = here <= rounding_error();
     if (problem_.is_convex ? is_rounding && has_factor_ && !(here < before / 2)
                            : !(here < before)) {

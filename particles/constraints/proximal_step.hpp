@@ -28,9 +28,8 @@ namespace viscontact::particles {
 /// the tangential one on |p_t| <= mu_s p_s, with the coefficient of friction mu_s and the part p_s
 /// of p_n that the solids carry, so that Coulomb's law holds if P^{k+1} = P^k. For the convex
 /// relaxation (5.9) it projects on the cone of both impulses. In convex problems y minimises a
-/// convex function, along which the length of each step of Newton's method is searched. A smaller
-/// epsilon brings P^{k+1} nearer to the solution, but makes the equation harder to solve. Contacts
-/// may be redundant.
+/// convex function, which decides the lengths of Newton's steps. A smaller epsilon brings P^{k+1}
+/// nearer to the solution, but makes the equation harder to solve.
 ///
 /// The matrix of Newton's method (Alart & Curnier 1991, "A mixed formulation for frictional contact
 /// problems prone to Newton like solution methods") is a UnitMatrix. Its factors are used again as
@@ -51,8 +50,7 @@ class ProximalStep {
   ProximalStep(const ConstraintProblem<D>& problem, const std::vector<double>& w,
                UnitMatrix<D>& matrix);
 
-  /// Sets epsilon of the gaps and the rows of links, and of the slips [1], > 0. One of the two
-  /// functions of this name must be called before solve().
+  /// Sets epsilon of gaps and links, and of slips [1], > 0. To be called before solve().
   void set_epsilon(double of_gaps, double of_slips);
   void set_epsilon(double epsilon) { set_epsilon(epsilon, epsilon); }  ///< the same for all rows
 

@@ -34,7 +34,8 @@ ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
     particles.push_back(part.particle);
     w += mobilities_[index_of(part.particle)];
     length += norm(state_.particles.position(index_of(part.particle)));
-    // The residual of an angle is an arc [L], and an angle has rounding errors of 1 rad at least.
+    // The residual of an angle is an arc [L]; its rounding errors are those of angles of 1 rad or
+    // more.
     if (link.is_angle())
       length +=
           state_.particles.radii[index_of(part.particle)] * (1 + std::abs(link.rows.front().value));
@@ -72,8 +73,8 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
   const auto violations = constraints_->least_violations();
   const double largest = *std::ranges::max_element(violations);
   if (largest > kBroken * mean_radius) {
-    // Violations below this part of the largest one do not count: least_violations() has errors of
-    // 1e-6.
+    // Violations below this part of the largest one do not count: least_violations() has relative
+    // errors of 1e-6.
     constexpr double kPart = 1e-3;
     const std::size_t contacts = chosen_.size();
     for (std::size_t b = 0; b < contacts; ++b)
@@ -106,8 +107,7 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
 /// Writes the residuals of the present solution to `result`: those of the chosen contacts and of
 /// the links only if `is_final`, and those of pairs that are not chosen, whose gaps must not be
 /// closed. Returns the numbers of the latter pairs whose gap is closed by more than allowed. Pairs
-/// without a particle that the solution moves are not tested, because the chosen pairs contain all
-/// those that the motion without contacts closes.
+/// whose particles move freely are not tested, because such motion closes only chosen pairs.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settings,
                                                     double mean_radius, bool is_final,

@@ -1,9 +1,8 @@
 // Solves the projection of a time step, the problem for the impulses of contacts that keeps gaps
 // open: chooses contacts, solves in rounds that add further contacts, and computes the scales with
 // which residuals are compared (step_projection.hpp, docs/particles.md). h [T] is the length of the
-// step, u* are the velocities at its end without contacts and links, v those with them. Lengths,
-// masses and times are in any consistent units. Nothing is thrown; ProjectionResult tells whether
-// the step is solved. simulation.cpp uses it. A change must keep that results do not depend on the
+// step, u* are the velocities at its end without contacts and links, v those with them, in any
+// consistent units. Nothing is thrown. simulation.cpp uses it. Results must not depend on the
 // number of threads; a change of a scale alters which steps converge.
 #include "viscontact/particles/projection/step_projection.hpp"
 
@@ -221,8 +220,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   }
   // Tolerances of the rough solution: of the gaps in mean radii, and of the impulses as a fraction
   // of the impulses at work. For bench/box2d.cpp with 1000 discs, steps with 5e-4 to 2e-3 take the
-  // same time, and with 3e-3 a tenth more. The fraction is 1, because a smaller one needs the
-  // impulses at work, which are not known yet.
+  // same time, and with 3e-3 a tenth more. The fraction is 1, as the impulses at work are not known
+  // yet.
   constexpr double kRoughLength = 1e-3, kRoughImpulse = 1;
   bool is_rough = settings.tolerance < kRoughLength && settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;

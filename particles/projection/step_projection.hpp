@@ -2,9 +2,8 @@
 // docs/physics.md (5.3) and (5.4). Chooses the pairs that take part in it, sets their tolerances,
 // solves it, and measures the residuals of the solution by scales that do not depend on units. h
 // [T] is the length of the step, u* are the velocities at its end without contacts and links, v
-// those with them. Lengths [L], masses [M] and times [T] are in any consistent units. Nothing is
-// checked or thrown: ProjectionResult tells whether the step is solved. simulation.cpp uses it. A
-// change must keep that results do not depend on the number of threads.
+// those with them. Units are any consistent ones. Nothing is thrown: ProjectionResult tells whether
+// the step is solved. simulation.cpp uses it. Results must not depend on the number of threads.
 #pragma once
 
 #include <algorithm>
@@ -59,8 +58,7 @@ class ResidualScales {
   ///
   /// The impulse at work is the smallest of those of the particles, because an impulse that is
   /// small for a heavy particle may be all that moves a light one. The rounding errors are those of
-  /// the gap, of the displacements of the particles, and of a solution for the impulses of all
-  /// contacts that are connected with this one.
+  /// the gap, of the displacements of the particles, and of a solution for all connected contacts.
   ResidualScale of(std::span<const std::int32_t> particles, double w, double length);
   /// Scales of a contact, from its own particles, w and gap.
   ResidualScale of(const Contact<D>& contact) {
@@ -81,23 +79,21 @@ class ResidualScales {
   std::span<const double> displacements_, mobilities_;
   ContactSystem<D>& system_;
   std::vector<ParticleScale> body_scales_;  // of all bodies of system_
-  // For each island of system_ the largest w^(1/2) p of its contacts, with w of the contact and the
-  // impulse p, [L (M/T)^(1/2)], at the place of the body that represents the island.
+  // Largest w^(1/2) p of the contacts of each island [L (M/T)^(1/2)], at ContactSystem::island().
   std::vector<double> island_impulses_;
 };
 
 /// If a residual after all iterations is more than this part of the mean radius, links contradict
-/// each other, which simulation.cpp makes an error. Smaller ones may be slow convergence and are
-/// only reported. A free choice, far above usual tolerances (1e-6) and far below a radius.
+/// each other, which simulation.cpp makes an error. Smaller ones may be slow convergence. A free
+/// choice, far above tolerances.
 inline constexpr double kBroken = 1e-3;
 
 /// Result of the projection of a step.
 struct ProjectionResult {
   int iterations = 0;       ///< number of iterations of all solutions, >= 0
   StepResiduals residuals;  ///< of the last solution; impulse_errors are in the order of `pairs`
-  /// Number of contacts that exert an impulse or had gamma < 0 (minus the impulse that their film
-  /// has absorbed), and whose particles move around each other by more than kLargestTurn
-  /// (contact.hpp), so that their linearised gaps are wrong.
+  /// Number of contacts with an impulse or a film (gamma < 0) whose particles move around each
+  /// other by more than kLargestTurn (contact.hpp), so that linearised gaps are wrong.
   std::size_t unresolved = 0;
   double link_residual = 0;  ///< largest residual of a link [L], >= 0
   /// Names of the hinges and arms that contradict each other, for messages. Empty if the residuals
@@ -118,10 +114,10 @@ struct ProjectionResult {
 /// comes first, because it finds most of these pairs with little work.
 ///
 /// The step has converged if each contact meets two conditions, with its linearised gap d after the
-/// step, impulse p and change w of the gap per impulse. The residual |min(d, w (p - gamma))| is at
-/// most half of SolverSettings::tolerance mean radii; d does not count the overlap that is
-/// tolerated. The residual divided by w is at most SolverSettings::impulse_tolerance of the impulse
-/// at work, or within rounding errors. Residuals of links are measured likewise.
+/// step, impulse p and change w of the gap per impulse. The residual |min(d, w (p - gamma))|,
+/// without the tolerated overlap, is at most half of SolverSettings::tolerance mean radii. The
+/// residual over w is at most SolverSettings::impulse_tolerance of the impulse at work, or within
+/// rounding errors. Links are measured likewise.
 template <int D>
 class StepProjection {
  public:
@@ -132,9 +128,9 @@ class StepProjection {
                  ThreadPool& pool);
   /// Makes solve() treat friction, rigid bodies and links, too. `step` must outlive this object.
   void add_constraints(const ConstraintStep& step);
-  /// Makes solve() linearise contacts where collisions (impacts/) have left their particles, and
-  /// not at the beginning of the step, where a contact would stop particles that only pass each
-  /// other. `impacts` must outlive this object.
+  /// Makes solve() linearise contacts where collisions (impacts/) have left their particles. At the
+  /// beginning of the step contacts would stop particles that only pass each other. `impacts` must
+  /// outlive this object.
   void follow(const Impacts<D>& impacts) { impacts_ = &impacts; }
   /// Solves the projection and sets the displacements h v, but changes neither pairs nor memories
   /// of the state. `mean_radius` [L], > 0, is the unit of SolverSettings::tolerance. Call it once.
