@@ -25,8 +25,7 @@ template <int K, class Block>
 inline void subtract_product(const Block& a, const Block& b, Block& c) {
   constexpr auto k = static_cast<std::size_t>(K);
   for (std::size_t i = 0; i < k; ++i) {
-    // The compiler keeps `row` in registers. It would write each sum in `c` to memory, because it
-    // does not know that c is neither a nor b.
+    // The compiler keeps `row` in registers; it does not know that c is neither a nor b.
     std::array<double, k> row;
     for (std::size_t j = 0; j < k; ++j) row[j] = c[i * k + j];
     for (std::size_t l = 0; l < k; ++l)
@@ -89,8 +88,8 @@ inline void substitute_back(const std::array<double, static_cast<std::size_t>(K*
   }
 }
 
-/// For each row of a block 1 over the root of its diagonal entry, or 1 if this entry is 0. These
-/// factors make rows of different units comparable.
+/// For each row of a block 1 over the root of its diagonal entry, or 1 if this entry is 0. They
+/// make units comparable.
 template <int K, class Block>
 std::array<double, static_cast<std::size_t>(K)> scales_of_rows(const Block& a) {
   std::array<double, static_cast<std::size_t>(K)> scales;
@@ -131,8 +130,7 @@ bool factorise_block(std::array<double, static_cast<std::size_t>(K)> scales, Blo
   return true;
 }
 
-/// Replaces x, a matrix of K rows and kColumns columns, by the solution X of D X = x, for a block D
-/// that factorise_block() has replaced by its `factors`.
+/// Replaces x, K rows of kColumns numbers, by the solution X of D X = x, with `factors` of D.
 template <int K, std::size_t kColumns, class Block, class Pivots>
 inline void solve_block(const Block& factors, const Pivots& pivots, double* x) {
   constexpr auto k = static_cast<std::size_t>(K);

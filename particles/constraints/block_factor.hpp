@@ -3,7 +3,7 @@
 // of blocks belongs to a body: a particle, or a rigid body of several. Units are any consistent
 // ones. A singular matrix makes factorise() return false; nothing is checked or thrown. Used by
 // constraint_system.cpp, interior_points.hpp and proximal_step.hpp. Results depend on the order of
-// elimination and of sums, by rounding errors.
+// sums.
 #pragma once
 
 #include <array>
@@ -48,8 +48,8 @@ class BlockFactor {
   /// Block of A on the diagonal, to which the caller adds. Needs clear() after factorise().
   Block& diagonal(std::size_t body) { return diagonal_[place_[body]]; }
   /// Block of A for edge number `edge` of analyse(), to which the caller adds. Its rows belong to
-  /// the body edge[from], `from` 0 or 1, its columns to the other one. If A is symmetric, only
-  /// blocks with is_below() may be asked for.
+  /// the body edge[from], `from` 0 or 1, its columns to the other one. If A is symmetric, it must
+  /// be is_below().
   Block& off_diagonal(std::size_t edge, std::size_t from) {
     const auto& place = edges_[edge];
     return (place.later == from ? below_ : above_)[place.entry];
@@ -97,11 +97,10 @@ class BlockFactor {
 };
 
 /// The matrix M/h + sum of weight * row^T other. M/h are the masses and moments of inertia of all
-/// units over the length h of the step [M/T, M L^2/T]; a unit is a particle, or a rigid body of
-/// several ones. A row holds the coefficients by which a gap, a tangential displacement or a link's
-/// equation depends on the motions of its units; a block of constraints holds the rows of one
-/// contact or link. A Motion is a displacement [L] and a rotation [rad], or an impulse [M L/T] and
-/// its moment [M L^2/T].
+/// units (particles and rigid bodies) over the length h of the step [M/T, M L^2/T]. A row holds the
+/// coefficients by which a gap, a tangential displacement or a link's equation depends on the
+/// motions of its units; a block of constraints holds the rows of one contact or link. A Motion is
+/// a displacement [L] and a rotation [rad], or an impulse [M L/T] and its moment [M L^2/T].
 template <int D>
 class UnitMatrix {
  public:
@@ -111,8 +110,7 @@ class UnitMatrix {
 
   void set_to_masses();  ///< sets the matrix to M/h
   /// Adds weight * row^T other, for two rows of constraint block `b`, with a weight [M/T] (for rows
-  /// of angles [M L^2/T]). If the matrix is symmetric and row != other, the caller must also add
-  /// the product of the rows in the other order.
+  /// of angles [M L^2/T]). If the matrix is symmetric, other^T row must be added, too.
   void add_product(std::size_t b, std::size_t row, std::size_t other, double weight);
   /// Replaces the matrix by its factors, as BlockFactor::factorise(), and returns its result.
   bool factorise() { return factor_.factorise(); }

@@ -149,8 +149,7 @@ class ConeScaling {
   std::array<ConePoint, 3> inverse_square_beside(double shift) const {
     return beside(2 / (square_[0] + square_[1] + 2 * shift), 1 / (square_[2] + shift));
   }
-  /// The du_0 with which the second number of W^2 dr + du is goal[1], for given components of dr
-  /// and given du_1 and du_2; `goal` are numbers.
+  /// The du_0 with which the second number of W^2 dr + du is goal[1]; `goal` are numbers.
   double first_change(const ConePoint& goal, const ConePoint& dr, const ConePoint& du) const {
     return goal[1] - square_[1] * numbers(dr)[1] - numbers(ConePoint{0, du[1], du[2]})[1];
   }
@@ -193,8 +192,8 @@ struct SecondOrderCone {
   static double length_to_boundary(const InnerPoint& u, const ConePoint& d, std::size_t) {
     return particles::length_to_boundary(u, d);
   }
-  /// Adds t d to a point, which must stay inside the cone. The change of `inside` follows from that
-  /// of the squared distance from the axis, t `twice`.
+  /// Adds t d to a point, which must stay inside. The squared distance from the axis grows by t
+  /// twice.
   static void move(InnerPoint& u, double t, const ConePoint& d) {
     const double before = beside_axis(u.x);
     const double twice = 2 * (u.x[1] * d[1] + u.x[2] * d[2]) + t * (d[1] * d[1] + d[2] * d[2]);
@@ -209,8 +208,7 @@ struct SecondOrderCone {
   static ConePoint without_open_part(const ConePoint& u, const ConePoint& r) {
     return u[0] - beside_axis(u) > r[0] + beside_axis(r) ? ConePoint{} : r;
   }
-  /// The coordinates of the point with the components `x`, in which the other functions take
-  /// points: here the components themselves.
+  /// The coordinates in which the other functions take points: here the components `x`.
   static ConePoint coordinates(const ConePoint& x) { return x; }
 };
 
@@ -292,8 +290,8 @@ struct LinearCones {
       if (x[k] != 0) y[k] = z[k] / x[k];
     return y;
   }
-  /// The largest t > 0 with u + t d in the cone, for a u inside it that has `rows` coordinates, 1
-  /// or 2; infinity if all of them are in it.
+  /// The largest t > 0 with u + t d in the cone of `rows` = 1 or 2 coordinates; infinity if all
+  /// are.
   static double length_to_boundary(const InnerPoint& u, const ConePoint& d, std::size_t rows) {
     double length = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < rows; ++k)

@@ -3,10 +3,9 @@
 // rows of a contact in it. A row is one scalar that depends linearly on the motions of particles: a
 // gap, a tangential displacement of two surfaces, or the left side of a link's equation. h [T] is
 // the length of the step, M are the masses m and moments of inertia I, u the velocities and w the
-// angular velocities, J the matrix of the coefficients of all rows, p the impulses of the rows.
-// Lengths [L], masses [M] and times [T] are in any consistent units. For a link's row of angles
-// read [rad] for [L] of its value and [M L^2/T] for [M L/T] of its impulse. Nothing is checked or
-// thrown.
+// angular velocities, J the coefficients of all rows, p the impulses of the rows. Lengths [L],
+// masses [M] and times [T] are in any consistent units; for a row of angles read [rad] for [L] and
+// [M L^2/T] for [M L/T]. Nothing is thrown.
 //
 // constraint_system.cpp (the steps), impacts/ (collisions) and fluid/fluid_friction.cpp make such
 // problems, and the other files of constraints/ solve them. A change must keep that contacts
@@ -123,8 +122,8 @@ struct ConstraintBlock {
   double capacity = 0;
   double allowed = 0,    ///< largest residual of the gap, or of the rows of a link [L], > 0
       allowed_slip = 0;  ///< largest residual of the tangential rows [L], > 0
-  /// Of a link: v + compliance p = 0 holds for the value v and the impulse p of each row [T/M] (of
-  /// an angle [T/(M L^2)]), >= 0; 0 if the link is rigid.
+  /// Of a link [T/M], >= 0, 0 if it is rigid: each row of value v and impulse p has v + compliance
+  /// p = 0.
   double compliance = 0;
   /// Only with more than one row. With kCone `lowest` and `capacity` must be 0: no film.
   FrictionBound friction_bound = FrictionBound::kCoulomb;
@@ -145,10 +144,9 @@ struct ConstraintBlock {
 inline constexpr std::size_t kMostRows = 3;
 
 /// The problem of a step: find impulses p of the rows and motions y = y* + h M^-1 J^T p of the
-/// units, y* = h (u*, w*) without constraints, that obey the following. Each contact with the
-/// normal impulse p_n has gap >= 0, p_n >= lowest, and one of them with equality. Each tangential
-/// impulse obeys the law of the FrictionBound of its contact. Each row of a link has the value
-/// -compliance p.
+/// units, y* = h (u*, w*) without constraints, that obey the following. A contact with the normal
+/// impulse p_n has gap >= 0, p_n >= lowest, and one of them with equality. Tangential impulses obey
+/// the FrictionBound. A row of a link has the value -compliance p.
 template <int D>
 struct ConstraintProblem {
   std::vector<RigidUnit<D>> units;      ///< all units that have a contact or link
@@ -185,8 +183,7 @@ struct ConstraintProblem {
     }
     return sum;
   }
-  /// Adds the impulses and moments that the impulse `p` [M L/T] of row `r` exerts on its units,
-  /// J^T p, to `to`, which has an element for each unit.
+  /// Adds the impulses that the impulse `p` of row `r` exerts on its units, J^T p, to `to`.
   void add_impulse(std::size_t r, double p, std::span<Motion<D>> to) const {
     for (const auto& [unit, coefficients] : parts_of(r)) {
       auto& impulse = to[static_cast<std::size_t>(unit)];
@@ -206,8 +203,7 @@ std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
 template <int D>
 void give_loads(ConstraintProblem<D>& problem);
 
-/// The mobility of each row: the change of its value by a unit impulse on it, a diagonal entry of
-/// J h M^-1 J^T [T/M] (for angles [T/(M L^2)]), >= 0.
+/// The mobilities: changes of rows by unit impulses on them, the diagonal of J h M^-1 J^T [T/M].
 template <int D>
 std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
 

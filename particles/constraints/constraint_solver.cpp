@@ -3,8 +3,7 @@
 // steps and interior points. Units are any consistent ones. A residual [L] is allowed if it is at
 // most ConstraintBlock::allowed or allowed_slip. Nothing is thrown; an unsolved problem has
 // SolverResult::residual > 1. Used by constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp.
-// Constants without another reason are free choices: they change the time of a solution, which
-// problems are solved, and results within tolerances.
+// Constants without another reason are free choices.
 //
 // `epsilon` [1] is the parameter of a proximal step: the impulse of a row with the value v and the
 // mobility w is center - v/(epsilon w), projected on the allowed impulses. A smaller epsilon brings
@@ -27,8 +26,8 @@ namespace viscontact::particles {
 namespace {
 
 /// The mobility of each row [T/M]. Both tangential rows of a contact get the larger of their two.
-/// With kLeastImpulses all gaps get the largest mobility of all first rows, so that redundant
-/// contacts share an impulse as if all were equally stiff.
+/// With kLeastImpulses all gaps get the largest mobility of all first rows, so that contacts share
+/// impulses as if equally stiff.
 template <int D>
 std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, ConstraintStart start) {
   auto w = row_mobilities(problem);
@@ -110,10 +109,10 @@ class Iteration {
   }
 
   /// Takes a proximal step of a problem with Coulomb's law. Between jammed particles that stick,
-  /// impulses that balance each other must grow until a contact slips or opens. Steps with a small
-  /// epsilon reach this state fast, but fail more often. Therefore epsilon falls after a success
-  /// and grows after a failure, which leaves the impulses unchanged. If a step with the largest
-  /// epsilon fails, sweeps are made.
+  /// impulses that balance each other must grow until a contact slips or opens. Small epsilons
+  /// reach this state fast, but fail more often. Therefore epsilon falls after a success and grows
+  /// after a failure, which leaves impulses unchanged. If the largest epsilon fails, sweeps are
+  /// made.
   void take_proximal_step(int max_iterations) {
     constexpr int kMostIterations = 200, kFewIterations = 2;
     constexpr double kLeastEpsilon = 1e-12, kLargestEpsilon = 1, kFactor = 3, kLargeFactor = 10;
@@ -190,9 +189,8 @@ class Iteration {
     return false;
   }
 
-  /// Solves a convex problem. If the friction of its contacts is bounded by given loads, a solution
-  /// by interior points first replaces these by its own loads, unless they are kept or the solution
-  /// is rough.
+  /// Solves a convex problem. If the friction of its contacts is bounded by given loads, a first
+  /// solution replaces these by its own loads, unless they are kept or it is rough.
   void solve_with_own_loads(int max_iterations) {
     if (has_given_loads_ && !problem_.keeps_loads && !problem_.is_rough) {
       find_interior_solution(max_iterations);
@@ -224,9 +222,8 @@ class Iteration {
     update();
   }
 
-  /// Solves a convex problem with its present loads: by interior points, and if their residual is
-  /// not allowed by proximal steps. These need only a few iterations, because interior points have
-  /// found which contacts stick and which slide.
+  /// Solves a convex problem with its present loads: by interior points, and then by a few proximal
+  /// steps, if needed. Interior points have found which contacts stick and which slide.
   void solve_convex(int max_iterations) {
     // If rows are redundant, impulses found by sweeps depend on the order of the rows, and those
     // found by interior points do not. Loads, which bound friction, must not depend on it.
@@ -235,8 +232,7 @@ class Iteration {
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return;
     find_interior_solution(max_iterations);
     if (problem_.is_rough) return;
-    // Errors of the impulses are the rounding errors of the gaps divided by epsilon; with a smaller
-    // first epsilon they would be too large.
+    // A smaller one makes errors of impulses larger: rounding errors of gaps over epsilon.
     constexpr double kFirstEpsilonOfConvex = 1e-5;
     epsilon_ = kFirstEpsilonOfConvex;
     is_rising_ = true;
@@ -250,9 +246,8 @@ class Iteration {
 
   /// Takes a proximal step of a convex problem, and changes epsilon for the next one. Without
   /// rounding errors each step would lead nearer to the solution. The errors of the impulses are
-  /// the rounding errors of the gaps divided by epsilon. Therefore epsilon rises. From
-  /// kFirstEpsilon it falls to kLeastEpsilon, so that impulses between jammed particles grow fast,
-  /// and rises again.
+  /// the rounding errors of the gaps divided by epsilon. Therefore epsilon rises to kFirstEpsilon,
+  /// then falls so that impulses between jammed particles grow fast, and rises again.
   void take_convex_step(int max_iterations) {
     constexpr int kMostIterations = 50;
     constexpr double kLeastEpsilon = 1e-8, kFactor = 10, kLittle = 0.9;
@@ -286,8 +281,7 @@ class Iteration {
   }
 
   /// Adds the change of the impulses since `center` as often as no contact slips or opens. Between
-  /// jammed particles, impulses that balance each other grow by the same small amounts in each step
-  /// until then, and the residual does not change.
+  /// jammed particles each step adds the same small impulses until then, with the same residual.
   void extend_change(const std::vector<double>& center) {
     const auto& p = problem_.impulses;
     double length = std::numeric_limits<double>::infinity();

@@ -177,8 +177,8 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system,
 }
 
 /// Changes the offsets of the rows so that their linear values for the motions of `solution` become
-/// those after finite turns, and stores the changes in shifts_. Returns the largest change divided
-/// by the allowed residual of its block [1].
+/// those after finite turns, and stores the changes in shifts_. Returns the largest change over its
+/// allowed residual.
 template <int D>
 double ConstraintSystem<D>::correct(ContactSystem<D>& system,
                                     const ConstraintSolution<D>& solution) {
@@ -358,10 +358,9 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
 template <int D>
 std::vector<double> ConstraintSystem<D>::least_violations() const {
   const auto& problem = problem_;
-  // The least squares problem is solved by proximal steps: each minimises the sum of v^2/(kEpsilon
-  // w) plus the square of the change of the motions in the norm of M/h (masses over the step's
-  // length), which keeps the matrix regular. Each step multiplies the error by about kEpsilon for
-  // motions that the rows determine well.
+  // Proximal steps: each minimises the sum of v^2/(kEpsilon w) plus the square of the change of the
+  // motions in the norm of M/h, masses over the step's length, which keeps the matrix regular. A
+  // step multiplies errors by about kEpsilon if the rows determine the motions well.
   constexpr double kEpsilon = 1e-6;
   constexpr int kSteps = 30;
   const auto w = row_mobilities(problem);

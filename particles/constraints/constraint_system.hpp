@@ -46,22 +46,22 @@ template <int D>
 class ConstraintSystem {
  public:
   /// All arguments must outlive this object. `displacements`: of all particles without contacts and
-  /// links [L], D numbers for each; solve() changes them. `mobilities`: h/m of all particles [T/M],
-  /// > 0, with the mass m.
+  /// links [L], D numbers for each; solve() changes them. `mobilities`: h/m, with the masses m
+  /// [T/M], > 0.
   ConstraintSystem(const ConstraintStep& step, const Particles& particles,
                    std::span<double> displacements, std::span<const double> mobilities);
 
   /// Adds the particles of all links to `system`. Must be called before a contact is added.
   void join_linked(ContactSystem<D>& system) const;
 
-  /// Adds the contact of `pair`. To be called for each contact of the ContactSystem, in their
-  /// order. `memory` holds the first guess of the friction.
+  /// Adds the contact of `pair`. `memory` holds the guess of the friction. Call it for each contact
+  /// of the ContactSystem in order.
   void add(const Contact<D>& contact, const Pair& pair, const PairMemory& memory);
 
   /// The equations of all links, then those of the stops of hinges (bounds of their angles).
   const std::vector<LinkEquations>& links() const { return links_; }
-  /// The allowed residual of each link [L], > 0, in the order of links(); of an angle times the
-  /// mean radius. The caller sets it before solve().
+  /// To be set before solve(): allowed residuals of links() [L], > 0; of angles times the mean
+  /// radius.
   std::vector<double> links_allowed;
 
   /// Solves the step. Sets the impulses of the contacts of `system`, the displacements and turns of
@@ -83,8 +83,8 @@ class ConstraintSystem {
   /// True if solve() did not solve Coulomb's law, and given loads bound the friction.
   bool has_given_up() const { return has_given_up_; }
 
-  /// Writes the impulse of friction of contact number `c`, and the part of the normal impulse that
-  /// its solids carry, into `memory` [M L/T].
+  /// Writes the friction of contact `c`, and the impulse that its solids carry, to `memory` [M
+  /// L/T].
   void remember(std::size_t c, PairMemory& memory) const {
     memory.set_friction(frictions_[c]);
     memory[Remembered::kCarried] = carried_[c];

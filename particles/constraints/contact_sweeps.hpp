@@ -1,8 +1,7 @@
 // Sweeps of nonlinear Gauss-Seidel over the contacts and links of a time step: each sweep improves
 // the impulses of the problem of constraint_problem.hpp. Lengths, masses and times are in any
-// consistent units. Nothing is checked or thrown. constraint_solver.cpp uses them. A change must
-// keep the order of blocks and of sums, because results depend on it by rounding errors, and if
-// constraints are redundant also the impulses.
+// consistent units. Nothing is checked or thrown. constraint_solver.cpp uses them. Results depend
+// on the order of blocks and sums.
 #pragma once
 
 #include <cstddef>

@@ -32,8 +32,7 @@ namespace viscontact::particles {
 /// The method is the predictor-corrector method of Mehrotra (1992), scaled after Nesterov & Todd
 /// (1997, "Self-scaled barriers and interior-point methods for convex programming"). Each iteration
 /// factorises a UnitMatrix. To keep it regular if rows are redundant, a small multiple of the
-/// change of r in an iteration is added to the change of u; it vanishes at the solution. Most
-/// problems take 10 to 25 iterations.
+/// change of r in an iteration is added to that of u. Most problems take 10 to 25 iterations.
 template <int D>
 class InteriorPoints {
  public:
@@ -44,8 +43,8 @@ class InteriorPoints {
 
   /// Solves the problem until the scaled violations of its conditions are at most `accuracy`, in
   /// (0, 1), times the largest scaled value of a row with the least impulses. Stops before if
-  /// rounding errors prevent progress or make a matrix singular, or after `max_iterations`. Returns
-  /// the number of iterations, each with a factorisation.
+  /// rounding errors prevent progress, or after `max_iterations`. Returns the number of
+  /// factorisations.
   int solve(double accuracy, int max_iterations);
 
   /// Impulses of the rows with the smallest violations that the last solve() found [M L/T].

@@ -14,8 +14,7 @@
 namespace viscontact::particles {
 
 /// The change of the matrix when block `block` changes its branch: J^T column (row J), for the two
-/// rows J of a contact. It is a product of a column [1] and a row [M/T], because the projection is
-/// continuous.
+/// rows J of a contact. Its form follows from the projection's continuity.
 template <int D>
 struct ProximalStep<D>::Crossing {
   std::size_t block = 0;

@@ -204,8 +204,8 @@ double ProximalStep<D>::length_of_step(double before) {
 }
 
 /// Length of a step, in (0, 1], that ends near the minimum along direction_ of the convex function
-/// whose gradient is -error_: where its derivative along direction_ is at most kReached of that at
-/// the start. This derivative increases with the length.
+/// whose gradient is -error_: where its derivative along direction_, which increases, is at most
+/// kReached of the first.
 template <int D>
 double ProximalStep<D>::length_to_minimum() {
   constexpr double kReached = 0.1;

@@ -39,8 +39,8 @@ namespace viscontact::particles {
 /// direction of Newton's method reduces its error, solve() follows the path of motions on which the
 /// error is a multiple of that at its start, from one change of a branch to the next, also where
 /// this multiple grows (Katzenelson 1965, "An algorithm for solving nonlinear resistor networks";
-/// Chien & Kuh 1976, "Solving piecewise-linear equations for resistive networks"). Coulomb's law
-/// makes such paths turn back between jammed particles.
+/// Chien & Kuh 1976, "Solving piecewise-linear equations for resistive networks"). With Coulomb's
+/// law they turn back.
 template <int D>
 class ProximalStep {
  public:

@@ -34,8 +34,7 @@ ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
     particles.push_back(part.particle);
     w += mobilities_[index_of(part.particle)];
     length += norm(state_.particles.position(index_of(part.particle)));
-    // The residual of an angle is an arc [L]; its rounding errors are those of angles of 1 rad or
-    // more.
+    // Residuals of angles are arcs [L], with the rounding errors of angles of 1 rad or more.
     if (link.is_angle())
       length +=
           state_.particles.radii[index_of(part.particle)] * (1 + std::abs(link.rows.front().value));
@@ -73,8 +72,7 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
   const auto violations = constraints_->least_violations();
   const double largest = *std::ranges::max_element(violations);
   if (largest > kBroken * mean_radius) {
-    // Violations below this part of the largest one do not count: least_violations() has relative
-    // errors of 1e-6.
+    // Smaller parts do not count: errors of least_violations() are about 1e-6 of the largest.
     constexpr double kPart = 1e-3;
     const std::size_t contacts = chosen_.size();
     for (std::size_t b = 0; b < contacts; ++b)

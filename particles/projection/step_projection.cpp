@@ -208,8 +208,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   // Coulomb's law this begins when a solution has closed further gaps, and not before the first
   // one, because redundant contacts would take loads from particles that stand by themselves, and
   // cost iterations. With the convex relaxation, (5.9), it begins before the first solution, but
-  // only for pairs with a film, because the relaxation would push sliding particles without a film
-  // apart, also if their gap stayed open.
+  // only for pairs with a film, because the relaxation pushes sliding particles without a film
+  // apart.
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
@@ -220,8 +220,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   }
   // Tolerances of the rough solution: of the gaps in mean radii, and of the impulses as a fraction
   // of the impulses at work. For bench/box2d.cpp with 1000 discs, steps with 5e-4 to 2e-3 take the
-  // same time, and with 3e-3 a tenth more. The fraction is 1, as the impulses at work are not known
-  // yet.
+  // same time, and with 3e-3 a tenth more. The fraction is 1: impulses are unknown yet.
   constexpr double kRoughLength = 1e-3, kRoughImpulse = 1;
   bool is_rough = settings.tolerance < kRoughLength && settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;
@@ -248,8 +247,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
       continue;
     }
     if (is_last) break;
-    // If accurate solutions do not improve in kPatience rounds that add no pair, only rounding
-    // errors are left. The number is a free choice.
+    // After kPatience (a free choice) rounds without a gain or a new pair, rounding errors are
+    // left.
     constexpr int kPatience = 10;
     waited = more.empty() && !is_rough && result.residuals.excess >= least_excess ? waited + 1 : 0;
     if (waited == kPatience) break;
@@ -272,9 +271,9 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
 template class StepProjection<2>;
 template class StepProjection<3>;
 
-/// The impulse at work on a particle of `system` is the largest of three: that of its own motion
-/// (of_particle()), the impulses of its contacts, and the impulses that would open those of its
-/// contacts that overlap after the step.
+/// The impulse at work on a particle is the largest of three: that of its own motion
+/// (of_particle()), the impulses of its contacts, and those that would open its contacts that still
+/// overlap.
 template <int D>
 ResidualScales<D>::ResidualScales(const State& state, double h,
                                   std::span<const double> displacements,

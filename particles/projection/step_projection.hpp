@@ -46,9 +46,8 @@ struct ResidualScale {
 template <int D>
 class ResidualScales {
  public:
-  /// Measures the impulses at work at the present impulses of `system` and the displacements h v of
-  /// all particles [L]. `mobilities`: h/m of all particles of the mass m [T/M]. `h` [T] > 0. The
-  /// arguments must outlive this object.
+  /// Measures the impulses at work at the present impulses of `system` and displacements h v [L].
+  /// `mobilities`: h/m of all particles [T/M], > 0. The arguments must outlive this object.
   ResidualScales(const State& state, double h, std::span<const double> displacements,
                  std::span<const double> mobilities, ContactSystem<D>& system);
 
@@ -84,8 +83,7 @@ class ResidualScales {
 };
 
 /// If a residual after all iterations is more than this part of the mean radius, links contradict
-/// each other, which simulation.cpp makes an error. Smaller ones may be slow convergence. A free
-/// choice, far above tolerances.
+/// each other, which simulation.cpp makes an error. A free choice, far above tolerances.
 inline constexpr double kBroken = 1e-3;
 
 /// Result of the projection of a step.
@@ -100,8 +98,7 @@ struct ProjectionResult {
   /// of all links are allowed, or no residual or overlap is more than kBroken mean radii.
   std::vector<std::string> unsolved_links;
   bool contact_contradicts = false;  ///< true: contacts may contradict these links
-  std::vector<Pair*> pairs;          ///< pairs in the projection, in State; solve() leaves them as
-                                     ///< they are
+  std::vector<Pair*> pairs;          ///< the pairs in the projection, which solve() does not change
   std::vector<double> impulses;      ///< of `pairs` [M L/T]
   std::vector<PairMemory> memories;  ///< new memories of `pairs`; empty without add_constraints()
   std::vector<std::int32_t> bodies;  ///< particles whose displacements the projection changed
@@ -128,9 +125,9 @@ class StepProjection {
                  ThreadPool& pool);
   /// Makes solve() treat friction, rigid bodies and links, too. `step` must outlive this object.
   void add_constraints(const ConstraintStep& step);
-  /// Makes solve() linearise contacts where collisions (impacts/) have left their particles. At the
-  /// beginning of the step contacts would stop particles that only pass each other. `impacts` must
-  /// outlive this object.
+  /// Makes solve() linearise contacts where collisions (impacts/) have left their particles.
+  /// Elsewhere they would stop particles that only pass each other. `impacts` must outlive this
+  /// object.
   void follow(const Impacts<D>& impacts) { impacts_ = &impacts; }
   /// Solves the projection and sets the displacements h v, but changes neither pairs nor memories
   /// of the state. `mean_radius` [L], > 0, is the unit of SolverSettings::tolerance. Call it once.
