@@ -25,7 +25,8 @@ template <int K, class Block>
 inline void subtract_product(const Block& a, const Block& b, Block& c) {
   constexpr auto k = static_cast<std::size_t>(K);
   for (std::size_t i = 0; i < k; ++i) {
-    // The compiler keeps `row` in registers; it does not know that c is neither a nor b.
+    // `row` stays in registers. `c` would not, because the compiler cannot exclude that c is a or
+    // b.
     std::array<double, k> row;
     for (std::size_t j = 0; j < k; ++j) row[j] = c[i * k + j];
     for (std::size_t l = 0; l < k; ++l)
@@ -88,8 +89,8 @@ inline void substitute_back(const std::array<double, static_cast<std::size_t>(K*
   }
 }
 
-/// For each row of a block 1 over the root of its diagonal entry, or 1 if this entry is 0. They
-/// make units comparable.
+/// For each row of a block 1 over the root of its diagonal entry, or 1 if that is 0: factors that
+/// make rows of different units comparable.
 template <int K, class Block>
 std::array<double, static_cast<std::size_t>(K)> scales_of_rows(const Block& a) {
   std::array<double, static_cast<std::size_t>(K)> scales;

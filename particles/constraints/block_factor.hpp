@@ -1,7 +1,7 @@
 // Sparse LU factorisation of a matrix of small dense blocks with a symmetric pattern (BlockFactor),
 // and the matrices of the contacts and links of a time step that it factorises (UnitMatrix). A row
 // of blocks belongs to a body: a particle, or a rigid body of several. Units are any consistent
-// ones. A singular matrix makes factorise() return false; nothing is checked or thrown. Used by
+// ones. A singular matrix makes factorise() return false; nothing is thrown. Used by
 // constraint_system.cpp, interior_points.hpp and proximal_step.hpp. Results depend on the order of
 // sums.
 #pragma once
@@ -48,8 +48,7 @@ class BlockFactor {
   /// Block of A on the diagonal, to which the caller adds. Needs clear() after factorise().
   Block& diagonal(std::size_t body) { return diagonal_[place_[body]]; }
   /// Block of A for edge number `edge` of analyse(), to which the caller adds. Its rows belong to
-  /// the body edge[from], `from` 0 or 1, its columns to the other one. If A is symmetric, it must
-  /// be is_below().
+  /// the body edge[from], its columns to the other one. If A is symmetric, only with is_below().
   Block& off_diagonal(std::size_t edge, std::size_t from) {
     const auto& place = edges_[edge];
     return (place.later == from ? below_ : above_)[place.entry];
@@ -79,7 +78,7 @@ class BlockFactor {
   // An entry is a block of L; columns and rows are counted by places in the order of elimination.
   std::vector<std::int32_t> order_;   // body that is eliminated at each place
   std::vector<std::size_t> place_;    // place of each body in the order
-  std::vector<std::size_t> offsets_;  // first entry of each column of L, and their number
+  std::vector<std::size_t> offsets_;  // first entry of each column of L; at the end their number
   std::vector<std::int32_t> rows_;    // row of each entry, increasing in a column
   std::vector<EdgePlace> edges_;
   std::vector<Block> diagonal_;  // blocks of A, then the factors of the blocks of D

@@ -122,8 +122,7 @@ struct ConstraintBlock {
   double capacity = 0;
   double allowed = 0,    ///< largest residual of the gap, or of the rows of a link [L], > 0
       allowed_slip = 0;  ///< largest residual of the tangential rows [L], > 0
-  /// Of a link [T/M], >= 0, 0 if it is rigid: each row of value v and impulse p has v + compliance
-  /// p = 0.
+  /// Of a link [T/M], >= 0 (0: rigid): v + compliance p = 0 for value v and impulse p of each row.
   double compliance = 0;
   /// Only with more than one row. With kCone `lowest` and `capacity` must be 0: no film.
   FrictionBound friction_bound = FrictionBound::kCoulomb;
@@ -145,8 +144,8 @@ inline constexpr std::size_t kMostRows = 3;
 
 /// The problem of a step: find impulses p of the rows and motions y = y* + h M^-1 J^T p of the
 /// units, y* = h (u*, w*) without constraints, that obey the following. A contact with the normal
-/// impulse p_n has gap >= 0, p_n >= lowest, and one of them with equality. Tangential impulses obey
-/// the FrictionBound. A row of a link has the value -compliance p.
+/// impulse p_n has gap >= 0, p_n >= lowest, and one of them with equality. Friction obeys its
+/// FrictionBound. A row of a link has the value -compliance p.
 template <int D>
 struct ConstraintProblem {
   std::vector<RigidUnit<D>> units;      ///< all units that have a contact or link
@@ -199,11 +198,12 @@ std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
 
 /// Makes the problem convex: each contact with friction gets FrictionBound::kGiven, with the load
 /// of its solids at problem.impulses as given_load, (5.17). Sets is_convex and keeps_loads, clears
-/// is_rough. In the solution gaps, films and links are exact; Coulomb's law is not if loads change.
+/// is_rough. In the solution gaps, films and links are exact, but not Coulomb's law if the loads
+/// changed.
 template <int D>
 void give_loads(ConstraintProblem<D>& problem);
 
-/// The mobilities: changes of rows by unit impulses on them, the diagonal of J h M^-1 J^T [T/M].
+/// The mobility of each row, its change by a unit impulse on it: diagonal of J h M^-1 J^T [T/M].
 template <int D>
 std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
 

@@ -110,9 +110,8 @@ class Iteration {
 
   /// Takes a proximal step of a problem with Coulomb's law. Between jammed particles that stick,
   /// impulses that balance each other must grow until a contact slips or opens. Small epsilons
-  /// reach this state fast, but fail more often. Therefore epsilon falls after a success and grows
-  /// after a failure, which leaves impulses unchanged. If the largest epsilon fails, sweeps are
-  /// made.
+  /// reach this state fast, but steps fail more often. Therefore epsilon falls after a success and
+  /// grows after a failure. If steps with the largest one fail, sweeps are made.
   void take_proximal_step(int max_iterations) {
     constexpr int kMostIterations = 200, kFewIterations = 2;
     constexpr double kLeastEpsilon = 1e-12, kLargestEpsilon = 1, kFactor = 3, kLargeFactor = 10;
@@ -153,13 +152,14 @@ class Iteration {
     return largest;
   }
 
-  /// Makes the residuals of gaps and links allowed after a step from the impulses `center` with
-  /// which those of the slips are. Between jammed particles that stick, slips are never 0, so that
-  /// further steps would increase impulses without end and change gaps by more than their small
-  /// tolerance. The steps of this function therefore start from the last impulses in the rows of
-  /// gaps and links only. The tangential rows keep a center with which the present motions give the
-  /// present friction. Their epsilon is so large that the small changes of the motions hardly
-  /// change it. Returns true if the problem is solved; otherwise restores the impulses.
+  /// Makes the residuals of gaps and links allowed, after a step from the impulses `center` after
+  /// which the residuals of the slips are allowed. Between jammed particles that stick, slips are
+  /// never 0, so that further steps would increase impulses without end and change gaps by more
+  /// than their small tolerance. The steps of this function therefore start from the last impulses
+  /// in the rows of gaps and links only. The tangential rows keep a center with which the present
+  /// motions give the present friction. Their epsilon is so large that the small changes of the
+  /// motions hardly change it. Returns true if the problem is solved; otherwise restores the
+  /// impulses.
   bool close_gaps(std::vector<double> center, int max_iterations) {
     constexpr int kMostSteps = 12, kMostIterations = 200;
     constexpr double kEpsilonOfSlips = 1e-3, kLeastEpsilon = 1e-6, kFactor = 3;
@@ -189,8 +189,8 @@ class Iteration {
     return false;
   }
 
-  /// Solves a convex problem. If the friction of its contacts is bounded by given loads, a first
-  /// solution replaces these by its own loads, unless they are kept or it is rough.
+  /// Solves a convex problem. If given loads bound its friction, a first solution replaces them by
+  /// its own loads, unless given loads are kept or the solution is rough.
   void solve_with_own_loads(int max_iterations) {
     if (has_given_loads_ && !problem_.keeps_loads && !problem_.is_rough) {
       find_interior_solution(max_iterations);
@@ -222,8 +222,8 @@ class Iteration {
     update();
   }
 
-  /// Solves a convex problem with its present loads: by interior points, and then by a few proximal
-  /// steps, if needed. Interior points have found which contacts stick and which slide.
+  /// Solves a convex problem with its present loads: by interior points, and then by proximal
+  /// steps, if needed, which are few: it is known which contacts stick and slide.
   void solve_convex(int max_iterations) {
     // If rows are redundant, impulses found by sweeps depend on the order of the rows, and those
     // found by interior points do not. Loads, which bound friction, must not depend on it.
@@ -232,7 +232,7 @@ class Iteration {
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return;
     find_interior_solution(max_iterations);
     if (problem_.is_rough) return;
-    // A smaller one makes errors of impulses larger: rounding errors of gaps over epsilon.
+    // Errors of impulses are rounding errors of gaps over epsilon, too large with a smaller one.
     constexpr double kFirstEpsilonOfConvex = 1e-5;
     epsilon_ = kFirstEpsilonOfConvex;
     is_rising_ = true;
@@ -280,8 +280,9 @@ class Iteration {
     proximal_->set_epsilon(epsilon_);
   }
 
-  /// Adds the change of the impulses since `center` as often as no contact slips or opens. Between
-  /// jammed particles each step adds the same small impulses until then, with the same residual.
+  /// Adds the change of the impulses since `center` times the largest number with which no contact
+  /// begins to slip or open. Between jammed particles each step until then adds the same small
+  /// impulses.
   void extend_change(const std::vector<double>& center) {
     const auto& p = problem_.impulses;
     double length = std::numeric_limits<double>::infinity();

@@ -27,8 +27,7 @@ enum class ConstraintStart {
   /// problem, the result depends on the order of the rows.
   kSweeps,
   /// A step of the proximal method from the guess in problem.impulses. If rows are redundant, the
-  /// result is near the solution of least squared differences from the guess, whatever the order of
-  /// rows.
+  /// result is near the solution with the least squares of differences from the guess.
   kLeastImpulses,
 };
 

@@ -178,7 +178,7 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system,
 
 /// Changes the offsets of the rows so that their linear values for the motions of `solution` become
 /// those after finite turns, and stores the changes in shifts_. Returns the largest change over its
-/// allowed residual.
+/// bound.
 template <int D>
 double ConstraintSystem<D>::correct(ContactSystem<D>& system,
                                     const ConstraintSolution<D>& solution) {
@@ -251,7 +251,7 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
   }
 }
 
-/// The residual of a contact [L]; of Coulomb's law, also if the solution has given loads.
+/// The residual of a contact [L], that of Coulomb's law also if the solution has given loads.
 template <int D>
 BlockResidual ConstraintSystem<D>::residual_of_contact(
     std::size_t c, const ConstraintSolution<D>& solution) const {
@@ -346,7 +346,7 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     constexpr int kPatience = 3;
     growing = change < last_change ? 0 : growing + 1;
     last_change = change;
-    // The other half of what is allowed is for the residual of the solution.
+    // Half of what is allowed is left to the residual of the solution.
     if (change <= 0.5 || growing == kPatience || is_rough || n == kMostCorrections ||
         (result.iterations >= max_iterations && !has_given_up_) || !(solution.result.residual <= 1))
       break;

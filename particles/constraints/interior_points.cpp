@@ -1,8 +1,9 @@
 // Iterations of the interior-point method for convex problems of contacts with friction and links
 // (interior_points.hpp). Each iteration computes a predictor, whose goal is u.r = 0 for all pairs
 // of a displacement u and an impulse r, and from it the goal of a corrector, whose change of u, r
-// and the motions y is made. u and r are scaled, with the unit L (M/T)^(1/2). Nothing is thrown.
-// Used by constraint_solver.cpp. Results depend on the order of sums.
+// and the motions y is made. u and r are scaled to the unit L (M/T)^(1/2); y are the motions of all
+// units, z the additional unknown of a contact with a given bound of its friction. Nothing is
+// thrown. Used by constraint_solver.cpp. Results depend on the order of sums.
 #include "viscontact/particles/constraints/interior_points.hpp"
 
 #include <algorithm>

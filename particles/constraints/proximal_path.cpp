@@ -1,7 +1,8 @@
 // The path that a step of the proximal method for contacts with friction follows if no step of
-// Newton's method reduces its error: equation, symbols and branches are those of proximal_step.hpp.
-// On the path from the motions y_0 the error is (1 - share) times that of y_0, and the solution is
-// at share = 1. It is for discs only, and consists of straight pieces, on each of which no contact
+// Newton's method reduces its error (proximal_step.hpp). b + J y are the gaps and slips of contacts
+// [L] after the motions y, P^k the impulses before the step [M L/T], rho [M/T] its stiffnesses. On
+// the path from the motions y_0 the error is (1 - share) times that of y_0, and the solution is at
+// share = 1. It is for discs only, and consists of straight pieces, on each of which no contact
 // changes its branch (open, without friction, sticking, slipping). Units are any consistent ones.
 // Nothing is thrown. proximal_step.cpp uses it. Results depend on the order of sums.
 #include <Eigen/Dense>
@@ -13,8 +14,8 @@
 
 namespace viscontact::particles {
 
-/// The change of the matrix when block `block` changes its branch: J^T column (row J), for the two
-/// rows J of a contact. Its form follows from the projection's continuity.
+/// The change of the matrix when a block changes its branch: J^T column (row J), with the two rows
+/// J of the block. It is a product of vectors because the projection is continuous.
 template <int D>
 struct ProximalStep<D>::Crossing {
   std::size_t block = 0;
@@ -68,8 +69,8 @@ double ProximalStep<D>::product(const Crossing& crossing,
   return sum;
 }
 
-/// How far along `sign` times direction_ block `b` stays in its branch, >= 0 as a multiple of it,
-/// and its branch after that; infinite if it does not leave its branch.
+/// The multiple of `sign` times direction_, >= 0 or infinite, up to which block `b` stays in its
+/// branch, and its next branch.
 template <int D>
 typename ProximalStep<D>::Exit ProximalStep<D>::exit_of(std::size_t b, double sign) const {
   const auto& block = problem_.blocks[b];
@@ -137,7 +138,8 @@ double ProximalStep<D>::follow_path(int& iterations) {
   auto best_y = y_;
   auto best_values = values_;
   // The path is followed so that `share` grows on pieces whose matrix has a positive determinant,
-  // and falls where it is negative. So it leads to a solution, as the equation's degree is 1.
+  // and falls where it is negative. It then leads to a solution, because the equation has the
+  // topological degree 1.
   double share = 0, best = 0, sign = matrix_.sign_of_determinant();
   for (Eigen::Index n = 0;; ++n) {
     // The matrix of this piece is that of the factors plus the crossings (Sherman & Morrison 1950).

@@ -72,7 +72,7 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
   const auto violations = constraints_->least_violations();
   const double largest = *std::ranges::max_element(violations);
   if (largest > kBroken * mean_radius) {
-    // Smaller parts do not count: errors of least_violations() are about 1e-6 of the largest.
+    // Smaller parts of the largest violation are errors of least_violations(), about 1e-6 of it.
     constexpr double kPart = 1e-3;
     const std::size_t contacts = chosen_.size();
     for (std::size_t b = 0; b < contacts; ++b)
@@ -105,7 +105,7 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
 /// Writes the residuals of the present solution to `result`: those of the chosen contacts and of
 /// the links only if `is_final`, and those of pairs that are not chosen, whose gaps must not be
 /// closed. Returns the numbers of the latter pairs whose gap is closed by more than allowed. Pairs
-/// whose particles move freely are not tested, because such motion closes only chosen pairs.
+/// whose particles move freely are not tested, because free motion closes only chosen pairs.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settings,
                                                     double mean_radius, bool is_final,

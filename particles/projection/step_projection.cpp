@@ -171,9 +171,9 @@ void StepProjection<D>::allow(double length, double fraction) {
 }
 
 /// Returns `pairs` and, from the third round on, also pairs that are connected with them and whose
-/// gaps may close next: those up to the largest change of a displacement by the contacts. Otherwise
-/// each round would find only the next pair of a chain through which an impulse goes. The search
-/// goes through 1 pair in the third round, and twice as many in each further one.
+/// gaps may close next: gaps up to the largest change of a displacement by contacts. Otherwise each
+/// round would find only the next pair of a chain through which an impulse goes. The chain is
+/// followed over 1 pair in round 3, and over twice as many in each further round.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
     const std::vector<std::size_t>& pairs, int round) {
@@ -208,8 +208,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   // Coulomb's law this begins when a solution has closed further gaps, and not before the first
   // one, because redundant contacts would take loads from particles that stand by themselves, and
   // cost iterations. With the convex relaxation, (5.9), it begins before the first solution, but
-  // only for pairs with a film, because the relaxation pushes sliding particles without a film
-  // apart.
+  // only for pairs with a film, because it pushes sliding particles without film apart.
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
@@ -220,7 +219,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   }
   // Tolerances of the rough solution: of the gaps in mean radii, and of the impulses as a fraction
   // of the impulses at work. For bench/box2d.cpp with 1000 discs, steps with 5e-4 to 2e-3 take the
-  // same time, and with 3e-3 a tenth more. The fraction is 1: impulses are unknown yet.
+  // same time, and with 3e-3 a tenth more. The fraction is 1, because impulses are not yet known.
   constexpr double kRoughLength = 1e-3, kRoughImpulse = 1;
   bool is_rough = settings.tolerance < kRoughLength && settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;
@@ -247,8 +246,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
       continue;
     }
     if (is_last) break;
-    // After kPatience (a free choice) rounds without a gain or a new pair, rounding errors are
-    // left.
+    // Only rounding errors are left after kPatience rounds (a free choice) without gain or new
+    // pair.
     constexpr int kPatience = 10;
     waited = more.empty() && !is_rough && result.residuals.excess >= least_excess ? waited + 1 : 0;
     if (waited == kPatience) break;
@@ -272,8 +271,7 @@ template class StepProjection<2>;
 template class StepProjection<3>;
 
 /// The impulse at work on a particle is the largest of three: that of its own motion
-/// (of_particle()), the impulses of its contacts, and those that would open its contacts that still
-/// overlap.
+/// (of_particle()), the impulses of its contacts, and those that would end their overlaps.
 template <int D>
 ResidualScales<D>::ResidualScales(const State& state, double h,
                                   std::span<const double> displacements,

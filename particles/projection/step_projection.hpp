@@ -36,7 +36,7 @@ struct ResidualScale {
   double impulse = 0;
   double rounding = 0;  ///< rounding errors of the gap after the step [L], > 0
   /// Allowed residual [L], > 0: the smaller of `length` > 0 [L] and of the change of the gap by the
-  /// part `fraction` > 0 of the impulse at work, where the latter counts as at least `rounding`.
+  /// part `fraction` > 0 of the impulse at work, where the latter is at least `rounding`.
   double allowed(double length, double fraction) const {
     return std::min(length, std::max(fraction * impulse * w, rounding));
   }
@@ -82,8 +82,8 @@ class ResidualScales {
   std::vector<double> island_impulses_;
 };
 
-/// If a residual after all iterations is more than this part of the mean radius, links contradict
-/// each other, which simulation.cpp makes an error. A free choice, far above tolerances.
+/// If a residual of a link or an overlap exceeds this part of the mean radius after all iterations,
+/// links contradict each other: simulation.cpp throws. A free choice far above tolerances.
 inline constexpr double kBroken = 1e-3;
 
 /// Result of the projection of a step.
@@ -125,9 +125,8 @@ class StepProjection {
                  ThreadPool& pool);
   /// Makes solve() treat friction, rigid bodies and links, too. `step` must outlive this object.
   void add_constraints(const ConstraintStep& step);
-  /// Makes solve() linearise contacts where collisions (impacts/) have left their particles.
-  /// Elsewhere they would stop particles that only pass each other. `impacts` must outlive this
-  /// object.
+  /// Makes solve() linearise contacts where collisions (impacts/) have left their particles,
+  /// because elsewhere they could stop particles that pass each other. `impacts` must outlive this.
   void follow(const Impacts<D>& impacts) { impacts_ = &impacts; }
   /// Solves the projection and sets the displacements h v, but changes neither pairs nor memories
   /// of the state. `mean_radius` [L], > 0, is the unit of SolverSettings::tolerance. Call it once.
