@@ -25,8 +25,7 @@ template <int K, class Block>
 inline void subtract_product(const Block& a, const Block& b, Block& c) {
   constexpr auto k = static_cast<std::size_t>(K);
   for (std::size_t i = 0; i < k; ++i) {
-    // `row` stays in registers. `c` would not, because the compiler cannot exclude that c is a or
-    // b.
+    // `row` stays in registers. `c` would not: the compiler must assume that it may be a or b.
     std::array<double, k> row;
     for (std::size_t j = 0; j < k; ++j) row[j] = c[i * k + j];
     for (std::size_t l = 0; l < k; ++l)
@@ -89,8 +88,7 @@ inline void substitute_back(const std::array<double, static_cast<std::size_t>(K*
   }
 }
 
-/// For each row of a block 1 over the root of its diagonal entry, or 1 if that is 0: factors that
-/// make rows of different units comparable.
+/// For each row of a block 1 over the root of its diagonal entry (1 if it is 0), to compare units.
 template <int K, class Block>
 std::array<double, static_cast<std::size_t>(K)> scales_of_rows(const Block& a) {
   std::array<double, static_cast<std::size_t>(K)> scales;

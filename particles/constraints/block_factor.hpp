@@ -1,9 +1,8 @@
 // Sparse LU factorisation of a matrix of small dense blocks with a symmetric pattern (BlockFactor),
-// and the matrices of the contacts and links of a time step that it factorises (UnitMatrix). A row
-// of blocks belongs to a body: a particle, or a rigid body of several. Units are any consistent
-// ones. A singular matrix makes factorise() return false; nothing is thrown. Used by
-// constraint_system.cpp, interior_points.hpp and proximal_step.hpp. Results depend on the order of
-// sums.
+// and the matrices of contacts and links that it factorises (UnitMatrix). A row of blocks belongs
+// to a body: a particle, or a rigid body of several. Units are any consistent ones. A singular
+// matrix makes factorise() return false; nothing is thrown. Used by constraint_system.cpp,
+// interior_points.hpp and proximal_step.hpp. Results depend on the order of sums.
 #pragma once
 
 #include <array>

@@ -192,8 +192,7 @@ struct SecondOrderCone {
   static double length_to_boundary(const InnerPoint& u, const ConePoint& d, std::size_t) {
     return particles::length_to_boundary(u, d);
   }
-  /// Adds t d to a point, which must stay inside. The squared distance from the axis grows by t
-  /// twice.
+  /// Adds t d to a point, which must stay inside the cone, without loss of digits of `inside`.
   static void move(InnerPoint& u, double t, const ConePoint& d) {
     const double before = beside_axis(u.x);
     const double twice = 2 * (u.x[1] * d[1] + u.x[2] * d[2]) + t * (d[1] * d[1] + d[2] * d[2]);
@@ -290,8 +289,7 @@ struct LinearCones {
       if (x[k] != 0) y[k] = z[k] / x[k];
     return y;
   }
-  /// The largest t > 0 with u + t d in the cone of `rows` = 1 or 2 coordinates; infinity if all
-  /// are.
+  /// The largest t > 0 with u + t d in the cone of 1 or 2 coordinates, `rows`; or infinity.
   static double length_to_boundary(const InnerPoint& u, const ConePoint& d, std::size_t rows) {
     double length = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < rows; ++k)

@@ -6,7 +6,6 @@
 // angular velocities, J the coefficients of all rows, p the impulses of the rows. Lengths [L],
 // masses [M] and times [T] are in any consistent units; for a row of angles read [rad] for [L] and
 // [M L^2/T] for [M L/T]. Nothing is thrown.
-//
 // constraint_system.cpp (the steps), impacts/ (collisions) and fluid/fluid_friction.cpp make such
 // problems, and the other files of constraints/ solve them. A change must keep that contacts
 // without friction obey (5.4), and the angular momentum of each pair.
@@ -198,8 +197,7 @@ std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
 
 /// Makes the problem convex: each contact with friction gets FrictionBound::kGiven, with the load
 /// of its solids at problem.impulses as given_load, (5.17). Sets is_convex and keeps_loads, clears
-/// is_rough. In the solution gaps, films and links are exact, but not Coulomb's law if the loads
-/// changed.
+/// is_rough. The solution has exact gaps, films and links, but not Coulomb's law if loads change.
 template <int D>
 void give_loads(ConstraintProblem<D>& problem);
 

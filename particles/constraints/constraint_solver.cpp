@@ -26,8 +26,7 @@ namespace viscontact::particles {
 namespace {
 
 /// The mobility of each row [T/M]. Both tangential rows of a contact get the larger of their two.
-/// With kLeastImpulses all gaps get the largest mobility of all first rows, so that contacts share
-/// impulses as if equally stiff.
+/// With kLeastImpulses all gaps get the largest mobility, so that all are equally stiff.
 template <int D>
 std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, ConstraintStart start) {
   auto w = row_mobilities(problem);
@@ -157,9 +156,8 @@ class Iteration {
   /// never 0, so that further steps would increase impulses without end and change gaps by more
   /// than their small tolerance. The steps of this function therefore start from the last impulses
   /// in the rows of gaps and links only. The tangential rows keep a center with which the present
-  /// motions give the present friction. Their epsilon is so large that the small changes of the
-  /// motions hardly change it. Returns true if the problem is solved; otherwise restores the
-  /// impulses.
+  /// motions give the present friction. Their epsilon is so large that small motions hardly change
+  /// it. Returns true if the problem is solved; otherwise restores the impulses.
   bool close_gaps(std::vector<double> center, int max_iterations) {
     constexpr int kMostSteps = 12, kMostIterations = 200;
     constexpr double kEpsilonOfSlips = 1e-3, kLeastEpsilon = 1e-6, kFactor = 3;
@@ -281,8 +279,7 @@ class Iteration {
   }
 
   /// Adds the change of the impulses since `center` times the largest number with which no contact
-  /// begins to slip or open. Between jammed particles each step until then adds the same small
-  /// impulses.
+  /// begins to slip or open. Jammed particles get the same change in each step until then.
   void extend_change(const std::vector<double>& center) {
     const auto& p = problem_.impulses;
     double length = std::numeric_limits<double>::infinity();

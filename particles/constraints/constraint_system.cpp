@@ -176,9 +176,8 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system,
   }
 }
 
-/// Changes the offsets of the rows so that their linear values for the motions of `solution` become
-/// those after finite turns, and stores the changes in shifts_. Returns the largest change over its
-/// bound.
+/// Changes the offsets of the rows so that their linear values after `solution` become those after
+/// finite turns, and stores the changes in shifts_. Returns the largest one over its bound.
 template <int D>
 double ConstraintSystem<D>::correct(ContactSystem<D>& system,
                                     const ConstraintSolution<D>& solution) {

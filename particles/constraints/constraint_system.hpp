@@ -46,8 +46,7 @@ template <int D>
 class ConstraintSystem {
  public:
   /// All arguments must outlive this object. `displacements`: of all particles without contacts and
-  /// links [L], D numbers for each; solve() changes them. `mobilities`: h/m, with the masses m
-  /// [T/M], > 0.
+  /// links [L], D for each; solve() changes them. `mobilities`: h/m, with the masses m [T/M].
   ConstraintSystem(const ConstraintStep& step, const Particles& particles,
                    std::span<double> displacements, std::span<const double> mobilities);
 
@@ -60,8 +59,7 @@ class ConstraintSystem {
 
   /// The equations of all links, then those of the stops of hinges (bounds of their angles).
   const std::vector<LinkEquations>& links() const { return links_; }
-  /// To be set before solve(): allowed residuals of links() [L], > 0; of angles times the mean
-  /// radius.
+  /// Allowed residuals of links() [L], > 0; of angles times the mean radius. Set before solve().
   std::vector<double> links_allowed;
 
   /// Solves the step. Sets the impulses of the contacts of `system`, the displacements and turns of
@@ -83,8 +81,7 @@ class ConstraintSystem {
   /// True if solve() did not solve Coulomb's law, and given loads bound the friction.
   bool has_given_up() const { return has_given_up_; }
 
-  /// Writes the friction of contact `c`, and the impulse that its solids carry, to `memory` [M
-  /// L/T].
+  /// Writes friction of contact `c`, and the impulse that its solids carry, to memory [M L/T].
   void remember(std::size_t c, PairMemory& memory) const {
     memory.set_friction(frictions_[c]);
     memory[Remembered::kCarried] = carried_[c];

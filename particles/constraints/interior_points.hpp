@@ -43,8 +43,7 @@ class InteriorPoints {
 
   /// Solves the problem until the scaled violations of its conditions are at most `accuracy`, in
   /// (0, 1), times the largest scaled value of a row with the least impulses. Stops before if
-  /// rounding errors prevent progress, or after `max_iterations`. Returns the number of
-  /// factorisations.
+  /// rounding errors prevent progress, or after `max_iterations`. Returns the iterations.
   int solve(double accuracy, int max_iterations);
 
   /// Impulses of the rows with the smallest violations that the last solve() found [M L/T].

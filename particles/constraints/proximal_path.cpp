@@ -138,8 +138,8 @@ double ProximalStep<D>::follow_path(int& iterations) {
   auto best_y = y_;
   auto best_values = values_;
   // The path is followed so that `share` grows on pieces whose matrix has a positive determinant,
-  // and falls where it is negative. It then leads to a solution, because the equation has the
-  // topological degree 1.
+  // and falls where it is negative. This leads to a solution, because the topological degree of the
+  // equation is 1.
   double share = 0, best = 0, sign = matrix_.sign_of_determinant();
   for (Eigen::Index n = 0;; ++n) {
     // The matrix of this piece is that of the factors plus the crossings (Sherman & Morrison 1950).

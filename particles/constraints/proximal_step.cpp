@@ -1,6 +1,8 @@
-// Newton's method for a step of the proximal method for contacts with friction and links, whose
-// equation and symbols proximal_step.hpp gives. Lengths, masses and times are in any consistent
-// units. Nothing is thrown; failed() tells whether a step found its solution. Used by
+// Newton's method for a step of the proximal method for contacts with friction and links
+// (proximal_step.hpp). P^k and P^{k+1} are the impulses before and after the step [M L/T], y the
+// motions of particles and bodies, y* those without impulses, M/h masses over the length of a time
+// step, b + J y the values of the rows (gaps, slips and equations of links) [L], and rho [M/T]
+// their stiffnesses. Nothing is thrown; failed() tells whether a step found its solution. Used by
 // constraint_solver.cpp. Results depend on the order of sums.
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
@@ -151,7 +153,7 @@ void ProximalStep<D>::add_block(std::size_t b) {
   for (std::size_t k = 1; k < block.rows; ++k) square += q[k] * q[k];
   const double length = std::sqrt(square);
   if (is_on_cone) {
-    // If q changes without q_t/|q_t|, p moves along the line (1, mu_s q_t/|q_t|) on the cone.
+    // If only the size of q_t changes, p moves along the line (1, mu_s q_t/|q_t|) of the cone.
     std::array<double, kMostRows> generator{1};
     for (std::size_t k = 1; k < block.rows; ++k) generator[k] = block.friction * q[k] / length;
     const double weight = 1 / (1 / rho[0] + block.friction * block.friction / rho[1]);
@@ -204,8 +206,7 @@ double ProximalStep<D>::length_of_step(double before) {
 }
 
 /// Length of a step, in (0, 1], that ends near the minimum along direction_ of the convex function
-/// whose gradient is -error_: where its derivative along direction_, which increases, is at most
-/// kReached of the first.
+/// whose gradient is -error_: where its derivative along direction_ is kReached of the first.
 template <int D>
 double ProximalStep<D>::length_to_minimum() {
   constexpr double kReached = 0.1;

@@ -23,8 +23,8 @@ namespace viscontact::particles {
 ///
 /// h is the length of the step [T], M/h are the masses and moments of inertia over h, y* the
 /// motions without contacts and links, b + J y the values of the rows: gaps, tangential
-/// displacements (slips) and equations of links. W_rr is the mobility of row r [T/M], and epsilon >
-/// 0 a number. proj projects on the allowed impulses: first the normal one on p_n >= lowest, then
+/// displacements (slips) and equations of links. W_rr is the mobility of row r [T/M], epsilon a
+/// number > 0. proj projects on the allowed impulses: first the normal one on p_n >= lowest, then
 /// the tangential one on |p_t| <= mu_s p_s, with the coefficient of friction mu_s and the part p_s
 /// of p_n that the solids carry, so that Coulomb's law holds if P^{k+1} = P^k. For the convex
 /// relaxation (5.9) it projects on the cone of both impulses. In convex problems y minimises a
@@ -38,9 +38,9 @@ namespace viscontact::particles {
 /// For discs the equation is linear as long as no contact changes its branch. If no step in the
 /// direction of Newton's method reduces its error, solve() follows the path of motions on which the
 /// error is a multiple of that at its start, from one change of a branch to the next, also where
-/// this multiple grows (Katzenelson 1965, "An algorithm for solving nonlinear resistor networks";
-/// Chien & Kuh 1976, "Solving piecewise-linear equations for resistive networks"). With Coulomb's
-/// law they turn back.
+/// the multiple grows as it may with Coulomb's law (Katzenelson 1965, "An algorithm for solving
+/// nonlinear resistor networks"; Chien & Kuh 1976, "Solving piecewise-linear equations for
+/// resistive networks").
 template <int D>
 class ProximalStep {
  public:
@@ -62,7 +62,7 @@ class ProximalStep {
 
   /// True if the last solve() gave up: a matrix was singular, or no step reduced the error.
   bool failed() const { return failed_; }
-  /// True if the last solve() followed a path, because no step of Newton's method was good.
+  /// True if the last solve() followed a path: no step of Newton's method reduced the error.
   bool followed_path() const { return paths_ > 0; }
   /// Impulses of the rows that the last solve() found [M L/T].
   const std::vector<double>& impulses() const { return projected_; }

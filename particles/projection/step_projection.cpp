@@ -246,8 +246,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
       continue;
     }
     if (is_last) break;
-    // Only rounding errors are left after kPatience rounds (a free choice) without gain or new
-    // pair.
+    // After kPatience rounds (a free choice) without gain or new pair, rounding errors are left.
     constexpr int kPatience = 10;
     waited = more.empty() && !is_rough && result.residuals.excess >= least_excess ? waited + 1 : 0;
     if (waited == kPatience) break;
@@ -301,8 +300,8 @@ ResidualScales<D>::ResidualScales(const State& state, double h,
 }
 
 /// The scale of a particle without its contacts. The impulse at work is the larger of the impulse
-/// of forces and gravity in the step and of the change of the particle's momentum. `moves` are the
-/// D numbers of its displacement h u* [L].
+/// of forces and gravity in the step and of the change of the particle's momentum. `moves` is its
+/// displacement h u* [L].
 template <int D>
 typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
     std::int32_t particle, const double* moves) const {

@@ -118,8 +118,8 @@ struct ProjectionResult {
 template <int D>
 class StepProjection {
  public:
-  /// All arguments must outlive this object. `displacements` are h u* before solve() and h v after
-  /// it [L]; `mobilities` are h/m [T/M].
+  /// All arguments must outlive this object. `displacements` [L]: h u* before solve(), then h v;
+  /// `mobilities`: h/m [T/M].
   StepProjection(State& state, double h, std::span<const PlanePosition> planes,
                  std::span<double> displacements, std::span<const double> mobilities,
                  ThreadPool& pool);
