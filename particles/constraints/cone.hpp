@@ -155,8 +155,8 @@ class ConeScaling {
   }
 
  private:
-  // The numbers of a point. The smaller one of x_0 + d.x and x_0 - d.x is InnerPoint::inside plus b
-  // - |d.x| = (d'.x)^2/(b + |d.x|), with the distance b from the axis.
+  // The numbers of a point. The smaller one of x_0 + d.x and x_0 - d.x is InnerPoint::inside plus
+  // (d'.x)^2/(b + |d.x|) = b - |d.x|, with the distance b from the axis.
   ConePoint numbers(const InnerPoint& of) const {
     auto y = numbers(of.x);
     const double beside = beside_axis(of.x);

@@ -4,11 +4,11 @@
 // gap, a tangential displacement of two surfaces, or the left side of a link's equation. h [T] is
 // the length of the step, M are the masses m and moments of inertia I, u the velocities and w the
 // angular velocities, J the coefficients of all rows, p the impulses of the rows. Lengths [L],
-// masses [M] and times [T] are in any consistent units; for a row of angles read [rad] for [L] and
-// [M L^2/T] for [M L/T]. Nothing is thrown.
-// constraint_system.cpp (the steps), impacts/ (collisions) and fluid/fluid_friction.cpp make such
-// problems, and the other files of constraints/ solve them. A change must keep that contacts
-// without friction obey (5.4), and the angular momentum of each pair.
+// masses [M] and times [T] are in any consistent units; a row of angles has [rad] in place of [L],
+// and [M L^2/T] in place of [M L/T]. Nothing is thrown. constraint_system.cpp (the steps), impacts/
+// (collisions) and fluid/fluid_friction.cpp make such problems, and the other files of constraints/
+// solve them. A change must keep that contacts without friction obey (5.4), and the angular
+// momentum of each pair.
 #pragma once
 
 #include <array>
@@ -263,9 +263,9 @@ struct ContactSide {
   Vector offset{};         ///< from the centre of the unit to that of the particle [L]
 };
 
-/// Adds row number `k` of a contact, with the guess `impulse` of its impulse [M L/T]: its gap for k
-/// = 0; for k = 1 to D - 1 the displacement of the surface of the second particle relative to that
-/// of the first, or of the obstacle, along tangents.directions[k - 1].
+/// Adds row number `k` of a contact, with the guess `impulse` of its impulse [M L/T]: 0 is its gap,
+/// 1 to D - 1 are displacements of the surface of the second particle relative to that of the
+/// first, or of the obstacle, along tangents.directions[k - 1].
 template <int D>
 void add_contact_row(const Contact<D>& contact, const ContactTangents<D>& tangents,
                      const ContactSide& first, const ContactSide& second, std::size_t k,

@@ -63,10 +63,10 @@ class ConstraintSystem {
   std::vector<double> links_allowed;
 
   /// Solves the step. Sets the impulses of the contacts of `system`, the displacements and turns of
-  /// its particles, the motions of the rigid bodies, and the forces of the links. `allowed_slip` >
-  /// 0 is the largest allowed residual of a tangential displacement [L]; if `is_rough`, also of
-  /// gaps and links. Returns the number of iterations, and the largest residual of the last
-  /// problem plus the largest correction that would follow, both over what is allowed [1].
+  /// its particles, the motions of the rigid bodies, and the forces of the links. `allowed_slip` is
+  /// the largest allowed residual of tangential displacements [L]; if `is_rough`, also of gaps and
+  /// links. Returns the number of iterations, and the largest residual of the last problem plus the
+  /// largest correction that would follow, both over what is allowed [1].
   ///
   /// The equations of the problem are linear in the turns of rigid bodies. The problem is therefore
   /// solved again, with offsets corrected by the difference between the gaps and lengths after

@@ -36,14 +36,14 @@ namespace viscontact::particles {
 template <int D>
 class InteriorPoints {
  public:
-  /// All arguments must outlive this object. `w` are the row_mobilities() of the problem [T/M], >
-  /// 0. `matrix` is made for the problem with is_symmetric; solve() overwrites it.
+  /// All arguments must outlive this object. `w` are the positive row_mobilities() of the problem
+  /// [T/M]. `matrix` is made for the problem with is_symmetric; solve() overwrites it.
   InteriorPoints(const ConstraintProblem<D>& problem, const std::vector<double>& w,
                  UnitMatrix<D>& matrix);
 
-  /// Solves the problem until the scaled violations of its conditions are at most `accuracy`, in
-  /// (0, 1), times the largest scaled value of a row with the least impulses. Stops before if
-  /// rounding errors prevent progress, or after `max_iterations`. Returns the iterations.
+  /// Solves the problem until its scaled violations are at most `accuracy`, in (0, 1), times the
+  /// largest scaled value of a row with the least impulses. Stops before if rounding errors prevent
+  /// progress, or after `max_iterations`. Returns the number of iterations.
   int solve(double accuracy, int max_iterations);
 
   /// Impulses of the rows with the smallest violations that the last solve() found [M L/T].

@@ -1,10 +1,11 @@
 // The path that a step of the proximal method for contacts with friction follows if no step of
 // Newton's method reduces its error (proximal_step.hpp). b + J y are the gaps and slips of contacts
-// [L] after the motions y, P^k the impulses before the step [M L/T], rho [M/T] its stiffnesses. On
-// the path from the motions y_0 the error is (1 - share) times that of y_0, and the solution is at
-// share = 1. It is for discs only, and consists of straight pieces, on each of which no contact
-// changes its branch (open, without friction, sticking, slipping). Units are any consistent ones.
-// Nothing is thrown. proximal_step.cpp uses it. Results depend on the order of sums.
+// [L] after the motions y, with the coefficients J of their rows; P^k the impulses before the step
+// [M L/T], rho [M/T] stiffnesses of rows. On the path from the motions y_0 the error is (1 - share)
+// times that of y_0, and the solution is at share = 1. For discs only: the path consists of
+// straight pieces, on which no contact changes its branch (open, without friction, sticking,
+// slipping). Units are any consistent ones. Nothing is thrown. proximal_step.cpp uses it. Results
+// depend on the order of sums.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
