@@ -1,8 +1,8 @@
-// Sparse LU factorisation of a matrix of small dense blocks with a symmetric pattern, one block row
-// for each rigid body, and the matrices of Newton's methods for the constraints of a step that it
-// factorises. Numbers have the units of the matrix. Nothing is thrown. Used by
-// constraint_system.cpp, interior_points.hpp and proximal_step.hpp. A change must keep the order of
-// all sums, so that results do not depend on the number of threads.
+// Sparse LU factorisation of a matrix of small dense blocks with a symmetric pattern (BlockFactor),
+// and the matrices of contacts and links that it factorises (UnitMatrix). A row of blocks belongs
+// to a body: a particle, or a rigid body of several. Units are any consistent ones. A singular
+// matrix makes factorise() return false; nothing is thrown. Used by constraint_system.cpp,
+// interior_points.hpp and proximal_step.hpp. Results depend on the order of sums.
 #pragma once
 
 #include <array>
@@ -15,25 +15,26 @@
 
 namespace viscontact::particles {
 
-/// Factorises A = (L + D) (I + U) without exchange of rows between bodies, where A has blocks of
-/// K x K numbers (3: a disc, 6: a sphere) and two blocks off the diagonal for each pair of bodies
-/// that constraints connect. Dense blocks make it several times as fast as a factorisation of
-/// single numbers. Few bodies are eliminated in the order of minimum degree (AMD: Amestoy, Davis &
-/// Duff 1996, "An approximate minimum degree ordering algorithm"), many in that of nested dissection
-/// (METIS: Karypis & Kumar 1998, "A fast and high quality multilevel scheme for partitioning
-/// irregular graphs"). A symmetric A must be positive definite and becomes L L^T (Cholesky), in half
-/// of the time, because only its blocks on and below the diagonal are stored and computed.
+/// Factorises A = (L + D) (I + U), with blocks L below, D on and U above the diagonal and the
+/// identity I. A has blocks of K x K numbers (K = 3: discs, 6: spheres) in any unit, and two blocks
+/// off the diagonal for each pair of bodies that are connected. Rows are exchanged within a block
+/// only. Dense blocks are several times as fast as a sparse factorisation of single numbers. Few
+/// bodies are eliminated in the order of minimum degree (AMD: Amestoy, Davis & Duff 1996, "An
+/// approximate minimum degree ordering algorithm"), many in that of nested dissection (METIS:
+/// Karypis & Kumar 1998, "A fast and high quality multilevel scheme for partitioning irregular
+/// graphs"). If A is declared symmetric, it must be positive definite. It becomes L L^T (Cholesky),
+/// in half of the time of LU, because blocks above the diagonal are not needed.
 template <int K>
 class BlockFactor {
  public:
   using Block = std::array<double, static_cast<std::size_t>(K* K)>;  ///< row by row
   using Vec = std::array<double, static_cast<std::size_t>(K)>;       ///< numbers of one body
 
-  /// Two bodies, first != second, in any order.
+  /// The numbers of two connected bodies, which differ; from 0 to the number of bodies - 1.
   using Edge = std::array<std::int32_t, 2>;
 
-  /// Finds the order of elimination and the pattern of L for `bodies` bodies that `edges` connect;
-  /// an edge may occur several times. `is_symmetric` says that A is symmetric.
+  /// Finds the order of elimination and the pattern of L for `bodies` bodies that `edges` connect,
+  /// each once or several times. `is_symmetric`: A will be symmetric. Must be called first.
   void analyse(std::size_t bodies, std::span<const Edge> edges, bool is_symmetric);
 
   /// Number of bodies that analyse() was given.
@@ -43,46 +44,49 @@ class BlockFactor {
 
   /// Sets A to 0.
   void clear();
-  /// Block of A on the diagonal, to which the caller adds.
+  /// Block of A on the diagonal, to which the caller adds. Needs clear() after factorise().
   Block& diagonal(std::size_t body) { return diagonal_[place_[body]]; }
-  /// Block of A of edge number `edge` of analyse(), to which the caller adds: its rows belong to
-  /// edge[from], its columns to the other body. Of a symmetric A it must be below the diagonal.
+  /// Block of A for edge number `edge` of analyse(), to which the caller adds. Its rows belong to
+  /// the body edge[from], its columns to the other one. If A is symmetric, only with is_below().
   Block& off_diagonal(std::size_t edge, std::size_t from) {
     const auto& place = edges_[edge];
     return (place.later == from ? below_ : above_)[place.entry];
   }
-  /// Whether that block is below the diagonal in the order of elimination.
+  /// True if this block is below the diagonal: edge[from] is eliminated after the other body.
   bool is_below(std::size_t edge, std::size_t from) const { return edges_[edge].later == from; }
 
-  /// Replaces A by its factors. Returns false if a block on the diagonal becomes singular, or
-  /// is not positive definite where A is symmetric.
+  /// Replaces A by its factors. Returns false, with unusable factors, if a block on the diagonal
+  /// becomes singular or infinite, or, for a symmetric A, is not positive definite.
   bool factorise();
-  /// Sign of the determinant of A, 1 or -1. Needs factorise().
+  /// Sign of the determinant of A, 1 or -1. Needs a factorise() that returned true.
   int sign_of_determinant() const { return sign_; }
 
-  /// Replaces the values of the bodies by A^-1 times them. Needs factorise().
+  /// Replaces `values`, one Vec for each body, by A^-1 times them. Needs a factorise() that
+  /// returned true. Not for two threads at once: it uses a work array of the object.
   void solve(std::span<Vec> values) const;
 
  private:
   struct EdgePlace {
-    std::size_t entry;
-    std::size_t later;  // which of the two bodies is eliminated later
+    std::size_t entry;  // place of its blocks in below_ and above_
+    std::size_t later;  // which body of the edge is eliminated later: 0 or 1
   };
   void find_pattern(std::span<const Edge> edges);
   bool factorise_column(std::size_t j);
   void enlist(std::size_t k, std::size_t entry);
 
+  // An entry is a block of L; columns and rows are counted by places in the order of elimination.
   std::vector<std::int32_t> order_;   // body that is eliminated at each place
   std::vector<std::size_t> place_;    // place of each body in the order
-  std::vector<std::size_t> offsets_;  // first entry of each column of L
-  std::vector<std::int32_t> rows_;    // place of the row of each entry, increasing in a column
+  std::vector<std::size_t> offsets_;  // first entry of each column of L; at the end their number
+  std::vector<std::int32_t> rows_;    // row of each entry, increasing in a column
   std::vector<EdgePlace> edges_;
-  std::vector<Block> diagonal_;  // of A; then the factors of the blocks of D
-  std::vector<std::array<unsigned char, static_cast<std::size_t>(K)>> pivots_;  // of these factors
-  std::vector<Block> below_;  // of A below the diagonal; then L
-  std::vector<Block> above_;  // of A above the diagonal, entry by entry as below_; then U
-  // For factorise(): the columns whose next entry is in a given row, as linked lists; the next
-  // entry of each column; and the entry of the present column in each row.
+  std::vector<Block> diagonal_;  // blocks of A, then the factors of the blocks of D
+  // Of each block of D: the row with which each row was exchanged.
+  std::vector<std::array<unsigned char, static_cast<std::size_t>(K)>> pivots_;
+  std::vector<Block> below_;  // blocks of A below the diagonal, then L
+  std::vector<Block> above_;  // blocks of A above the diagonal, in the order of below_; then U
+  // For factorise(): for each row a linked list of the columns whose next entry is in it, ended by
+  // -1; the next entry of each column; the entry of the present column in each row.
   std::vector<std::int32_t> first_in_row_, next_in_row_;
   std::vector<std::size_t> next_entry_, entry_in_row_;
   mutable std::vector<Vec> permuted_;
@@ -90,25 +94,29 @@ class BlockFactor {
   int sign_ = 1;
 };
 
-/// The sum of M/h, a block for each unit, and of products of rows of one block of constraints.
+/// The matrix M/h + sum of weight * row^T other. M/h are the masses and moments of inertia of all
+/// units (particles and rigid bodies) over the length h of the step [M/T, M L^2/T]. A row holds the
+/// coefficients by which a gap, a tangential displacement or a link's equation depends on the
+/// motions of its units; a block of constraints holds the rows of one contact or link. A Motion is
+/// a displacement [L] and a rotation [rad], or an impulse [M L/T] and its moment [M L^2/T].
 template <int D>
 class UnitMatrix {
  public:
-  /// `problem` must outlive this object. A matrix that `is_symmetric` is factorised in half of the
-  /// time.
+  /// `problem` must outlive this object and keep its units, blocks and parts of rows.
+  /// `is_symmetric`: the matrix will be symmetric; it is then factorised in half of the time.
   UnitMatrix(const ConstraintProblem<D>& problem, bool is_symmetric);
 
   void set_to_masses();  ///< sets the matrix to M/h
-  /// Adds weight * row^T other, for two rows of constraint block `b`. To a symmetric matrix the
-  /// product of the rows in the other order must be added, too.
+  /// Adds weight * row^T other, for two rows of constraint block `b`, with a weight [M/T] (for rows
+  /// of angles [M L^2/T]). If the matrix is symmetric, other^T row must be added, too.
   void add_product(std::size_t b, std::size_t row, std::size_t other, double weight);
-  /// Replaces the matrix by its factors. Returns false if it is singular.
+  /// Replaces the matrix by its factors, as BlockFactor::factorise(), and returns its result.
   bool factorise() { return factor_.factorise(); }
-  /// Sign of its determinant, 1 or -1. Needs factorise().
+  /// Sign of its determinant, 1 or -1. Needs a factorise() that returned true.
   int sign_of_determinant() const { return factor_.sign_of_determinant(); }
-  /// Replaces impulses by the motions that they cause. Needs factorise().
+  /// Replaces the impulses on all units by the motions that they cause. Needs factorise().
   void solve(std::span<Motion<D>> values) const { factor_.solve(values); }
-  /// The motions that impulses cause. Needs factorise().
+  /// The motions of solve() as a new array.
   std::vector<Motion<D>> solution_of(std::span<const Motion<D>> impulses) const {
     std::vector<Motion<D>> motions(impulses.begin(), impulses.end());
     solve(motions);
@@ -121,8 +129,8 @@ class UnitMatrix {
   const ConstraintProblem<D>& problem_;
   bool is_symmetric_;
   BlockFactor<kMotion> factor_;
-  // Number of the first edge of each block: one for each pair of its units, of which the first is
-  // that of the earlier part.
+  // Number of the first edge of each block of constraints. A block has an edge for each pair of its
+  // units, in the order in which its rows name them.
   std::vector<std::size_t> first_edge_;
 };
 

@@ -1,6 +1,8 @@
-// Products and residuals of the constraints of a step, and the tangents and rows of contacts
-// (constraint_problem.hpp), in the units of the case. Nothing is thrown. A change alters which
-// steps converge, and must keep the angular momentum of a pair.
+// The problem for the impulses of the contacts and links of a time step (constraint_problem.hpp):
+// motions for given impulses, mobilities, residuals, and the tangents and rows of contacts.
+// Lengths, masses and times are in any consistent units. Nothing is thrown. Used by constraints/,
+// impacts/ and fluid/fluid_friction.cpp. A change of residual_of() alters which steps count as
+// converged. Both arms of a contact must end at one point, to keep a pair's angular momentum.
 #include "viscontact/particles/constraints/constraint_problem.hpp"
 
 #include <algorithm>
@@ -34,7 +36,7 @@ RigidUnit<D> unit_of_body(const BodyStep& free) {
   unit.mobility = free.mobility;
   unit.inverse_mobility = 1 / free.mobility;
   for (std::size_t i = 0; i < d; ++i) unit.free[i] = free.displacement[i];
-  // A disc turns about z, the last axis.
+  // A disc turns about z only, the last of the three axes of BodyStep.
   for (std::size_t i = 0; i < r; ++i) {
     unit.free[d + i] = free.turn[3 - r + i];
     for (std::size_t k = 0; k < r; ++k) {
@@ -133,8 +135,8 @@ template std::vector<double> row_mobilities<3>(const ConstraintProblem<3>&);
 
 namespace {
 
-/// Unit vectors that complete `normal` to a right-handed basis, without a jump unless the normal
-/// changes its largest component.
+/// Unit vectors that complete `normal` to a right-handed basis. They depend continuously on the
+/// normal except, in space, where another of its components becomes the smallest one.
 template <int D>
 std::array<Vector, static_cast<std::size_t>(D - 1)> tangent_basis(const Vector& normal) {
   if constexpr (D == 2) {
@@ -170,8 +172,8 @@ ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& parti
   const double r_j = particles.radii[j];
   tangents.second_arm = r_j;
   if (contact.first >= 0) {
-    // The arms add up to the distance of the centres, so that the impulses of the pair keep the
-    // angular momentum also while the gap is open.
+    // The arms are in the ratio of the radii and add up to the distance of the centres, also if the
+    // gap is not 0. Opposite impulses at their common end do not change the angular momentum.
     const double r_i = particles.radii[index_of(contact.first)];
     const double distance = r_i + r_j + contact.gap - contact.tolerated;
     tangents.first_arm = r_i * (distance / (r_i + r_j));

@@ -1,7 +1,14 @@
-// The contacts with friction and the bilateral constraints of one time step, docs/physics.md (5.6)
-// to (5.9), in flat arrays, and the rows of a contact in them. Lengths, masses and times are in the
-// units of the case. constraint_solver.hpp and the blows solve it. Nothing is thrown. A change must
-// keep contacts without friction those of (5.4), and the angular momentum of a pair.
+// The problem for the impulses of the contacts, with friction, and of the links (hinges, arms,
+// springs, membranes) of one time step, docs/physics.md (5.6) to (5.9), as flat arrays, and the
+// rows of a contact in it. A row is one scalar that depends linearly on the motions of particles: a
+// gap, a tangential displacement of two surfaces, or the left side of a link's equation. h [T] is
+// the length of the step, M are the masses m and moments of inertia I, u the velocities and w the
+// angular velocities, J the coefficients of all rows, p the impulses of the rows. Lengths [L],
+// masses [M] and times [T] are in any consistent units; a row of angles has [rad] in place of [L],
+// and [M L^2/T] in place of [M L/T]. Nothing is thrown. constraint_system.cpp (the steps), impacts/
+// (collisions) and fluid/fluid_friction.cpp make such problems, and the other files of constraints/
+// solve them. A change must keep that contacts without friction obey (5.4), and the angular
+// momentum of each pair.
 #pragma once
 
 #include <array>
@@ -19,29 +26,29 @@
 
 namespace viscontact::particles {
 
-/// Number of components of a rotation: the angle in the plane, or a vector in space.
+/// Number of components of a rotation: 1 for discs (D = 2), 3 for spheres (D = 3).
 template <int D>
 inline constexpr int kTurns = D == 2 ? 1 : 3;
 
 /// A displacement and a rotation: D numbers [L], then kTurns numbers [rad]. The same type holds an
-/// impulse and its moment.
+/// impulse [M L/T] and its moment [M L^2/T].
 template <int D>
 using Motion = std::array<double, static_cast<std::size_t>(D + kTurns<D>)>;
 
-/// What moves as one: a particle, or a rigid body of several particles.
+/// The mass and the free motion of a unit: a particle, or a rigid body of several particles.
 template <int D>
 struct RigidUnit {
-  /// Number of components of a rotation: 1 in the plane, 3 in space.
+  /// Number of components of a rotation, kTurns.
   static constexpr auto kTurnDirections = static_cast<std::size_t>(kTurns<D>);
   /// Number of entries of the matrix that takes a moment to a rotation.
   static constexpr std::size_t kTurnEntries = kTurnDirections * kTurnDirections;
-  Motion<D> free{};     ///< h (u*, w*) of the motion without constraints
-  double mobility = 0;  ///< h/m [T/M]
+  Motion<D> free{};     ///< motion in the step without contacts and links, h (u*, w*)
+  double mobility = 0;  ///< h/m [T/M], > 0
   std::array<double, kTurnEntries> turn_mobility{};          ///< h I^-1 [T/(M L^2)], row by row
-  double inverse_mobility = 0;                               ///< m/h
-  std::array<double, kTurnEntries> inverse_turn_mobility{};  ///< I/h
+  double inverse_mobility = 0;                               ///< m/h [M/T]
+  std::array<double, kTurnEntries> inverse_turn_mobility{};  ///< I/h [M L^2/T], row by row
 
-  /// h M^-1 times an impulse and moment.
+  /// The motion that an impulse and a moment cause, h M^-1 times them.
   Motion<D> moved_by(const Motion<D>& impulse) const {
     return product(mobility, turn_mobility, impulse);
   }
@@ -65,70 +72,65 @@ struct RigidUnit {
   }
 };
 
-/// The unit of a particle without a body: its mobility h/m [T/M] and turn mobility h/I [T/(M L^2)],
-/// and its motion without constraints, D numbers `displacement` [L] and kTurns numbers `turn`
-/// [rad].
+/// The unit of a particle without a rigid body: h/m [T/M], h/I [T/(M L^2)], both > 0, and its
+/// motion without contacts and links, D numbers `displacement` [L] and kTurns numbers `turn` [rad].
 template <int D>
 RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const double* displacement,
                               const double* turn);
 
-/// The unit of a rigid body with this motion without constraints.
+/// The unit of a rigid body, whose motion without contacts and links is `free`.
 template <int D>
 RigidUnit<D> unit_of_body(const BodyStep& free);
 
-/// The part of one unit in a row: it adds the product of `coefficients` and the motion of the unit
-/// to the value of the row.
+/// What one unit adds to the value of a row: the inner product of `coefficients` and its motion.
 template <int D>
 struct RowPart {
-  std::int32_t unit = 0;     ///< number of a unit
+  std::int32_t unit = 0;     ///< place in ConstraintProblem::units
   Motion<D> coefficients{};  ///< [1] for displacements, [L] for rotations
 };
 
-/// One scalar of a constraint after the motions of the units: `offset` and the products of its
-/// parts [L]. A contact has the parts of its two units, or of one at an obstacle; a constraint may
-/// have any number. What is at rest, like an obstacle, has no part.
+/// A row of the problem. Its value after the motions of the units is `offset` plus the sum of its
+/// parts: one for each particle of a contact, and any number in a link.
 struct ConstraintRow {
   double offset = 0;           ///< value of the row if no unit moves [L]
   std::size_t first_part = 0;  ///< number of the first part in ConstraintProblem::parts
-  std::size_t parts = 0;       ///< number of parts, which follow each other
+  std::size_t parts = 0;       ///< number of parts, which follow each other there
 };
 
-/// What bounds the friction of a contact.
+/// What bounds the magnitude of the tangential impulse of a contact. mu_s is the coefficient of
+/// friction, the load of the solids the part of the normal impulse that the film does not absorb.
 enum class FrictionBound : unsigned char {
-  kCoulomb,  ///< mu_s times the load of its solids, (5.7)
-  kCone,     ///< the cone of the convex relaxation of a dry contact, (5.9)
-  kGiven,    ///< mu_s times ConstraintBlock::given_load, (5.17)
+  kCoulomb,  ///< mu_s times the load of the solids in the solution: Coulomb's law, (5.7)
+  kCone,   ///< the same in the convex relaxation of Coulomb's law, (5.9), for contacts without film
+  kGiven,  ///< mu_s times the load ConstraintBlock::given_load, (5.17)
 };
 
-/// A contact or a bilateral constraint. A contact has one row for its gap, and with friction D - 1
-/// more for the tangential displacement of the surfaces; a bilateral constraint may have up to
-/// kMostRows rows, which must be 0, or proportional to their impulses. The rows of a block have
-/// parts of the same units, each of them once, in the same order.
+/// A contact, or the equations of a link (a bilateral constraint). A contact has one row for its
+/// gap and, with friction, D - 1 more for the tangential displacements of its surfaces. A link has
+/// up to kMostRows rows, whose values must be -compliance times their impulses. All rows of a block
+/// have parts of the same units, each once, in the same order.
 struct ConstraintBlock {
   std::size_t row = 0;     ///< number of its first row
-  std::size_t rows = 1;    ///< number of its rows
-  bool is_contact = true;  ///< false: a bilateral constraint
-  double lowest = 0;       ///< lower bound gamma^n of the normal impulse [M L/T]
-  double friction = 0;     ///< mu_s >= 0
-  /// Impulse gamma^n - gamma_min that the film of the contact can still absorb [M L/T], >= 0.
+  std::size_t rows = 1;    ///< number of its rows, 1 to kMostRows
+  bool is_contact = true;  ///< false: a link
+  /// Lower bound of the normal impulse [M L/T]. In a step it is gamma^n <= 0, which is minus the
+  /// impulse that the film had absorbed before the step; in a collision (impacts/) it may be > 0.
+  double lowest = 0;
+  double friction = 0;  ///< mu_s [1], >= 0
+  /// Impulse gamma^n - gamma_min that the film can still absorb [M L/T], >= 0; infinite: no limit.
   double capacity = 0;
-  /// Largest residuals with which it counts as converged [L], > 0: of the gap or bilateral rows,
-  /// and of the tangential rows of a contact.
-  double allowed = 0,    ///< of the gap or bilateral rows [L]
-      allowed_slip = 0;  ///< of the tangential rows [L]
-  /// Of a bilateral block: v + compliance p = 0 holds for the value v of each row and its impulse p
-  /// [T/M], >= 0.
+  double allowed = 0,    ///< largest residual of the gap, or of the rows of a link [L], > 0
+      allowed_slip = 0;  ///< largest residual of the tangential rows [L], > 0
+  /// Of a link [T/M], >= 0 (0: rigid): v + compliance p = 0 for value v and impulse p of each row.
   double compliance = 0;
-  /// Of a contact with more than one row. The impulses of kCone are in the FrictionCone, and such a
-  /// contact has no film: `lowest` and `capacity` are 0.
+  /// Only with more than one row. With kCone `lowest` and `capacity` must be 0: no film.
   FrictionBound friction_bound = FrictionBound::kCoulomb;
-  double given_load = 0;  ///< of kGiven [M L/T], >= 0
-  /// Whether the impulses are in the cone of (5.9).
+  double given_load = 0;  ///< load that bounds the friction with kGiven [M L/T], >= 0
+  /// True if the impulses obey (5.9), that is, are in the FrictionCone.
   bool is_in_cone() const { return rows > 1 && friction_bound == FrictionBound::kCone; }
-  /// Whether the contact has a film, which may carry its impulse.
+  /// True if the contact has a film, which takes the first part of a normal impulse.
   bool has_film() const { return capacity > lowest; }
-  /// Bound of the tangential impulse with this normal impulse [M L/T], of a contact that is not in
-  /// a cone.
+  /// Largest tangential impulse at this normal impulse, both [M L/T], >= 0; not for kCone.
   double bound(double normal_impulse) const {
     return friction * (friction_bound == FrictionBound::kGiven
                            ? given_load
@@ -139,28 +141,28 @@ struct ConstraintBlock {
 /// Largest number of rows of a block.
 inline constexpr std::size_t kMostRows = 3;
 
-/// The problem of a step: find impulses p of the rows such that, with y = y* + h M^-1 J^T p, every
-/// contact has gap >= 0, p_n >= lowest and one of them 0, every tangential impulse obeys Coulomb's
-/// law, and every bilateral row is 0 or, with a compliance, -compliance p.
+/// The problem of a step: find impulses p of the rows and motions y = y* + h M^-1 J^T p of the
+/// units, y* = h (u*, w*) without constraints, that obey the following. A contact with the normal
+/// impulse p_n has gap >= 0, p_n >= lowest, and one of them with equality. Friction obeys its
+/// FrictionBound. A row of a link has the value -compliance p.
 template <int D>
 struct ConstraintProblem {
-  std::vector<RigidUnit<D>> units;      ///< all particles and bodies that take part
-  std::vector<RowPart<D>> parts;        ///< of the rows
-  std::vector<ConstraintRow> rows;      ///< those of each block follow each other
-  std::vector<ConstraintBlock> blocks;  ///< in the order of their rows
+  std::vector<RigidUnit<D>> units;      ///< all units that have a contact or link
+  std::vector<RowPart<D>> parts;        ///< parts of all rows, in the order of the rows
+  std::vector<ConstraintRow> rows;      ///< rows of all blocks, in the order of the blocks
+  std::vector<ConstraintBlock> blocks;  ///< all contacts and links
   std::vector<double> impulses;         ///< of the rows [M L/T]: a guess, then the solution
-  /// Whether no contact has FrictionBound::kCoulomb, so that motions minimise a convex function.
+  /// True if no contact has kCoulomb, so that the solution minimises a convex function.
   bool is_convex = false;
-  /// Whether a rough solution of a convex problem is enough, which shows about how units move and
-  /// which contacts carry load.
+  /// True if an approximate solution of a convex problem is enough.
   bool is_rough = false;
-  /// Whether given loads (ConstraintBlock::given_load) stay those that are given.
+  /// False: the solver replaces each given_load by that of a first solution, and solves again.
   bool keeps_loads = false;
-  /// Whether bilateral rows hold long chains of units together, as those of a membrane, through
-  /// which sweeps would carry impulses too slowly.
+  /// True if links hold long chains of units together, as those of a membrane do. The solver then
+  /// makes few Gauss-Seidel sweeps, because they carry impulses too slowly along a chain.
   bool has_long_chains = false;
 
-  /// Adds a row with these parts and a guess of its impulse [M L/T].
+  /// Adds a row with this offset [L], the parts `of_row`, and a guess of its impulse [M L/T].
   void add_row(double offset, std::span<const RowPart<D>> of_row, double impulse) {
     rows.push_back({offset, parts.size(), of_row.size()});
     parts.insert(parts.end(), of_row.begin(), of_row.end());
@@ -179,7 +181,7 @@ struct ConstraintProblem {
     }
     return sum;
   }
-  /// Adds J^T p of row `r` with the impulse `p` to the impulses of the units.
+  /// Adds the impulses that the impulse `p` of row `r` exerts on its units, J^T p, to `to`.
   void add_impulse(std::size_t r, double p, std::span<Motion<D>> to) const {
     for (const auto& [unit, coefficients] : parts_of(r)) {
       auto& impulse = to[static_cast<std::size_t>(unit)];
@@ -188,59 +190,61 @@ struct ConstraintProblem {
   }
 };
 
-/// Motions y* + h M^-1 J^T p of all units.
+/// Motions y* + h M^-1 J^T p of all units, with the impulses p of all rows [M L/T].
 template <int D>
 std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
                                std::span<const double> impulses);
 
-/// Gives each contact with friction the load that its solids have with problem.impulses, (5.17), in
-/// place of Coulomb's law, which makes the problem convex. Its solution has exact gaps, films and
-/// bilateral rows, and friction that takes energy; what it lacks of Coulomb's law is the difference
-/// between the loads of the solution and those that are given.
+/// Makes the problem convex: each contact with friction gets FrictionBound::kGiven, with the load
+/// of its solids at problem.impulses as given_load, (5.17). Sets is_convex and keeps_loads, clears
+/// is_rough. The solution has exact gaps, films and links, but not Coulomb's law if loads change.
 template <int D>
 void give_loads(ConstraintProblem<D>& problem);
 
-/// w of each row: what a unit impulse on the row changes in it, J h M^-1 J^T [T/M].
+/// The mobility of each row, its change by a unit impulse on it: diagonal of J h M^-1 J^T [T/M].
 template <int D>
 std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
 
-/// Residual of a block [L] for values `v` of its rows, their impulses `p` and mobilities `w`: of a
-/// contact the larger of |min(gap, w (p_n - lowest))| and, with friction, of w |p_t - P(p_t -
-/// v_t/w)|, where P projects on the bound of the friction; of a contact in the cone of (5.9) those
-/// of w |p - P(p - v/w)|, where P projects on the cone; of a bilateral constraint the largest |v +
-/// compliance p|.
+/// By how much a block violates its conditions [L]; 0 at the solution.
 struct BlockResidual {
-  double normal = 0,   ///< of the gap or bilateral rows [L], >= 0
+  double normal = 0,   ///< of the gap, or of the rows of a link [L], >= 0
       tangential = 0;  ///< of the tangential rows [L], >= 0; 0 without friction
-  /// The larger of both, divided by what is allowed.
+  /// The larger of both, each divided by its allowed residual of `block` [1]; NaN if one is NaN.
   double share(const ConstraintBlock& block) const {
     const double of_normal = normal / block.allowed;
     const double of_slip = tangential == 0 ? 0 : tangential / block.allowed_slip;
     return largest_or_nan(of_normal, of_slip);
   }
 };
-/// The residual of `block`. `v`, `p` and `w` point to the numbers of the first row of the block.
+/// The residual of `block` for the values `v` [L] of its rows, their impulses `p` [M L/T] and
+/// mobilities `w` > 0 [T/M]. The pointers are to the numbers of its first row. The residual is
+/// - of a contact |min(gap, w (p_n - lowest))| and, with friction, w |p_t - P(p_t - v_t/w)|, where
+///   P projects tangential impulses on those of a magnitude up to bound();
+/// - of a contact with kCone the normal and the tangential part of w |p - P(p - v/w)|, where P
+///   projects impulses on the FrictionCone;
+/// - of a link the largest |v + compliance p|.
 BlockResidual residual_of(const ConstraintBlock& block, const double* v, const double* p,
                           const double* w);
 
-/// What the tangential rows of a contact need besides the contact.
+/// What add_contact_row() must know of a contact besides its normal and gap.
 template <int D>
 struct ContactTangents {
-  std::array<Vector, static_cast<std::size_t>(D - 1)> directions;  ///< unit vectors
-  /// Distances of the contact point from the centres of both particles [L].
-  double first_arm = 0,  ///< from the centre of the first particle
-      second_arm = 0;    ///< from the centre of the second particle
-  Vector surface{};      ///< displacement of the surface of the obstacle in the step [L]
-  double capacity = 0;   ///< ConstraintBlock::capacity
+  /// Unit vectors at right angles to the normal and to each other.
+  std::array<Vector, static_cast<std::size_t>(D - 1)> directions;
+  double first_arm = 0,  ///< from the first particle's centre to the contact [L]; 0 at an obstacle
+      second_arm = 0;    ///< from the second particle's centre to the contact [L], > 0
+  Vector surface{};      ///< displacement of the obstacle at the contact point in the step [L]
+  double capacity = 0;   ///< ConstraintBlock::capacity [M L/T]
 };
 
-/// The tangents of a contact in a step from time `begin` to `end` [T]; `capacity` is left 0.
+/// The tangents of a contact in a step from time `begin` to `end` [T]. Contact::obstacle is a place
+/// in `obstacles`. The caller sets `capacity`, which is 0 in the result.
 template <int D>
 ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& particles,
                                std::span<const Plane> obstacles, double begin, double end);
 
-/// Part of a row for one unit: the displacement along `direction` of the point that is at `arm` [L]
-/// from the centre of the unit.
+/// Coefficients of a row for one unit: their product with its motion is the displacement [L] along
+/// the unit vector `direction` of the point at the vector `arm` [L] from the centre of the unit.
 template <int D>
 Motion<D> displacement_row(const Vector& direction, const Vector& arm) {
   Motion<D> row{};
@@ -253,15 +257,15 @@ Motion<D> displacement_row(const Vector& direction, const Vector& arm) {
   return row;
 }
 
-/// A particle of a contact as a part of its unit.
+/// Where a particle of a contact is in its unit.
 struct ContactSide {
-  std::int32_t unit = -1;  ///< -1: an obstacle
+  std::int32_t unit = -1;  ///< place in ConstraintProblem::units; -1: an obstacle
   Vector offset{};         ///< from the centre of the unit to that of the particle [L]
 };
 
-/// Adds row number `k` of a contact, with a guess of its impulse [M L/T]: its gap (0), or the
-/// tangential displacement of the surface of the second particle relative to that of the first
-/// along direction `k` - 1.
+/// Adds row number `k` of a contact, with the guess `impulse` of its impulse [M L/T]: 0 is its gap,
+/// 1 to D - 1 are displacements of the surface of the second particle relative to that of the
+/// first, or of the obstacle, along tangents.directions[k - 1].
 template <int D>
 void add_contact_row(const Contact<D>& contact, const ContactTangents<D>& tangents,
                      const ContactSide& first, const ContactSide& second, std::size_t k,

@@ -1,6 +1,13 @@
-// Sweeps and proximal steps (constraint_solver.hpp). Units are those of the case. What is not
-// solved is reported, not thrown. The constants change how long a solution takes, and the results
-// within the tolerances.
+// Decides which methods solve the problem of contacts with friction and links of a time step, in
+// which order and with which parameters (constraint_solver.hpp): Gauss-Seidel sweeps, proximal
+// steps and interior points. Units are any consistent ones. A residual [L] is allowed if it is at
+// most ConstraintBlock::allowed or allowed_slip. Nothing is thrown; an unsolved problem has
+// SolverResult::residual > 1. Used by constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp.
+// Constants without another reason are free choices.
+//
+// `epsilon` [1] is the parameter of a proximal step: the impulse of a row with the value v and the
+// mobility w is center - v/(epsilon w), projected on the allowed impulses. A smaller epsilon brings
+// the step nearer to the solution, but makes it harder to compute.
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 
 #include <algorithm>
@@ -18,9 +25,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// The mobilities of the rows, equal for the tangential rows of a contact, on which the projection
-/// acts together. With kLeastImpulses all gaps have the largest of theirs, so that contacts share
-/// an impulse as if all were equally stiff.
+/// The mobility of each row [T/M]. Both tangential rows of a contact get the larger of their two.
+/// With kLeastImpulses all gaps get the largest mobility, so that all are equally stiff.
 template <int D>
 std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, ConstraintStart start) {
   auto w = row_mobilities(problem);
@@ -74,9 +80,10 @@ class Iteration {
     update();
   }
 
-  /// A sweep costs a small part of a factorisation, so that sweeps go on as long as they gain.
-  /// Before interior points, which need the same time whatever they begin with, and where units
-  /// make long chains, only sweeps that are about to solve the problem are worth their time.
+  /// Repeats kSweeps sweeps as long as these reduce the residual to less than `gain` of it. A sweep
+  /// takes a small part of the time of a factorisation, so that slow progress is enough. Before
+  /// interior points, whose time does not depend on their start, and in long chains of units,
+  /// sweeps are worth their time only if a few of them solve the problem.
   void sweep_while_it_gains(int max_iterations) {
     const double gain = problem_.is_convex || problem_.has_long_chains ? 0.1 : 0.7;
     double before = std::numeric_limits<double>::infinity();
@@ -86,25 +93,24 @@ class Iteration {
     }
   }
 
-  /// Notes when the best residual has been halved.
+  /// Records the number of iterations when the best residual has been halved again.
   void note_progress() {
     constexpr double kGain = 0.5;
     if (!(best_.result.residual < kGain * gained_residual_)) return;
     gained_residual_ = best_.result.residual;
     gained_at_ = best_.result.iterations;
   }
-  /// Whether the best residual was not halved for a long time. With a patience of 2000 iterations,
-  /// three more of the 200 steps of bench/box2d.cpp ended without a solution.
+  /// True if the best residual was not halved in the last kPatience iterations. With 2000 in place
+  /// of 3000, three more of the 200 steps of bench/box2d.cpp ended without a solution.
   bool is_stagnant() const {
     constexpr int kPatience = 3000;
     return best_.result.iterations - gained_at_ > kPatience;
   }
 
-  /// Takes a proximal step, or goes back and makes the next one easier to solve. Between jammed
-  /// particles that stick, impulses that balance each other must grow until a contact slips or
-  /// opens. Small epsilons reach this state fast, but Newton's method then fails more often.
-  /// Therefore epsilon falls after a success and grows after a failure. If even the easiest step
-  /// fails, sweeps continue.
+  /// Takes a proximal step of a problem with Coulomb's law. Between jammed particles that stick,
+  /// impulses that balance each other must grow until a contact slips or opens. Small epsilons
+  /// reach this state fast, but steps fail more often. Therefore epsilon falls after a success and
+  /// grows after a failure. If steps with the largest one fail, sweeps are made.
   void take_proximal_step(int max_iterations) {
     constexpr int kMostIterations = 200, kFewIterations = 2;
     constexpr double kLeastEpsilon = 1e-12, kLargestEpsilon = 1, kFactor = 3, kLargeFactor = 10;
@@ -124,7 +130,8 @@ class Iteration {
       proximal_->set_epsilon(epsilon_);
       return;
     }
-    // Most problems are solved in fewer steps, with slips far below what is allowed.
+    // Most problems are solved in fewer than kManySteps steps. close_gaps() is tried then, and
+    // again when the number of steps has grown by a quarter.
     constexpr int kManySteps = 15, kShareOfSteps = 4;
     if (residual_ > 1 && ++steps_ >= std::max(kManySteps, next_try_) && largest_slip() <= 1) {
       if (close_gaps(center, max_iterations)) return;
@@ -136,7 +143,7 @@ class Iteration {
     proximal_->set_epsilon(epsilon_);
   }
 
-  /// The largest residual of tangential rows, divided by what is allowed.
+  /// The largest residual of tangential rows, divided by their allowed residual [1].
   double largest_slip() const {
     double largest = 0;
     for (std::size_t b = 0; b < residuals_.size(); ++b)
@@ -144,12 +151,13 @@ class Iteration {
     return largest;
   }
 
-  /// Makes gaps and bilateral rows exact after a step from the impulses `center` whose slips are
-  /// allowed. Between jammed particles that stick, slips are never 0: impulses would grow without
-  /// end, and this changes gaps by more than their small tolerance. Therefore further steps change
-  /// the center of normal impulses only. For the slips, epsilon is so large that the small changes
-  /// of the gaps hardly change the friction, and the center is the one with which all contacts keep
-  /// their branches. Returns whether the problem is solved.
+  /// Makes the residuals of gaps and links allowed, after a step from the impulses `center` after
+  /// which the residuals of the slips are allowed. Between jammed particles that stick, slips are
+  /// never 0, so that further steps would increase impulses without end and change gaps by more
+  /// than their small tolerance. The steps of this function therefore start from the last impulses
+  /// in the rows of gaps and links only. The tangential rows keep a center with which the present
+  /// motions give the present friction. Their epsilon is so large that small motions hardly change
+  /// it. Returns true if the problem is solved; otherwise restores the impulses.
   bool close_gaps(std::vector<double> center, int max_iterations) {
     constexpr int kMostSteps = 12, kMostIterations = 200;
     constexpr double kEpsilonOfSlips = 1e-3, kLeastEpsilon = 1e-6, kFactor = 3;
@@ -179,9 +187,8 @@ class Iteration {
     return false;
   }
 
-  /// Solves a convex problem. If loads of its contacts are given, interior points first solve it
-  /// with these. The loads of that solution are then given in a second solution. A rough solution
-  /// only finds loads for the next one.
+  /// Solves a convex problem. If given loads bound its friction, a first solution replaces them by
+  /// its own loads, unless given loads are kept or the solution is rough.
   void solve_with_own_loads(int max_iterations) {
     if (has_given_loads_ && !problem_.keeps_loads && !problem_.is_rough) {
       find_interior_solution(max_iterations);
@@ -193,16 +200,17 @@ class Iteration {
     solve_convex(max_iterations);
   }
 
-  /// Gives contacts the loads that they have in the present solution.
+  /// Sets the given loads to the loads of the solids at the present impulses.
   void take_loads() {
     for (auto& block : problem_.blocks)
       if (block.friction_bound == FrictionBound::kGiven)
         block.given_load = FrictionLaw::carried(problem_.impulses[block.row], block.capacity);
   }
 
-  /// Solves a convex problem by interior points.
+  /// Solves a convex problem by interior points alone.
   void find_interior_solution(int max_iterations) {
-    // In space, the proximal steps that follow are as fast as further iterations of interior points.
+    // Accuracies relative to the violations without impulses. For spheres, which have the larger
+    // one, proximal steps reach the rest as fast as further iterations of interior points would.
     constexpr double kRough = 1e-3, kAccurate = D == 2 ? 1e-9 : 1e-6;
     constexpr int kMostIterations = 60;
     if (!interior_) interior_.emplace(problem_, w_, matrix());
@@ -212,17 +220,17 @@ class Iteration {
     update();
   }
 
-  /// Solves a convex problem by interior points. Where these are not accurate enough, proximal
-  /// steps follow, which take a few iterations, because it is known which contacts stick and slide.
+  /// Solves a convex problem with its present loads: by interior points, and then by proximal
+  /// steps, if needed, which are few: it is known which contacts stick and slide.
   void solve_convex(int max_iterations) {
-    // Where rows are redundant, sweeps depend on their order, and so would loads. Interior points
-    // do not.
+    // If rows are redundant, impulses found by sweeps depend on the order of the rows, and those
+    // found by interior points do not. Loads, which bound friction, must not depend on it.
     if (!has_given_loads_ && start_ == ConstraintStart::kSweeps)
       sweep_while_it_gains(max_iterations);
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return;
     find_interior_solution(max_iterations);
     if (problem_.is_rough) return;
-    // With a smaller epsilon the rounding errors of the gaps, divided by epsilon, would be larger.
+    // Errors of impulses are rounding errors of gaps over epsilon, too large with a smaller one.
     constexpr double kFirstEpsilonOfConvex = 1e-5;
     epsilon_ = kFirstEpsilonOfConvex;
     is_rising_ = true;
@@ -234,10 +242,10 @@ class Iteration {
     }
   }
 
-  /// Takes a proximal step for a convex problem. Each step leads nearer to the solution
-  /// but for rounding errors, which are those of the gaps divided by epsilon. Therefore epsilon
-  /// rises until the errors are gone. Where impulses between jammed particles must grow, it falls
-  /// and rises again.
+  /// Takes a proximal step of a convex problem, and changes epsilon for the next one. Without
+  /// rounding errors each step would lead nearer to the solution. The errors of the impulses are
+  /// the rounding errors of the gaps divided by epsilon. Therefore epsilon rises to kFirstEpsilon,
+  /// then falls so that impulses between jammed particles grow fast, and rises again.
   void take_convex_step(int max_iterations) {
     constexpr int kMostIterations = 50;
     constexpr double kLeastEpsilon = 1e-8, kFactor = 10, kLittle = 0.9;
@@ -250,9 +258,9 @@ class Iteration {
     update();
     const bool is_solved = !proximal_->failed() && taken < most && std::isfinite(residual_);
     const bool is_largest = epsilon_ >= kFirstEpsilon, is_least = epsilon_ <= kLeastEpsilon;
-    // If gaps hardly improve although contacts hardly slip, particles are jammed. This test does
-    // not hold for contacts in cones, whose projection moves normal and tangential impulses
-    // together.
+    // If the residual hardly falls although contacts hardly slip, particles are jammed, and
+    // close_gaps() is tried. It cannot be used for contacts of FrictionBound::kCone, because their
+    // projection changes normal and tangential impulses together.
     constexpr double kLittleSlip = 0.01, kSlow = 0.1;
     if (is_solved && !has_cones_ && residual_ > 1 && residual_ > kSlow * before &&
         largest_slip() <= kLittleSlip && close_gaps(center, max_iterations))
@@ -270,16 +278,15 @@ class Iteration {
     proximal_->set_epsilon(epsilon_);
   }
 
-  /// Between jammed particles, impulses that balance each other grow by the same small amounts in
-  /// each step, and the residual stays, until a contact slips or opens. This function adds all
-  /// these amounts at once.
+  /// Adds the change of the impulses since `center` times the largest number with which no contact
+  /// begins to slip or open. Jammed particles get the same change in each step until then.
   void extend_change(const std::vector<double>& center) {
     const auto& p = problem_.impulses;
     double length = std::numeric_limits<double>::infinity();
     for (const auto& block : problem_.blocks) {
       if (!block.is_contact) continue;
       const auto bounded_by = [&](ConePoint here, ConePoint change) {
-        // Contacts on the boundary stay there.
+        // Contacts that slip or are open already do not limit the length.
         constexpr double kInside = 1e-9;
         if (determinant(here) > kInside * here[0] * here[0])
           length =
@@ -303,13 +310,14 @@ class Iteration {
     update();
   }
 
-  /// The matrix of Newton's methods. It is analysed when it is needed first.
+  /// The matrix of proximal steps and interior points, which the first call makes.
   UnitMatrix<D>& matrix() {
     if (!matrix_) matrix_.emplace(problem_, problem_.is_convex);
     return *matrix_;
   }
 
-  /// Computes motions and residuals, and keeps the solution if it is the best so far.
+  /// Computes motions, values of rows and residuals for problem_.impulses, and stores this iterate
+  /// as the best one if its residual is the smallest so far.
   void update() {
     motions_ = motions<D>(problem_, problem_.impulses);
     values_.resize(problem_.rows.size());
@@ -336,25 +344,26 @@ class Iteration {
     return std::move(best_);
   }
 
+  // Epsilon of the first proximal step with Coulomb's law; bench/README.md lists others tried.
   static constexpr double kFirstEpsilon = 0.1;
 
   ConstraintProblem<D>& problem_;
-  std::vector<double> w_;
+  std::vector<double> w_;  // scales_of_rows() [T/M]
   ContactSweeps<D> sweeps_;
   ConstraintStart start_;
   std::optional<UnitMatrix<D>> matrix_;
   std::optional<InteriorPoints<D>> interior_;
   std::optional<ProximalStep<D>> proximal_;
-  std::vector<double> values_;  // of the rows
+  std::vector<double> values_;  // of the rows at the present impulses [L]
   std::vector<double> best_impulses_;
   std::vector<Motion<D>> motions_;
   std::vector<BlockResidual> residuals_;
   ConstraintSolution<D> best_;
   double gained_residual_ = std::numeric_limits<double>::infinity();  // see note_progress()
-  int gained_at_ = 0;
+  int gained_at_ = 0;                                                 // see note_progress()
   bool is_rising_ = false, has_given_loads_ = false, has_cones_ = false;
-  int steps_ = 0, next_try_ = 0;  // of the proximal method; the step in which to close the gaps
-  double residual_ = 0, epsilon_ = kFirstEpsilon;
+  int steps_ = 0, next_try_ = 0;  // proximal steps so far; the one after which to try close_gaps()
+  double residual_ = 0, epsilon_ = kFirstEpsilon;  // residual_: largest over allowed one [1]
 };
 
 }  // namespace

@@ -1,7 +1,8 @@
-// Solves the constraints of a step with friction (constraint_problem.hpp). Lengths, masses and
-// times are in the units of the case. constraint_system.hpp, impacts/ and
-// fluid_friction.cpp call it; nothing is
-// thrown. The results do not depend on the number of threads, because one thread computes them.
+// Solves the problem for the impulses of the contacts with friction, rigid bodies and links of a
+// time step (constraint_problem.hpp). Lengths [L], masses [M] and times [T] are in any consistent
+// units. Nothing is thrown: a problem that is not solved has SolverResult::residual > 1 or NaN.
+// constraint_system.cpp, impacts/ and fluid/fluid_friction.cpp call it. One thread computes the
+// solution, so that results do not depend on the number of threads; a change must keep that.
 #pragma once
 
 #include <vector>
@@ -14,30 +15,31 @@ namespace viscontact::particles {
 /// What solve_constraints() found, besides the impulses.
 template <int D>
 struct ConstraintSolution {
-  SolverResult result;                   ///< SolverResult::residual is divided by what is allowed
-  std::vector<Motion<D>> motions;        ///< y of the units ([L], [rad])
-  std::vector<BlockResidual> residuals;  ///< of the blocks [L]
+  /// Number of iterations, and the largest residual of a block divided by its allowed residual [1].
+  SolverResult result;
+  std::vector<Motion<D>> motions;        ///< displacements [L] and turns [rad] of all units
+  std::vector<BlockResidual> residuals;  ///< residuals of all blocks [L]
 };
 
-/// How a solution begins.
+/// The method with which a solution begins.
 enum class ConstraintStart {
-  /// With sweeps, which are fast. Where rows are redundant, impulses depend on their order.
+  /// Gauss-Seidel sweeps, which are fast. If rows are redundant, so that several impulses solve the
+  /// problem, the result depends on the order of the rows.
   kSweeps,
-  /// With a step of the proximal method from the guess: where rows are redundant, the sum of the
-  /// squares of the impulses' distances from the guess is near its minimum, whatever the order of
-  /// the rows.
+  /// A step of the proximal method from the guess in problem.impulses. If rows are redundant, the
+  /// result is near the solution with the least squares of differences from the guess.
   kLeastImpulses,
 };
 
-/// Improves problem.impulses until the residual of each block is allowed, or until about
-/// `max_iterations` sweeps, factorisations and solutions with factors are done.
+/// Improves problem.impulses [M L/T] until the residual of each block is allowed, or until about
+/// `max_iterations` > 0 sweeps, factorisations and solutions with factors are done. Returns, and
+/// leaves in problem.impulses, the iterate with the smallest residual.
 ///
-/// Sweeps begin and go on as long as they gain. For Coulomb's law, steps of the proximal method
-/// (proximal_step.hpp) follow, whose epsilon falls after a step that was solved easily and grows
-/// after one that was not solved. A convex problem is solved by interior points
-/// (interior_points.hpp), and proximal steps make the solution accurate. Given loads
-/// (ConstraintBlock::given_load) are replaced by those of the solution, and another solution
-/// follows, unless problem.keeps_loads. The solution returned is the best that was found.
+/// Gauss-Seidel sweeps are made first, as long as each reduces the residual fast. For Coulomb's
+/// law, steps of the proximal method (proximal_step.hpp) follow. A convex problem (is_convex) is
+/// solved by interior points (interior_points.hpp), and proximal steps make the solution accurate.
+/// If contacts have given loads (FrictionBound::kGiven), these are replaced by the loads of a first
+/// solution, and a second solution follows, unless problem.keeps_loads.
 template <int D>
 ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations,
                                         ConstraintStart start = ConstraintStart::kSweeps);

@@ -1,6 +1,8 @@
-// Numbers the units of a step, makes the rows of contacts and links, takes over the solution, and
-// finds what contradicts itself (constraint_system.hpp), in the units of the case. What is not
-// solved is reported, not thrown. A change must keep hinges and arms exact after finite turns.
+// Makes and solves the problem for the impulses of the contacts, rigid bodies and links of a time
+// step, and finds constraints that contradict each other (constraint_system.hpp). Lengths [L],
+// masses [M] and times [T] are in any consistent units. Nothing is thrown; residual() tells whether
+// a step is solved. projection/ uses it. A change must keep that hinges and arms hold after finite
+// turns. A unit is a particle, or a rigid body of several.
 #include "viscontact/particles/constraints/constraint_system.hpp"
 
 #include <algorithm>
@@ -14,7 +16,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// The coefficients of one part of a link's equation.
+/// The coefficients by which the motion of one unit enters a link's equation.
 template <int D>
 Motion<D> row_of(const LinkPart& part) {
   if (!part.is_turn) return displacement_row<D>(part.direction, part.arm);
@@ -69,7 +71,7 @@ void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
   residuals_.emplace_back();
 }
 
-/// Makes a unit of each rigid body, and of each other particle, that takes part.
+/// Makes a unit of each rigid body, and of each particle without a body, that is in `system`.
 template <int D>
 void ConstraintSystem<D>::number_units(const ContactSystem<D>& system) {
   unit_of_particle_.assign(particles_.count(), -1);
@@ -108,8 +110,7 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c,
   block.capacity = tangents.capacity;
   block.allowed = contact.allowed;
   block.allowed_slip = allowed_slip;
-  // A film without lower bound (of smooth particles) carries all impulses, so that there is no
-  // friction.
+  // The film of smooth particles absorbs every impulse, so that there is no friction.
   const bool rubs = block.friction > 0 && std::isfinite(block.capacity);
   block.rows = rubs ? static_cast<std::size_t>(D) : 1;
   if (problem_.is_convex && rubs) {
@@ -130,7 +131,7 @@ void ConstraintSystem<D>::add_link(std::size_t l, double mean_radius) {
   ConstraintBlock block;
   block.row = problem_.rows.size();
   block.rows = link.rows.size();
-  // A stop pushes like a contact without film and friction.
+  // The stop of a hinge pushes like a contact without film and friction.
   const bool is_stop = link.kind == LinkEquations::Kind::kStop;
   block.is_contact = is_stop;
   block.allowed = links_allowed[l];
@@ -159,7 +160,7 @@ UnitMotion ConstraintSystem<D>::motion_of(std::int32_t unit,
   return result;
 }
 
-/// Sets the displacements and turns of all particles that take part, with finite turns of bodies.
+/// Moves the particles of `system` with their units, with finite turns of rigid bodies.
 template <int D>
 void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system,
                                          std::span<const Motion<D>> motions) {
@@ -175,8 +176,8 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system,
   }
 }
 
-/// Corrects the offsets of the rows by what finite turns change, and stores the changes. Returns
-/// the largest of them, divided by the allowed residual of its block.
+/// Changes the offsets of the rows so that their linear values after `solution` become those after
+/// finite turns, and stores the changes in shifts_. Returns the largest one over its bound.
 template <int D>
 double ConstraintSystem<D>::correct(ContactSystem<D>& system,
                                     const ConstraintSolution<D>& solution) {
@@ -208,11 +209,12 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system,
   return largest;
 }
 
-/// Writes impulses, residuals and motions of bodies where they belong.
+/// Copies the solution to the contacts of `system`, to the forces of links and the motions of
+/// bodies of the step, and to the residuals of this object.
 template <int D>
 void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
                                     const ConstraintSolution<D>& solution) {
-  // The residuals of the last solution, and what its last corrections would change.
+  // A residual is that of the last solution plus the correction that would follow.
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const auto& block = problem_.blocks[c];
     system.contacts[c].impulse = problem_.impulses[block.row];
@@ -232,7 +234,7 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
     const auto& block = problem_.blocks[b];
     link_residuals_[l] = solution.residuals[b].normal + shifts_[b];
     if (link.is_angle()) link_residuals_[l] *= mean_radius_;
-    // The torque of a hinge is that of its spring and of its stops.
+    // A hinge has one torque, the sum of those of its spring and its stops.
     const bool is_stop = link.kind == LinkEquations::Kind::kStop;
     const double sign = is_stop ? link.parts().front().direction[2] : 1;
     for (std::size_t k = 0; k < block.rows; ++k)
@@ -248,8 +250,7 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
   }
 }
 
-/// The residual of a contact [L]; that of Coulomb's law if its load was given for lack of a
-/// solution.
+/// The residual of a contact [L], that of Coulomb's law also if the solution has given loads.
 template <int D>
 BlockResidual ConstraintSystem<D>::residual_of_contact(
     std::size_t c, const ConstraintSolution<D>& solution) const {
@@ -269,8 +270,8 @@ BlockResidual ConstraintSystem<D>::residual_of_contact(
   return residual_of(block, v.data(), &problem_.impulses[block.row], w.data());
 }
 
-/// Gives the contacts the loads that they had when Coulomb's law was given up, and contacts that
-/// came later those of the step before.
+/// Bounds friction by the loads that the contacts had when Coulomb's law was given up. Contacts
+/// that were added later get the loads of the step before.
 template <int D>
 void ConstraintSystem<D>::give_loads_of_step() {
   for (std::size_t c = given_loads_.size(); c < carried_.size(); ++c)
@@ -280,10 +281,11 @@ void ConstraintSystem<D>::give_loads_of_step() {
     problem_.blocks[c].given_load = given_loads_[c];
 }
 
-/// Solves the problem; by given loads if Coulomb's law is not solved.
+/// Solves problem_ as it is. If Coulomb's law is not solved in `max_iterations`, solves it with
+/// given loads, in more iterations, and sets has_given_up_.
 template <int D>
 ConstraintSolution<D> ConstraintSystem<D>::solve_problem(int max_iterations) {
-  // Solutions with given loads take 100 to 200 iterations, and some of them a thousand.
+  // Solutions with given loads take 100 to 200 iterations, and some of them 1000.
   constexpr int kMostOfGivenLoads = 3000;
   if (has_given_up_) return solve_constraints(problem_, kMostOfGivenLoads);
   auto solution = solve_constraints(problem_, std::max(1, max_iterations));
@@ -297,7 +299,7 @@ ConstraintSolution<D> ConstraintSystem<D>::solve_problem(int max_iterations) {
   give_loads(problem_);
   auto with_given_loads = solve_constraints(problem_, kMostOfGivenLoads);
   with_given_loads.result.iterations += solution.result.iterations;
-  // Bilateral rows that contradict each other have no solution, whatever the friction is.
+  // If the problem is not solved with given loads either, links contradict each other.
   can_give_up_ = has_given_up_ = with_given_loads.result.residual <= 1;
   if (!has_given_up_) {
     problem_ = of_coulomb;
@@ -320,12 +322,12 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   for (std::size_t c = 0; c < system.contacts.size(); ++c)
     add_contact(system.contacts[c], c, allowed_slip);
   for (std::size_t l = 0; l < links_.size(); ++l) add_link(l, mean_radius_);
-  // Before the impulses are roughly known, nothing is known about the impulses at work.
+  // The other allowed residuals are a fraction of the impulses at work, which are not known yet.
   if (is_rough)
     for (auto& block : problem_.blocks) block.allowed = allowed_slip;
   if (has_given_up_) give_loads_of_step();
-  // A correction multiplies the error by about the turn in the step. With turns of a radian, even
-  // this many corrections gain little, and the step does not converge.
+  // Each correction multiplies the error by about the turn of the bodies in the step [rad]. With
+  // turns of 1 it gains little; then more corrections than this would not help either.
   constexpr int kMostCorrections = 40;
   ConstraintSolution<D> solution;
   SolverResult result;
@@ -338,12 +340,12 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     move_particles(system, solution.motions);
     const double change = correct(system, solution);
     result.residual += change;
-    // Corrections that grow several times will not end, because the constraints contradict each
-    // other or the step is too long.
+    // If corrections grow kPatience times in succession, they diverge: the constraints contradict
+    // each other, or the step is too long.
     constexpr int kPatience = 3;
     growing = change < last_change ? 0 : growing + 1;
     last_change = change;
-    // Half of what is allowed leaves room for the residual of the solution itself.
+    // Half of what is allowed is left to the residual of the solution.
     if (change <= 0.5 || growing == kPatience || is_rough || n == kMostCorrections ||
         (result.iterations >= max_iterations && !has_given_up_) || !(solution.result.residual <= 1))
       break;
@@ -355,9 +357,9 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
 template <int D>
 std::vector<double> ConstraintSystem<D>::least_violations() const {
   const auto& problem = problem_;
-  // Proximal steps of the least squares. The term M/h keeps the matrix regular and holds each step
-  // back; the part that is missing falls by about kEpsilon in each step for motions that the rows
-  // determine well.
+  // Proximal steps: each minimises the sum of v^2/(kEpsilon w) plus the square of the change of the
+  // motions in the norm of M/h, masses over the step's length, which keeps the matrix regular. A
+  // step multiplies errors by about kEpsilon if the rows determine the motions well.
   constexpr double kEpsilon = 1e-6;
   constexpr int kSteps = 30;
   const auto w = row_mobilities(problem);

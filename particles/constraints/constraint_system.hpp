@@ -1,7 +1,9 @@
-// The constraints of a step on particles that turn: contacts with friction, rigid bodies and links.
-// Makes the problem of constraint_problem.hpp and takes over its solution. Lengths, masses and
-// times are in the units of the case. step_projection.hpp uses it; nothing is thrown. A change must
-// keep the order of units, on which results depend.
+// The contacts with friction, rigid bodies and links (hinges, springs, arms, membranes) of a time
+// step on particles that turn: makes the problem of constraint_problem.hpp, solves it, and writes
+// the solution to contacts, particles and bodies. Lengths [L], masses [M] and times [T] are in any
+// consistent units; D is 2 (discs) or 3 (spheres). Nothing is checked or thrown; residual() and
+// link_residual() tell whether a step is solved. projection/ uses it. Results depend on the order
+// of units, contacts and links; restart files store the link forces in their order.
 #pragma once
 
 #include <cstddef>
@@ -20,23 +22,22 @@
 
 namespace viscontact::particles {
 
-/// What the constraints of a step depend on, besides its contacts. Arrays are those of the
-/// simulation: before the solution they hold the motion without constraints, after it that of the
-/// solution.
+/// A time step and what its constraints depend on, besides contacts. The arrays that can be written
+/// belong to the simulation: before solve() they hold the motion without contacts and links, after
+/// it that with them. h [T] is the step's length, w are angular velocities, I moments of inertia.
 struct ConstraintStep {
-  /// The laws of all contacts.
-  const ContactLaws& laws;
-  /// The planes, which may move.
-  std::span<const Plane> obstacles;
-  double begin = 0,         ///< time at which the step begins [T]
-      end = 0;              ///< time at which the step ends [T]
-  bool is_first = false;    ///< LinkTimes::is_first
-  double kick = 0;          ///< time for which forces act on the velocities in it [T]
-  std::span<double> turns;  ///< h w of all particles [rad]
-  std::span<const double> turn_mobilities;  ///< h/I [T/(M L^2)]
-  std::span<BodyStep> bodies;               ///< of all rigid bodies
-  const Links* links = nullptr;             ///< must be there, but may be empty
-  /// State::link_forces [M L/T^2], [M L^2/T^2]: a guess, then the solution.
+  const ContactLaws& laws;           ///< the laws of all contacts
+  std::span<const Plane> obstacles;  ///< planes, which may move, and circles
+  double begin = 0,                  ///< time at which the step begins [T]
+      end = 0;                       ///< time at which the step ends [T]
+  bool is_first = false;             ///< true: the first step of the simulation
+  double kick = 0;          ///< time for which forces act on the velocities in the step [T], > 0
+  std::span<double> turns;  ///< h w of all particles [rad], 1 (discs) or 3 numbers for each
+  std::span<const double> turn_mobilities;  ///< h/I of all particles [T/(M L^2)], > 0
+  std::span<BodyStep> bodies;               ///< motions of all rigid bodies
+  const Links* links = nullptr;             ///< must not be null, but may contain no links
+  /// Forces and torques of all links [M L/T^2, M L^2/T^2], as State::link_forces: before solve()
+  /// the first guess, after it the solution.
   std::span<double> link_forces;
 };
 
@@ -44,57 +45,57 @@ struct ConstraintStep {
 template <int D>
 class ConstraintSystem {
  public:
-  /// All arguments must outlive this object. `displacements` and `mobilities` are those of
-  /// ContactSystem.
+  /// All arguments must outlive this object. `displacements`: of all particles without contacts and
+  /// links [L], D for each; solve() changes them. `mobilities`: h/m, with the masses m [T/M].
   ConstraintSystem(const ConstraintStep& step, const Particles& particles,
                    std::span<double> displacements, std::span<const double> mobilities);
 
-  /// Makes the particles of all links take part. Call it before the first contact is added.
+  /// Adds the particles of all links to `system`. Must be called before a contact is added.
   void join_linked(ContactSystem<D>& system) const;
 
-  /// Adds the contact that is next in the ContactSystem, which is that of `pair`. Its memory holds
-  /// the guess of the friction.
+  /// Adds the contact of `pair`. `memory` holds the guess of the friction. Call it for each contact
+  /// of the ContactSystem in order.
   void add(const Contact<D>& contact, const Pair& pair, const PairMemory& memory);
 
-  /// The equations of the links and of the stops of hinges, and what their residuals may be [L], to
-  /// be set before solve().
+  /// The equations of all links, then those of the stops of hinges (bounds of their angles).
   const std::vector<LinkEquations>& links() const { return links_; }
-  /// The allowed residual of each link [L], > 0, in the order of links().
+  /// Allowed residuals of links() [L], > 0; of angles times the mean radius. Set before solve().
   std::vector<double> links_allowed;
 
-  /// Takes the place of ContactSystem::solve. Also sets the turns of all particles that take part
-  /// and the motions of the rigid bodies. `allowed_slip` is the largest residual of a tangential
-  /// displacement [L]; a rough solution takes it for the gaps, too.
+  /// Solves the step. Sets the impulses of the contacts of `system`, the displacements and turns of
+  /// its particles, the motions of the rigid bodies, and the forces of the links. `allowed_slip` is
+  /// the largest allowed residual of tangential displacements [L]; if `is_rough`, also of gaps and
+  /// links. Returns the number of iterations, and the largest residual of the last problem plus the
+  /// largest correction that would follow, both over what is allowed [1].
   ///
-  /// Rows are linear in the turns of rigid bodies. A solution is followed by others, whose offsets
-  /// are corrected by the difference between the linear values and those of the finite turns, until
-  /// hinges, arms and the contacts of rigid bodies hold with these.
+  /// The equations of the problem are linear in the turns of rigid bodies. The problem is therefore
+  /// solved again, with offsets corrected by the difference between the gaps and lengths after
+  /// finite turns and their linear values, until this difference is below half of what is allowed.
   ///
-  /// If Coulomb's law is not solved in `max_iterations`, give_loads() takes its place with the
-  /// loads of the best iterate, in this and all later solutions of the step, so that gaps, films
-  /// and links are exact. The residuals remain those of Coulomb's law.
+  /// If Coulomb's law is not solved in `max_iterations`, the friction is bounded by the loads of
+  /// the best iterate (give_loads()), in this and all later calls, so that at least gaps, films and
+  /// links are exact. residual() remains that of Coulomb's law.
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double allowed_slip,
                      int max_iterations);
 
-  /// Whether loads of the friction are given because Coulomb's law was not solved.
+  /// True if solve() did not solve Coulomb's law, and given loads bound the friction.
   bool has_given_up() const { return has_given_up_; }
 
-  /// Writes the friction of contact number `c` and what its solids carry into its memory.
+  /// Writes friction of contact `c`, and the impulse that its solids carry, to memory [M L/T].
   void remember(std::size_t c, PairMemory& memory) const {
     memory.set_friction(frictions_[c]);
     memory[Remembered::kCarried] = carried_[c];
   }
   /// Residual of contact number `c` in the last solution [L].
   const BlockResidual& residual(std::size_t c) const { return residuals_[c]; }
-  /// Residual of link number `l` of links() in the last solution [L]; of an angle times the mean
-  /// radius.
+  /// Residual of link `l` of links() in the last solution [L]; of angles times the mean radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
-  /// By how much each constraint of the last problem is violated [L], >= 0, in the motion that
-  /// violates them least: first of the contacts, then of the links. That motion has the smallest
-  /// sum of v^2/w over the rows of bilateral constraints without compliance and the negative gaps.
-  /// If some motion satisfies all of them, these are 0 but for rounding. Otherwise the values v/w
-  /// of the rows, as impulses, move nothing and so prove the contradiction (Farkas' lemma), and a
-  /// constraint that has no part in it is not violated.
+  /// By how much the motion that violates the constraints of the last solve() least violates each
+  /// of them [L] (angles [rad]), >= 0: first of all contacts, then of all links. That motion has
+  /// the least sum of v^2/w over the rows of rigid links and the negative gaps, with the value v
+  /// and the mobility w of a row. If some motion satisfies all of these constraints, the result is
+  /// 0 but for rounding errors. Otherwise they contradict each other: together the impulses v/w
+  /// move nothing (Farkas' lemma), and constraints without a part in this have 0.
   std::vector<double> least_violations() const;
 
  private:
@@ -117,18 +118,19 @@ class ConstraintSystem {
   double mean_radius_;
   LinkTimes times_;
   std::vector<double> free_turns_;     // h w* of all particles
-  std::vector<BodyStep> free_bodies_;  // of the motion without constraints
+  std::vector<BodyStep> free_bodies_;  // motions of bodies without contacts and links
   std::vector<LinkEquations> links_;
-  std::vector<ContactTangents<D>> tangents_;  // of the contacts
-  std::vector<Vector> frictions_;
-  std::vector<double> carried_;
+  std::vector<ContactTangents<D>> tangents_;  // of all contacts, as the next three
+  std::vector<Vector> frictions_;             // impulses of friction [M L/T]
+  std::vector<double> carried_;               // parts of the impulses that solids carry [M L/T]
   std::vector<BlockResidual> residuals_;
   std::vector<double> link_residuals_, link_forces_;
-  // Of the present solution: the unit of each particle that takes part (-1: none), of each body.
+  // Place in problem_.units of each particle and of each rigid body; -1: not in the step.
   std::vector<std::int32_t> unit_of_particle_, unit_of_body_;
-  std::vector<Vector> offsets_;  // of all members of bodies, from the centres, by particle
+  std::vector<Vector> offsets_;  // of each particle, from the centre of its rigid body [L]
   ConstraintProblem<D> problem_;
   std::vector<double> shifts_;  // last corrections of the blocks [L]
+  // can_give_up_: false if the problem had no solution with given loads either.
   bool has_given_up_ = false, can_give_up_ = true;
   std::vector<double> given_loads_;  // of the contacts, if has_given_up_ [M L/T]
 };

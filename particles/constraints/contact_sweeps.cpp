@@ -1,5 +1,7 @@
-// The impulses of one block after another (contact_sweeps.hpp), in the units of the case. Nothing
-// is thrown. A change must keep the order of sums.
+// Gauss-Seidel sweeps over the contacts and links of a time step (contact_sweeps.hpp): computes the
+// impulses [M L/T] of one of them after the other from the values v [L] and mobilities w [T/M] of
+// its rows. Units are any consistent ones. Nothing is checked or thrown. constraint_solver.cpp uses
+// it. A change of the order of sums changes results by rounding errors.
 #include "viscontact/particles/constraints/contact_sweeps.hpp"
 
 #include <algorithm>
@@ -17,7 +19,7 @@ ContactSweeps<D>::ContactSweeps(ConstraintProblem<D>& problem) : problem_(proble
     pushes_.push_back(problem.units[static_cast<std::size_t>(unit)].moved_by(coefficients));
 }
 
-/// The impulse of a row that would make its value 0.
+/// The impulse [M L/T] that would make the value of a row with the mobility `w` 0.
 template <int D>
 double ContactSweeps<D>::wanted(std::size_t row, double w) const {
   return problem_.impulses[row] - (problem_.rows[row].offset + problem_.product(row, y_)) / w;
@@ -39,7 +41,7 @@ template <int D>
 void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w) {
   if (!block.is_contact) {
     for (std::size_t k = 0; k < block.rows; ++k) {
-      // v + w dp + compliance (p + dp) = 0
+      // The change dp of the impulse p obeys v + w dp + compliance (p + dp) = 0.
       const double p = problem_.impulses[block.row + k];
       const double rigid = wanted(block.row + k, w[k]) - p;
       change(block.row + k, p + (w[k] * rigid - block.compliance * p) / (w[k] + block.compliance));
@@ -50,7 +52,7 @@ void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w
     solve_in_cone(block, w);
     return;
   }
-  // Normal and tangential rows of discs and spheres do not act on each other.
+  // The normal row is solved first, because a normal impulse on discs and spheres causes no slip.
   change(block.row, std::max(block.lowest, wanted(block.row, w[0])));
   if (block.rows == 1) return;
   const double bound = block.bound(problem_.impulses[block.row]);
@@ -64,13 +66,13 @@ void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w
   for (std::size_t k = 1; k < block.rows; ++k) change(block.row + k, factor * to[k - 1]);
 }
 
-/// Improves the impulses of a contact in the cone of (5.9). The result is exact unless the rows of
-/// the contact act on each other, which they do in rigid bodies.
+/// Improves the impulses of a contact with FrictionBound::kCone, docs/physics.md (5.9). They solve
+/// its conditions unless an impulse on one of its rows changes another row, as in rigid bodies.
 template <int D>
 void ContactSweeps<D>::solve_in_cone(const ConstraintBlock& block, const double* w) {
-  // In the matrix of what impulses on the rows change in each other, divided by w, the largest sum
-  // of magnitudes in a row bounds the eigenvalues. With steps shorter by this factor the energy of
-  // the block falls.
+  // The change of row k by a unit impulse on row l, divided by w[k], is a matrix whose eigenvalues
+  // are at most the largest sum of magnitudes in one of its rows (`largest`). If a step is shorter
+  // by this factor, it reduces the convex function that the solution minimises.
   double largest = 1;
   for (std::size_t k = 0; k < block.rows; ++k) {
     double sum = 0;

@@ -1,4 +1,9 @@
-// Iterations of the interior-point method (interior_points.hpp), in the units of the case.
+// Iterations of the interior-point method for convex problems of contacts with friction and links
+// (interior_points.hpp). Each iteration computes a predictor, whose goal is u.r = 0 for all pairs
+// of a displacement u and an impulse r, and from it the goal of a corrector, whose change of u, r
+// and the motions y is made. u and r are scaled to the unit L (M/T)^(1/2); y are the motions of all
+// units, z the additional unknown of a contact with a given bound of its friction. Nothing is
+// thrown. Used by constraint_solver.cpp. Results depend on the order of sums.
 #include "viscontact/particles/constraints/interior_points.hpp"
 
 #include <algorithm>
@@ -8,11 +13,11 @@
 namespace viscontact::particles {
 namespace {
 
-/// Share of the change of r that is added to u. It bounds the entries of the matrix at 1e10
-/// times the masses.
+/// Part of the change of r that is added to the change of u [1]. It bounds the entries of the
+/// matrix at 1e10 times the masses, so that its factorisation keeps six digits of the masses.
 constexpr double kRegularisation = 1e-10;
 
-/// Share of the way to the first boundary at which a step ends.
+/// Part of the way to the first boundary at which a step ends [1]; a free choice below 1.
 constexpr double kInside = 0.995;
 
 }  // namespace
@@ -57,7 +62,7 @@ void InteriorPoints<D>::set_parts() {
       single.compliance = block.compliance * unit * unit;
       singles_.push_back(single);
     }
-    // Friction that moves nothing by more than is allowed is left out.
+    // Friction is left out if it moves nothing by more than half of what is allowed.
     if (!block.is_contact || block.rows == 1) continue;
     const double bound = block.bound(0);
     if (!(bound * w_[block.row + 1] > block.allowed_slip / 2)) continue;
@@ -71,7 +76,7 @@ void InteriorPoints<D>::set_parts() {
   }
 }
 
-/// The scaled value of a row for the motions `y`, without its offset.
+/// The scaled value of the row of a part for the motions `y`, without its offset.
 template <int D>
 double InteriorPoints<D>::value(const Single& part, const std::vector<Motion<D>>& y) const {
   return part.scale * problem_.product(part.row, y);
@@ -89,7 +94,7 @@ ConePoint InteriorPoints<D>::values(const Cones& part, bool with_offset,
   return Cone::coordinates(v);
 }
 
-/// The impulses of the components of a part [M L/T].
+/// The impulses [M L/T] of the components of a part, from its dual point `r` in coordinates.
 template <int D>
 ConePoint InteriorPoints<D>::impulse_of(const Cones& part, const ConePoint& r) const {
   ConePoint impulse = Cone::coordinates(r);
@@ -105,8 +110,7 @@ void InteriorPoints<D>::add_impulse(const Cones& part, const ConePoint& r,
     problem_.add_impulse(part.row + k, impulse[part.first + k], to);
 }
 
-/// The largest value of a row for the motions y_, in the unit of u and r; NaN if one is not a
-/// number.
+/// The largest scaled value of a row, with its offset, for the motions y_; NaN if one is NaN.
 template <int D>
 double InteriorPoints<D>::largest_value() const {
   double largest = 0;
@@ -118,8 +122,9 @@ double InteriorPoints<D>::largest_value() const {
   return largest;
 }
 
-/// Computes all errors. Returns the largest of them, in the unit of u and r. That of a cone is the
-/// root of u.r, which is 0 at the solution.
+/// Computes the errors of all conditions at the present point, and gap_. Returns the largest of
+/// them, in the unit of u and r: of the values of rows, of the root of each u.r, which is 0 at the
+/// solution, and of the impulses on units, in the norm of the mobilities.
 template <int D>
 double InteriorPoints<D>::measure() {
   double largest = 0, largest_product = 0;
@@ -149,7 +154,7 @@ double InteriorPoints<D>::measure() {
     part.error = values(part, true, y_);
     for (std::size_t k = 0; k < dimension(part); ++k) part.error[k] -= part.u.x[k];
     if (part.is_bound_given) {
-      // There is no row for z.
+      // The component z of u has no row and therefore no error.
       auto components = Cone::coordinates(part.error);
       components[0] = 0;
       part.error = Cone::coordinates(components);
@@ -167,7 +172,7 @@ double InteriorPoints<D>::measure() {
   return largest_or_nan(largest, std::sqrt(std::max(largest_product, 0.0)));
 }
 
-/// Scales a part at its present point, and sets the predictor's goal.
+/// Sets the weight of a part in the matrix from its present point, and the goal of the predictor.
 template <int D>
 void InteriorPoints<D>::set_scaling(Single& part) {
   part.goal = -part.u;
@@ -180,7 +185,7 @@ void InteriorPoints<D>::set_scaling(Cones& part) {
   for (double& number : part.goal) number = -number;
 }
 
-/// A matrix of a part in the coordinates of its cone, given in its components, and back.
+/// Converts a matrix for components of points to one for coordinates (cone.hpp), or back.
 template <int D>
 std::array<ConePoint, 3> InteriorPoints<D>::in_other_coordinates(
     const std::array<ConePoint, 3>& matrix) {
@@ -193,7 +198,8 @@ std::array<ConePoint, 3> InteriorPoints<D>::in_other_coordinates(
   return result;
 }
 
-/// Scales all parts, and factorises.
+/// Assembles and factorises the matrix at the present point, and sets the goals of the predictor.
+/// Returns false if the matrix is singular.
 template <int D>
 bool InteriorPoints<D>::factorise() {
   matrix_.set_to_masses();
@@ -217,16 +223,17 @@ bool InteriorPoints<D>::factorise() {
   return matrix_.factorise();
 }
 
-/// The change of r with which W^2 dr + du has these numbers, if du is the regularisation's.
+/// The change dr of r with which (W^2 + kRegularisation I) dr has these numbers (cone.hpp); if a
+/// bound is given, dr_0 = 0, and component 0 of the product is not set.
 template <int D>
 ConePoint InteriorPoints<D>::change_of_r(const Cones& part, const ConePoint& numbers) {
   return part.is_bound_given ? part.scaling.solve_beside(kRegularisation, numbers)
                              : part.scaling.solve(kRegularisation, numbers);
 }
 
-/// Sets the changes of y, u and r that reach the goals, by this number of solutions. Rounding
-/// errors of the motions, times the large entries of the matrix, are impulses that are missing. A
-/// second solution removes them.
+/// Sets the changes of y, u and r with which, to first order, all errors become 0 and the goals are
+/// reached, by one or two `solutions` with the factors of the matrix. A second solution removes the
+/// rounding errors of the motions, which large entries of the matrix multiply.
 template <int D>
 void InteriorPoints<D>::find_direction(int solutions) {
   right_ = error_;
@@ -277,15 +284,15 @@ void InteriorPoints<D>::find_direction(int solutions) {
     for (std::size_t k = 0; k < dimension(part); ++k)
       part.change_of_u[k] += kRegularisation * part.change_of_r[k];
     if (!part.is_bound_given) continue;
-    // The change of z follows from the second number of W^2 dr + du, which the goal gives with all
-    // digits: the first one is much larger.
+    // The change of z follows from the second number of W^2 dr + du, which must be that of the
+    // goal. The first number is much larger near a solution, so that digits would be lost.
     auto change = Cone::coordinates(part.change_of_u);
     change[0] = part.scaling.first_change(part.goal, part.change_of_r, change);
     part.change_of_u = Cone::coordinates(change);
   }
 }
 
-/// Longest step, at most 1/kInside, with which all points stay in their cones.
+/// The largest multiple of the changes, at most 1/kInside, that leaves all points in their cones.
 template <int D>
 double InteriorPoints<D>::length_to_boundary() const {
   double length = 1 / kInside;
@@ -300,7 +307,9 @@ double InteriorPoints<D>::length_to_boundary() const {
   return length;
 }
 
-/// Sets the goals of the corrector, after a predictor whose longest step has this length.
+/// Sets the goals of the corrector, from the changes of the predictor, whose step has the `length`,
+/// and from gap_ before it. The corrector aims at equal products of all u and r, the smaller the
+/// more the predictor reduces gap_, and corrects the product of the predictor's changes.
 template <int D>
 void InteriorPoints<D>::set_corrector(double gap_before, double length) {
   double after = 0;
@@ -342,8 +351,8 @@ void InteriorPoints<D>::move(double length) {
   }
 }
 
-/// Takes the impulses. Those of contacts that open are 0 at the solution, and are made exactly 0,
-/// so that no film absorbs their small remainders.
+/// Sets impulses_ from the present point. Contacts that seem to open, because u > r, get their
+/// lowest impulse exactly, so that no film absorbs a small remainder.
 template <int D>
 void InteriorPoints<D>::take_impulses() {
   std::ranges::fill(impulses_, 0.0);
@@ -358,7 +367,9 @@ void InteriorPoints<D>::take_impulses() {
   }
 }
 
-/// Sets all points inside their cones, with equal products u o r.
+/// Sets all points inside their cones, with u and r of the given `size` [L (M/T)^(1/2)] times the
+/// unit of the cone. If a given bound fixes component 0 of r, r is multiplied by the factor
+/// that gives it, and u is divided by this factor. Computes degree_.
 template <int D>
 void InteriorPoints<D>::start(double size) {
   degree_ = 0;
@@ -384,14 +395,14 @@ void InteriorPoints<D>::start(double size) {
 
 template <int D>
 int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
-  // Below kNear of the size, an iteration gains much unless rounding errors are what is left.
+  // If the error is below kNear times its size at the start, and an iteration does not reduce it to
+  // kSlow of the least one, only rounding errors are left.
   constexpr double kNear = 1e-6, kSlow = 0.5;
-  // A second solution removes rounding errors. It is worth its time in the last iterations only:
-  // when what is left, divided by the size, is below kNearEnd and below kNearAccuracy times the
-  // accuracy.
+  // The second solution of find_direction() is worth its time in the last iterations only: when the
+  // error divided by its size at the start is below kNearEnd and below kNearAccuracy * accuracy.
   constexpr double kNearAccuracy = 1e3, kNearEnd = 1e-3;
   set_parts();
-  // The least impulses, and the motions with these. They are the solution where nothing else moves.
+  // The least impulses that are allowed, and the motions with these.
   std::ranges::fill(impulses_, 0.0);
   for (const auto& part : singles_) impulses_[part.row] = part.base;
   y_ = motions(problem_, impulses_);

@@ -1,6 +1,8 @@
-// Convex problems with friction, (5.9) and (5.17) of docs/physics.md, by interior points
-// (constraint_problem.hpp). Units are those of the case. constraint_solver.cpp uses it; nothing is
-// thrown. A change must keep the order of sums.
+// Solves convex problems for the impulses of contacts with friction and links, docs/physics.md
+// (5.9) and (5.17), by interior points (constraint_problem.hpp defines problem, rows and units).
+// Lengths [L], masses [M] and times [T] are in any consistent units; h is the length of the step,
+// M/h are the masses and moments of inertia over h. Nothing is thrown: the caller must measure the
+// residuals. constraint_solver.cpp uses it. Results depend on the order of sums.
 #pragma once
 
 #include <array>
@@ -14,69 +16,74 @@
 
 namespace viscontact::particles {
 
-/// Finds motions y and impulses that minimise |y - y*|^2/2 in the norm of M/h subject to
+/// Finds the motions y of the units that minimise |y - y*|^2/2 in the norm of M/h, where y* are
+/// those without impulses, subject to the following conditions, and their impulses. p_n is the
+/// normal and p_t the tangential impulse of a contact, `slip` its tangential displacement, mu_s its
+/// coefficient of friction, and the cone is that of cone.hpp, the points with x_0 >= |(x_1, x_2)|.
 ///
-///     u = (gap, mu_s slip) in the cone of a dry contact that rubs (5.9), with the dual point
-///     r = (p_n, p_t/mu_s) in the same cone and u.r = 0,
-///     gap >= 0 of the other contacts, with the dual p_n - lowest >= 0,
-///     u = (z, slip) in the cone where the friction has a given bound (5.17), with the dual point
-///     r = (bound, p_t) and u.r = 0: the number z >= |slip| is an unknown with the price `bound`,
-///     bilateral rows as equations,
+///     A dry contact with friction, FrictionBound::kCone (5.9): u = (gap, mu_s slip) is in the
+///     cone. Its dual point r = (p_n, p_t/mu_s) is in the cone, and u.r = 0.
+///     Any other contact: gap >= 0, p_n >= lowest, and one of them with equality. If the magnitude
+///     of its friction has a given bound (5.17), also u = (z, slip) is in the cone, with an unknown
+///     z >= |slip| that adds bound z to the minimised function. Its dual point r = (bound, p_t) is
+///     in the cone, and u.r = 0.
+///     A row of a link: its equation.
 ///
-/// by the predictor-corrector method of Mehrotra (1992), scaled after Nesterov & Todd (1997,
-/// "Self-scaled barriers and interior-point methods for convex programming"). Each iteration
-/// factorises a UnitMatrix. The number of iterations hardly depends on the problem, whether or not
-/// its rows are redundant: a small multiple of the change of r in an iteration is added to u, as in
-/// the proximal method. This change vanishes at the solution, and keeps the matrix regular.
+/// The method is the predictor-corrector method of Mehrotra (1992), scaled after Nesterov & Todd
+/// (1997, "Self-scaled barriers and interior-point methods for convex programming"). Each iteration
+/// factorises a UnitMatrix. To keep it regular if rows are redundant, a small multiple of the
+/// change of r in an iteration is added to that of u. Most problems take 10 to 25 iterations.
 template <int D>
 class InteriorPoints {
  public:
-  /// All arguments must outlive this object; `w` are the row_mobilities() of the problem, `matrix` is
-  /// its symmetric matrix, which others may use between two solve().
+  /// All arguments must outlive this object. `w` are the positive row_mobilities() of the problem
+  /// [T/M]. `matrix` is made for the problem with is_symmetric; solve() overwrites it.
   InteriorPoints(const ConstraintProblem<D>& problem, const std::vector<double>& w,
                  UnitMatrix<D>& matrix);
 
-  /// Solves the problem until the violations of its conditions are at most `accuracy`, in (0, 1),
-  /// times those without impulses. Returns the number of factorisations. Stops early where rounding
-  /// errors make a matrix singular, or after `max_iterations`.
+  /// Solves the problem until its scaled violations are at most `accuracy`, in (0, 1), times the
+  /// largest scaled value of a row with the least impulses. Stops before if rounding errors prevent
+  /// progress, or after `max_iterations`. Returns the number of iterations.
   int solve(double accuracy, int max_iterations);
 
-  /// Impulses of the rows that the last solve() found [M L/T].
+  /// Impulses of the rows with the smallest violations that the last solve() found [M L/T].
   const std::vector<double>& impulses() const { return impulses_; }
 
  private:
   static constexpr std::size_t kMotion = static_cast<std::size_t>(D + kTurns<D>);
   using Cone = std::conditional_t<D == 2, LinearCones, SecondOrderCone>;
-  // The numbers of parts are scaled so that impulses and displacements have one unit, in which the
-  // mobility of the first row is 1.
+  // The conditions of the problem are parts of two kinds, Single and Cones. The value of a row is
+  // multiplied by `scale`, its impulse divided by it. With scale = 1/w^(1/2) both are in the unit L
+  // (M/T)^(1/2), as all numbers below without another unit.
   //
-  // A gap without a cone, or a row of an equation.
+  // A gap that is not in a cone, or a row of a link.
   struct Single {
     std::size_t block = 0, row = 0;
-    bool is_equation = false;
-    double scale = 1;
-    double base = 0;        // impulse at which r is 0 [M L/T]
-    double compliance = 0;  // of an equation
-    double u = 0, r = 0;    // the present point; an equation has no u
+    bool is_equation = false;  // true: a row of a link
+    double scale = 1;          // [(M/T)^(1/2)]
+    double base = 0;           // impulse at which r is 0 [M L/T]
+    double compliance = 0;     // of an equation, over w [1]
+    double u = 0, r = 0;       // gap and its impulse minus `base`, > 0; an equation has no u
     double change_of_u = 0, change_of_r = 0;
-    double error = 0;   // value of the row minus u; of an equation its value
-    double goal = 0;    // (u/r) dr + du
-    double weight = 0;  // d(r)/d(goal - error)
+    double error = 0;   // value of the row minus u; of an equation value + compliance r
+    double goal = 0;    // what (u/r) change_of_r + change_of_u is to be
+    double weight = 0;  // derivative of change_of_r by goal - error [1]
   };
-  // The rows of a contact in a cone of (5.9), or its tangential rows with a given bound.
+  // The rows of a contact with kCone, or the tangential rows of a contact with a given bound.
+  // Points are in the coordinates of `Cone`, and W^2 is the square of `scaling` (cone.hpp).
   struct Cones {
     bool is_bound_given = false;
     std::size_t block = 0, row = 0, rows = 1;  // row: the first one
-    std::size_t first = 0;                     // component of u and r that is of the first row
-    ConePoint scale{};                         // of the components
-    InnerPoint u, r;                           // the present point
+    std::size_t first = 0;  // component of u and r that belongs to the first row: 0, or 1 with z
+    ConePoint scale{};      // of each component [(M/T)^(1/2)]
+    InnerPoint u, r;        // the present point u and its dual point r, both inside the cone
     ConePoint change_of_u{}, change_of_r{};
-    double scaled_bound = 0;  // first component of r of a given bound
-    ConePoint error{};        // value of the rows minus u
-    ConePoint goal{};         // numbers of W^2 dr + du
+    double scaled_bound = 0;  // component 0 of r if the bound is given, which is constant
+    ConePoint error{};        // values of the rows minus u
+    ConePoint goal{};         // what W^2 change_of_r + change_of_u is to be, as its numbers
     typename Cone::Scaling scaling;
   };
-  // Components of u and r.
+  // Number of components of u and r.
   static std::size_t dimension(const Cones& part) { return part.first + part.rows; }
   void set_parts();
   void start(double size);
@@ -102,12 +109,13 @@ class InteriorPoints {
   UnitMatrix<D>& matrix_;
   std::vector<Single> singles_;
   std::vector<Cones> cones_;
-  std::vector<Motion<D>> y_, direction_, error_;  // error_: impulses that are missing
-  std::vector<Motion<D>> right_;                  // of a system of equations, then its solution
+  // y_: motions [L, rad]; direction_: their change in an iteration; error_: the impulses of the
+  // rows on the units minus M/h (y_ - y*) [M L/T].
+  std::vector<Motion<D>> y_, direction_, error_;
+  std::vector<Motion<D>> right_;  // right side of a system of equations, then its solution
   std::vector<double> impulses_;
-  double gap_ = 0;  // mean u.r of the cones
-  double degree_ =
-      0;  // divisor of this mean: 1 for each gap, e.e for each cone (e: unit of its product)
+  double gap_ = 0;     // sum of all u.r over degree_: the duality gap [M L^2/T]
+  double degree_ = 0;  // 1 for each gap, and e.e for each cone with the unit e of its product
 };
 
 }  // namespace viscontact::particles

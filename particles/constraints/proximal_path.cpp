@@ -1,5 +1,11 @@
-// The path that a step of the proximal method follows where Newton's method makes no progress
-// (proximal_step.hpp).
+// The path that a step of the proximal method for contacts with friction follows if no step of
+// Newton's method reduces its error (proximal_step.hpp). b + J y are the gaps and slips of contacts
+// [L] after the motions y, with the coefficients J of their rows; P^k the impulses before the step
+// [M L/T], rho [M/T] stiffnesses of rows. On the path from the motions y_0 the error is (1 - share)
+// times that of y_0, and the solution is at share = 1. For discs only: the path consists of
+// straight pieces, on which no contact changes its branch (open, without friction, sticking,
+// slipping). Units are any consistent ones. Nothing is thrown. proximal_step.cpp uses it. Results
+// depend on the order of sums.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -9,15 +15,16 @@
 
 namespace viscontact::particles {
 
-/// The matrix changes by the product of a column and a row when a block changes its branch, because
-/// the projection is continuous: by J^T column (row rho J), for the two rows of a contact.
+/// The change of the matrix when a block changes its branch: J^T column (row J), with the two rows
+/// J of the block. It is a product of vectors because the projection is continuous.
 template <int D>
 struct ProximalStep<D>::Crossing {
   std::size_t block = 0;
   std::array<double, 2> column{}, row{};
 };
 
-/// The derivatives of the impulses of a contact by P^k - rho (b + J y) in a branch, row by row.
+/// The matrix of the derivatives of the projected impulses (p_n, p_t) of contact `b` by the
+/// unprojected ones, P^k - rho (b + J y), in a branch [1], row by row.
 template <int D>
 std::array<double, 4> ProximalStep<D>::derivatives(std::size_t b, Branch branch) const {
   const double slope = problem_.blocks[b].friction;
@@ -52,7 +59,7 @@ typename ProximalStep<D>::Crossing ProximalStep<D>::crossing_to(std::size_t b,
   return crossing;
 }
 
-/// Product of the row of a crossing and motions of the units.
+/// Product of the row of a crossing, row J, and motions of the units [M L/T].
 template <int D>
 double ProximalStep<D>::product(const Crossing& crossing,
                                 std::span<const Motion<D>> motions) const {
@@ -63,7 +70,8 @@ double ProximalStep<D>::product(const Crossing& crossing,
   return sum;
 }
 
-/// How far along `sign` times the direction block `b` stays in its branch, and the branch after it.
+/// The multiple of `sign` times direction_, >= 0 or infinite, up to which block `b` stays in its
+/// branch, and its next branch.
 template <int D>
 typename ProximalStep<D>::Exit ProximalStep<D>::exit_of(std::size_t b, double sign) const {
   const auto& block = problem_.blocks[b];
@@ -73,7 +81,7 @@ typename ProximalStep<D>::Exit ProximalStep<D>::exit_of(std::size_t b, double si
   unprojected(b, 0, q.data());
   for (std::size_t k = 0; k < block.rows; ++k)
     change[k] = -sign * rho_[block.row + k] * changes_[block.row + k];
-  // A branch ends where one of its conditions `value` >= 0 does.
+  // The branch ends where a condition `value` >= 0, which changes at the rate `by`, fails.
   const auto test = [&](double value, double by, Branch next) {
     if (!(by < 0)) return;
     const double length = std::max(0.0, -value / by);
@@ -126,16 +134,16 @@ double ProximalStep<D>::follow_path(int& iterations) {
   const auto count = static_cast<Eigen::Index>(kMostCrossings);
   std::vector<Crossing> crossings;
   std::vector<std::vector<Motion<D>>> moved;       // matrix^-1 J^T column of each crossing
-  Eigen::MatrixXd changes(count, count);           // 1 + rows times `moved`
+  Eigen::MatrixXd changes(count, count);           // I + products of rows of crossings and `moved`
   const auto first = matrix_.solution_of(error_);  // direction of the first piece
   auto best_y = y_;
   auto best_values = values_;
-  // Far away the error is that of a linear equation with a positive determinant, so that the path
-  // leads to the solution in the direction in which the share grows where the determinant is
-  // positive, and falls where it is negative (the degree of the equation is 1).
+  // The path is followed so that `share` grows on pieces whose matrix has a positive determinant,
+  // and falls where it is negative. This leads to a solution, because the topological degree of the
+  // equation is 1.
   double share = 0, best = 0, sign = matrix_.sign_of_determinant();
   for (Eigen::Index n = 0;; ++n) {
-    // The matrix of this piece differs from its factors by the crossings (Sherman & Morrison 1950).
+    // The matrix of this piece is that of the factors plus the crossings (Sherman & Morrison 1950).
     direction_ = first;
     const auto small = changes.topLeftCorner(n, n).partialPivLu();
     if (n > 0) {
@@ -183,7 +191,7 @@ double ProximalStep<D>::follow_path(int& iterations) {
       changes(i, n) = product(crossings[k], moved.back()) + (i == n ? 1 : 0);
       changes(n, i) = product(crossing, moved[k]) + (i == n ? 1 : 0);
     }
-    // The determinant changes by this factor. If its sign changes, the path turns back.
+    // The crossing multiplies the determinant by `ratio`. If its sign changes, the path turns back.
     double ratio = changes(n, n);
     if (n > 0) ratio -= changes.row(n).head(n).dot(small.solve(changes.col(n).head(n)));
     if (ratio < 0) sign = -sign;

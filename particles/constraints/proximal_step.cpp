@@ -1,5 +1,9 @@
-// Newton's method for a step of the proximal method, in the units of the case. A step that fails is
-// reported, not thrown. A change must keep the order of sums.
+// Newton's method for a step of the proximal method for contacts with friction and links
+// (proximal_step.hpp). P^k and P^{k+1} are the impulses before and after the step [M L/T], y the
+// motions of particles and bodies, y* those without impulses, M/h masses over the length of a time
+// step, b + J y the values of the rows (gaps, slips and equations of links) [L] with the
+// coefficients J, rho [M/T] stiffnesses of the rows. Nothing is thrown; failed() tells whether a
+// step was solved. Used by constraint_solver.cpp. Results depend on the order of sums.
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 #include <algorithm>
@@ -32,7 +36,7 @@ void ProximalStep<D>::set_epsilon(double of_gaps, double of_slips) {
   has_factor_ = false;
 }
 
-/// Sets `q` to P^k - rho (b + J y) of block `b` after a step `t` along the direction.
+/// Sets `q` to P^k - rho (b + J y) [M L/T] of block `b` after a step t direction_.
 template <int D>
 void ProximalStep<D>::unprojected(std::size_t b, double t, double* q) const {
   const auto& block = problem_.blocks[b];
@@ -47,7 +51,7 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const d
                                                           double* p) const {
   const auto& block = problem_.blocks[b];
   if (!block.is_contact) {
-    // p = P^k - rho (b + J y + compliance p)
+    // The impulse of a link obeys p = P^k - rho (b + J y + compliance p).
     for (std::size_t k = 0; k < block.rows; ++k)
       p[k] = q[k] / (1 + rho_[block.row + k] * block.compliance);
     return {true, Friction::kSticks};
@@ -68,7 +72,7 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const d
   return branch;
 }
 
-/// The projection of a contact in the cone of (5.9).
+/// Sets `p` to the projection of `q` on the cone of (5.9), and returns its branch.
 template <int D>
 typename ProximalStep<D>::Branch ProximalStep<D>::project_on_cone(std::size_t b, const double* q,
                                                                   double* p) const {
@@ -90,8 +94,8 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project_on_cone(std::size_t b,
   return {};
 }
 
-/// Error J^T P^{k+1} - M/h (y - y*) after a step `t` along the direction, in the norm of the
-/// inverse masses. With `is_kept`, also sets the impulses and branches there.
+/// Sets error_ to J^T P^{k+1} - M/h (y - y*) after a step of length `t` [1] along direction_, and
+/// returns its norm by the inverse of M/h. With `is_kept`, also sets projected_ and branches_.
 template <int D>
 double ProximalStep<D>::error_at(double t, bool is_kept) {
   for (std::size_t u = 0; u < y_.size(); ++u) {
@@ -121,7 +125,7 @@ double ProximalStep<D>::error_at(double t, bool is_kept) {
   return std::sqrt(sum);
 }
 
-/// Adds J^T (-dP/dy) of a block to the matrix.
+/// Adds J^T (-dP^{k+1}/dy) of a block to the matrix.
 template <int D>
 void ProximalStep<D>::add_block(std::size_t b) {
   const auto& block = problem_.blocks[b];
@@ -142,14 +146,14 @@ void ProximalStep<D>::add_block(std::size_t b) {
       matrix_.add_product(b, block.row + k, block.row + k, rho[k]);
     return;
   }
-  // p_t is the bound times q_t/|q_t|.
+  // The contact slips: p_t is the bound times q_t/|q_t|, with the tangential part q_t of q.
   std::array<double, kMostRows> q{};
   unprojected(b, 0, q.data());
   double square = 0;
   for (std::size_t k = 1; k < block.rows; ++k) square += q[k] * q[k];
   const double length = std::sqrt(square);
   if (is_on_cone) {
-    // On the surface of the cone p moves along its generator (1, mu_s q_t/|q_t|).
+    // If only the size of q_t changes, p moves along the line (1, mu_s q_t/|q_t|) of the cone.
     std::array<double, kMostRows> generator{1};
     for (std::size_t k = 1; k < block.rows; ++k) generator[k] = block.friction * q[k] / length;
     const double weight = 1 / (1 / rho[0] + block.friction * block.friction / rho[1]);
@@ -179,7 +183,7 @@ bool ProximalStep<D>::factorise() {
   return has_factor_;
 }
 
-/// Sets the direction of Newton's method at the present error.
+/// Sets direction_ to the step of Newton's method for error_, and changes_ to J times it.
 template <int D>
 void ProximalStep<D>::find_direction() {
   direction_ = matrix_.solution_of(error_);
@@ -187,11 +191,12 @@ void ProximalStep<D>::find_direction() {
     changes_[r] = problem_.product(r, direction_);
 }
 
-/// Length of a step that makes the error fall; 0 if none was found.
+/// Length of a step along direction_, as a multiple of it, that reduces the error below `before`; 0
+/// if none was found. In convex problems it is length_to_minimum() > 0.
 template <int D>
 double ProximalStep<D>::length_of_step(double before) {
   if (problem_.is_convex) return length_to_minimum();
-  // A step is shortened until the error falls by a share of what it promises.
+  // The step is halved until the error falls by kPromised of its fall in a linear equation.
   constexpr double kPromised = 0.1;
   constexpr int kMostHalvings = 8;
   double length = 1;
@@ -200,8 +205,8 @@ double ProximalStep<D>::length_of_step(double before) {
   return 0;
 }
 
-/// Length of a step that ends near the minimum of the convex function whose gradient is the
-/// negative error. Its derivative along the direction rises with the length.
+/// Length of a step, in (0, 1], that ends near the minimum along direction_ of the convex function
+/// whose gradient is -error_: where its derivative along direction_ is kReached of the first.
 template <int D>
 double ProximalStep<D>::length_to_minimum() {
   constexpr double kReached = 0.1;
@@ -218,7 +223,7 @@ double ProximalStep<D>::length_to_minimum() {
   if (!(first < 0) || at_high <= -kReached * first) return 1;
   double length = 1;
   for (int n = 0; n < kMostTrials; ++n) {
-    // Bisection takes turns with the secant, which a kink near one end can make slow.
+    // Secant and bisection alternate, because a kink of the derivative can make the secant slow.
     length = n % 2 == 0 ? low + (high - low) * at_low / (at_low - at_high) : (low + high) / 2;
     const double here = derivative(length);
     if (std::abs(here) <= -kReached * first) break;
@@ -228,7 +233,8 @@ double ProximalStep<D>::length_to_minimum() {
   return length;
 }
 
-/// Size of rounding errors in the error of the impulses.
+/// Size of the rounding errors in the result of error_at(): kRounding, a safe multiple of the
+/// machine epsilon, times the norm of the terms of which the error is a sum.
 template <int D>
 double ProximalStep<D>::rounding_error() const {
   double square = 0;
@@ -283,15 +289,18 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     }
     move(length, direction_);
     const double here = error_at(0, true);
-    // In the plane the equation is linear between changes of branches, so that a whole step
-    // without a change ends at the solution, within rounding errors.
+    // For discs the equation is linear as long as no branch changes, so that a step of length 1
+    // without a change of a branch ends at the solution, but for rounding errors. For spheres it
+    // must also have an error of kExact of the first one, or not be able to halve the error again.
     const bool is_linear = D == 2 || here <= kExact * first ||
                            ((is_fresh || !problem_.is_convex) && here > before / 2);
-    // In space the matrix also changes along the surface of a cone.
+    // For spheres the matrix also changes while they slip. In convex problems it is factorised
+    // again if a step with earlier factors did not reduce the error to kSlow of it.
     if (D == 3 && problem_.is_convex && !is_fresh && here > kSlow * before) has_factor_ = false;
     if (here == 0 || (length == 1 && last == branches_ && is_linear)) break;
-    // The error may grow on the way to the minimum of the convex function. Within rounding errors
-    // it is made as small as it can be, because impulses that must grow do so with small errors.
+    // In convex problems the error may grow on the way to the minimum. If it is of the size of
+    // rounding errors, iterations go on as long as they halve it, because impulses that must grow
+    // between jammed particles need small errors.
     const bool is_rounding = here <= rounding_error();
     if (problem_.is_convex ? is_rounding && has_factor_ && !(here < before / 2)
                            : !(here < before)) {

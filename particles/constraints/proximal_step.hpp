@@ -1,6 +1,7 @@
-// One step of the proximal method for the constraints of a time step, by Newton's method
-// (constraint_problem.hpp). Lengths, masses and times are in the units of the case.
-// constraint_solver.cpp uses it; a step that fails is no error.
+// One step of the proximal method for the impulses of the contacts with friction and links of a
+// time step, computed by Newton's method (constraint_problem.hpp defines problem, rows and units).
+// Lengths, masses and times are in any consistent units. Nothing is thrown; failed() tells whether
+// a step was solved. constraint_solver.cpp uses it. Results depend on the order of sums.
 #pragma once
 
 #include <array>
@@ -14,53 +15,54 @@
 
 namespace viscontact::particles {
 
-/// From impulses P^k, a step of the proximal method (Rockafellar 1976) finds the motions y and the
-/// impulses P^{k+1} of docs/physics.md (5.8):
+/// From the impulses P^k of all rows, a step of the proximal method (Rockafellar 1976) finds the
+/// motions y of the units and the impulses P^{k+1} of docs/physics.md (5.8):
 ///
 ///     M/h (y - y*) = J^T P^{k+1},   P^{k+1} = proj(P^k - rho (b + J y)),
 ///     rho_r = 1/(epsilon W_rr),
 ///
-/// where b + J y are the gaps and h times the slips, W_rr is the mobility of row r, and proj
-/// projects on the allowed impulses: first the normal one on p_n >= lowest, then the tangential one
-/// on |p_t| <= mu_s p_s with p_s from p_n, so that Coulomb's law holds at the fixed point. For the
-/// convex relaxation (5.9) proj projects on the cone of both, and y is then the minimum of a convex
-/// function, along which the length of a step is searched. The smaller epsilon is, the nearer
-/// P^{k+1} is to the solution, and the harder the equation is to solve; redundant contacts do no
-/// harm.
+/// h is the length of the step [T], M/h are the masses and moments of inertia over h, y* the
+/// motions without contacts and links, b + J y the values of the rows: gaps, tangential
+/// displacements (slips) and equations of links. W_rr is the mobility of row r [T/M], epsilon a
+/// number > 0. proj projects on the allowed impulses: first the normal one on p_n >= lowest, then
+/// the tangential one on |p_t| <= mu_s p_s, with the coefficient of friction mu_s and the part p_s
+/// of p_n that the solids carry, so that Coulomb's law holds if P^{k+1} = P^k. For the convex
+/// relaxation (5.9) it projects on the cone of both impulses. In convex problems y minimises a
+/// convex function, which decides the lengths of Newton's steps. A smaller epsilon brings P^{k+1}
+/// nearer to the solution, but makes the equation harder to solve.
 ///
-/// Newton's method has a block of its matrix for each unit and two for each pair of units in one
-/// block of constraints (Alart & Curnier 1991, "A mixed formulation for frictional contact problems
-/// prone to Newton like solution methods"). As long as no contact opens, closes, sticks or slips,
-/// the factors of the iteration before serve again.
+/// The matrix of Newton's method (Alart & Curnier 1991, "A mixed formulation for frictional contact
+/// problems prone to Newton like solution methods") is a UnitMatrix. Its factors are used again as
+/// long as no contact changes its branch, that is, opens, closes, sticks or slips.
 ///
-/// In the plane the equation is linear between changes of branches. Where no step along the
-/// direction of Newton's method makes the error smaller, solve() follows the path on which the
-/// error is a multiple of that at its start, from branch to branch, also where it turns back
-/// (Katzenelson 1965, "An algorithm for solving nonlinear resistor networks"; Chien & Kuh 1976,
-/// "Solving piecewise-linear equations for resistive networks"). Coulomb's law of jammed particles
-/// has such turns.
+/// For discs the equation is linear as long as no contact changes its branch. If no step in the
+/// direction of Newton's method reduces its error, solve() follows the path of motions on which the
+/// error is a multiple of that at its start, from one change of a branch to the next, also where
+/// the multiple grows as it may with Coulomb's law (Katzenelson 1965, "An algorithm for solving
+/// nonlinear resistor networks"; Chien & Kuh 1976, "Solving piecewise-linear equations for
+/// resistive networks").
 template <int D>
 class ProximalStep {
  public:
-  /// All arguments must outlive this object; `w` are the row_mobilities() of the problem, W_rr.
-  /// `matrix` is its matrix, which is symmetric only if the problem is convex, and which nobody else
-  /// changes from now on, because its factors are used again.
+  /// All arguments must outlive this object. `w` are the row_mobilities() of the problem, W_rr
+  /// [T/M], > 0. `matrix` is made for the problem, with is_symmetric if the problem is convex.
+  /// While this object is used nothing else may change it, because its factors are used again.
   ProximalStep(const ConstraintProblem<D>& problem, const std::vector<double>& w,
                UnitMatrix<D>& matrix);
 
-  /// Sets the numbers epsilon of the gaps and bilateral rows, and of the slips, > 0. One of these
-  /// functions must be called before solve().
+  /// Sets epsilon of gaps and links, and of slips [1], > 0. To be called before solve().
   void set_epsilon(double of_gaps, double of_slips);
   void set_epsilon(double epsilon) { set_epsilon(epsilon, epsilon); }  ///< the same for all rows
 
-  /// Solves from the impulses P^k = `center` and the motions `start`. Returns the number of
-  /// factorisations and solutions with factors. Sets failed() if it found no solution.
+  /// Solves from the impulses P^k = `center` [M L/T] of all rows, with the motions `start` [L, rad]
+  /// of all units as the first guess. Returns the number of factorisations and solutions with
+  /// factors; if it is `max_iterations` or more, the step may be unsolved.
   int solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
             int max_iterations);
 
-  /// True if the last solve() found no solution.
+  /// True if the last solve() gave up: a matrix was singular, or no step reduced the error.
   bool failed() const { return failed_; }
-  /// True if the last solve() followed a path, because Newton's method made no progress.
+  /// True if the last solve() followed a path: no step of Newton's method reduced the error.
   bool followed_path() const { return paths_ > 0; }
   /// Impulses of the rows that the last solve() found [M L/T].
   const std::vector<double>& impulses() const { return projected_; }
@@ -68,9 +70,11 @@ class ProximalStep {
   const std::vector<Motion<D>>& motions() const { return y_; }
 
  private:
-  // Each crossing costs a solution with factors, and makes the next ones a little more expensive.
+  // Largest number of changes of branches on a path. Each one needs a solution with factors, and
+  // makes the next ones more expensive. The value is a free choice.
   static constexpr int kMostCrossings = 30;
-  // Which branch of the projection each part of a block is in. The matrix depends on it.
+  // The branch of the projection in which a block is: open or closed; no friction, sticking, or
+  // slipping with friction > 0 (kSlips) or < 0 (kSlipsBack) in the first tangential row.
   enum class Friction : unsigned char { kNone, kSticks, kSlips, kSlipsBack };
   struct Branch {
     bool is_closed = false;
@@ -85,7 +89,7 @@ class ProximalStep {
   bool factorise();
   void add_block(std::size_t b);
   struct Crossing;
-  // Where a block leaves its branch, as a multiple of the direction, and its next branch.
+  // Where a block leaves its branch, as a multiple of direction_, and its next branch.
   struct Exit {
     double length = std::numeric_limits<double>::infinity();
     Branch branch;
@@ -94,9 +98,9 @@ class ProximalStep {
   Crossing crossing_to(std::size_t b, Branch branch) const;
   double product(const Crossing& crossing, std::span<const Motion<D>> motions) const;
   Exit exit_of(std::size_t b, double sign) const;
-  // Follows the path, through at most kMostCrossings changes of branches, whose number it adds to
-  // `iterations`. Returns the largest share of the error that was removed on it, and leaves y_
-  // there.
+  // Follows the path from y_ through at most kMostCrossings changes of branches, and adds their
+  // number to `iterations`. Moves y_ to the point with the least error on it. Returns the share of
+  // the error at the start that is removed there, 0 to 1.
   double follow_path(int& iterations);
   void move(double length, std::span<const Motion<D>> direction);
   void find_direction();
@@ -106,14 +110,14 @@ class ProximalStep {
 
   const ConstraintProblem<D>& problem_;
   const std::vector<double>& w_;
-  std::vector<double> rho_, center_;      // center_: P^k
-  std::vector<double> values_, changes_;  // b + J y of the rows, and J of the direction
-  std::vector<double> projected_;         // P^{k+1}
-  std::vector<Branch> branches_, factored_;
-  std::vector<Motion<D>> y_, direction_, error_;
+  std::vector<double> rho_, center_;         // rho_r [M/T]; P^k
+  std::vector<double> values_, changes_;     // b + J y_, and J direction_
+  std::vector<double> projected_;            // P^{k+1}
+  std::vector<Branch> branches_, factored_;  // of all blocks: now, and in the factors of matrix_
+  std::vector<Motion<D>> y_, direction_, error_;  // direction_: the step of Newton's method
   UnitMatrix<D>& matrix_;
   bool has_factor_ = false, failed_ = false;
-  int paths_ = 0;  // in the last solve()
+  int paths_ = 0;  // number of paths that the last solve() has followed
 };
 
 }  // namespace viscontact::particles

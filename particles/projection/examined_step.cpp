@@ -1,6 +1,8 @@
-// Measures the residuals of the contacts and links of a step after a solution
-// (step_projection.hpp). Lengths [L] and impulses [M L/T] are in the units of the case. Nothing is
-// thrown. A change must find every pair whose gap the solution closed. Used by step_projection.cpp.
+// Measures the residuals of the contacts and links of a time step after a solution of its problem
+// for impulses, and finds links that contradict each other (step_projection.hpp). A residual [L] is
+// the distance of a gap or length from the value that its condition demands. Lengths [L] and
+// impulses [M L/T] are in any consistent units. Nothing is thrown. Used by step_projection.cpp. A
+// change must keep that every pair whose gap the solution closes is found.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -10,7 +12,8 @@
 namespace viscontact::particles {
 namespace {
 
-/// Adds a residual of a gap or link [L] to `result`. Returns true if it is larger than allowed.
+/// Adds a residual of a gap or link [L] to `result`. Returns true if it is larger than allowed or
+/// NaN. A residual within rounding errors does not count as an error of an impulse.
 bool take(double residual, const ResidualScale& scale, const SolverSettings& settings,
           double mean_radius, ProjectionResult& result) {
   if (residual > scale.rounding) result.residuals.take_impulse(residual / scale.w, scale.impulse);
@@ -20,7 +23,8 @@ bool take(double residual, const ResidualScale& scale, const SolverSettings& set
 
 }  // namespace
 
-/// The scale of a link, by which its residual is measured like that of a contact of its particles.
+/// The scale of the residual of a link: that of a contact whose change of the gap per impulse is
+/// the sum of the mobilities of the particles of the link.
 template <int D>
 ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
                                                ResidualScales<D>& scales) const {
@@ -30,7 +34,7 @@ ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
     particles.push_back(part.particle);
     w += mobilities_[index_of(part.particle)];
     length += norm(state_.particles.position(index_of(part.particle)));
-    // The rounding errors of an angle are those of numbers near 1 radian.
+    // Residuals of angles are arcs [L], with the rounding errors of angles of 1 rad or more.
     if (link.is_angle())
       length +=
           state_.particles.radii[index_of(part.particle)] * (1 + std::abs(link.rows.front().value));
@@ -38,7 +42,7 @@ ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
   return scales.of(particles, w, length);
 }
 
-/// Measures the residuals of the links as those of contacts are measured.
+/// Adds the residuals of the links to `result`, and names links that contradict each other.
 template <int D>
 void StepProjection<D>::examine_links(const SolverSettings& settings, double mean_radius,
                                       ProjectionResult& result) {
@@ -54,10 +58,11 @@ void StepProjection<D>::examine_links(const SolverSettings& settings, double mea
   if (!beyond.empty()) name_contradictions(beyond, mean_radius, result);
 }
 
-/// Names the hinges and arms that contradict each other: those that are violated in the motion that
-/// violates all constraints least. If this motion satisfies all linear equations, the contradiction
-/// comes from finite turns; then all links are named that hold a particle of one of the links
-/// `beyond`, which exceed their tolerances.
+/// Writes the names of links (not springs) that contradict each other to `result`, if a residual of
+/// a link or an overlap is more than kBroken mean radii: those that are violated in the motion that
+/// violates all linear equations least. If it satisfies them, the contradiction comes from finite
+/// turns of bodies. Then all links are named that share a particle or rigid body with one of the
+/// links with the numbers `beyond`, whose residuals are not allowed.
 template <int D>
 void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyond,
                                             double mean_radius, ProjectionResult& result) {
@@ -67,8 +72,7 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
   const auto violations = constraints_->least_violations();
   const double largest = *std::ranges::max_element(violations);
   if (largest > kBroken * mean_radius) {
-    // Violations below this part of the largest one are errors of the least squares, which are
-    // about 1e-6 of it.
+    // Smaller parts of the largest violation are errors of least_violations(), about 1e-6 of it.
     constexpr double kPart = 1e-3;
     const std::size_t contacts = chosen_.size();
     for (std::size_t b = 0; b < contacts; ++b)
@@ -98,10 +102,10 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
   }
 }
 
-/// Measures the residuals of a solution, by the impulses at work in it. The residuals of the chosen
-/// contacts are measured only if `is_final`. Returns the pairs that are not chosen yet, have a
-/// particle that takes part, and whose gap is now closed. No other pair needs a test, because its
-/// particles move freely.
+/// Writes the residuals of the present solution to `result`: those of the chosen contacts and of
+/// the links only if `is_final`, and those of pairs that are not chosen, whose gaps must not be
+/// closed. Returns the numbers of the latter pairs whose gap is closed by more than allowed. Pairs
+/// whose particles move freely are not tested, because free motion closes only chosen pairs.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settings,
                                                     double mean_radius, bool is_final,
@@ -122,8 +126,8 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
                                 ? constraints_->residual(c).normal
                                 : contact_residual(gap, here.w * (here.impulse - here.lowest));
     take(residual, scale, settings, mean_radius, result);
-    // A sticking contact may slip by the tolerance of the gaps: its impulse is not unique in
-    // packings, and no memory depends on it.
+    // A sticking contact may slip by the tolerance of the gaps. Its impulse needs no tolerance of
+    // its own, because it is not unique in packings and gamma does not depend on it.
     if (constraints_)
       result.residuals.take(constraints_->residual(c).tangential,
                             settings.tolerance * mean_radius / 2);

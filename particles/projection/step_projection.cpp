@@ -1,6 +1,8 @@
-// Chooses the contacts of a step, solves the projection in rounds, and computes the impulses at
-// work and the rounding errors of contacts (step_projection.hpp, docs/particles.md). Numbers are in
-// the units of the case. What is not solved is reported, not thrown. Results must not depend on the
+// Solves the projection of a time step, the problem for the impulses of contacts that keeps gaps
+// open: chooses contacts, solves in rounds that add further contacts, and computes the scales with
+// which residuals are compared (step_projection.hpp, docs/particles.md). h [T] is the length of the
+// step, u* are the velocities at its end without contacts and links, v those with them, in any
+// consistent units. Nothing is thrown. simulation.cpp uses it. Results must not depend on the
 // number of threads; a change of a scale alters which steps converge.
 #include "viscontact/particles/projection/step_projection.hpp"
 
@@ -11,10 +13,10 @@
 namespace viscontact::particles {
 namespace {
 
-/// Puts pairs in an order in which a sweep is fast. Neighbours in the list share particles, so that
-/// in a sweep each contact would wait for the result of the contact before it. This order takes
-/// contacts from three distant parts of the list in turn, within each block of the thread pool. A
-/// step of bench/box2d.cpp takes 8.4, 6.8, 6.4, 7.0 and 7.2 ms with 1, 2, 3, 4 and 6 parts.
+/// Puts pairs in an order in which a Gauss-Seidel sweep is fast. Neighbours in the list share
+/// particles, so that the processor would compute each contact after the one before it. This order
+/// takes contacts in turn from kInterleaved distant parts of each block of the thread pool. A step
+/// of bench/box2d.cpp takes 8.4, 6.8, 6.4, 7.0 and 7.2 ms with 1, 2, 3, 4 and 6 parts.
 std::vector<std::size_t> interleaved(const std::vector<std::size_t>& pairs) {
   constexpr std::size_t kInterleaved = 3;
   std::vector<std::size_t> order;
@@ -59,8 +61,9 @@ void StepProjection<D>::add_constraints(const ConstraintStep& step) {
   constraints_->join_linked(system_);
 }
 
-/// The contact of two particles in a step with blows: its normal is that where they are after the
-/// blows, and its gap is the linear one there, taken back to the beginning of the step.
+/// The contact of two particles in a step with collisions (impacts/): its normal is that at the end
+/// of the step, where the collisions have left both particles. Its gap is the distance of the
+/// centres at the beginning along this normal, minus both radii.
 template <int D>
 Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
   const auto& p = state_.particles;
@@ -93,7 +96,7 @@ Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
   return contact;
 }
 
-/// True if the displacements make the gap of pair k smaller than `margin` [L].
+/// True if the present displacements make the linearised gap of pair k smaller than `margin` [L].
 template <int D>
 bool StepProjection<D>::gap_would_close(std::size_t k, double margin) {
   const auto& p = state_.particles;
@@ -115,7 +118,7 @@ std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
   return pool_.sum_of_blocks<ConcatenatedBlocks<std::size_t>>(pair_count(), in_block).values;
 }
 
-/// Whether pair k has a film that can absorb an impulse.
+/// True if pair k has a film that can absorb an impulse; only after add_constraints().
 template <int D>
 bool StepProjection<D>::has_film(std::size_t k) {
   return step_->laws.lowest_gamma(pair(k), state_.memories.of(pair(k).memory),
@@ -144,21 +147,20 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
   }
 }
 
-/// Solves for the impulses of the chosen contacts and of the links. With friction, tangential
-/// displacements are accurate to half of `length` [L].
+/// Solves for the impulses of the chosen contacts and of the links. With constraints, the allowed
+/// residual of tangential displacements is half of `length` [L].
 template <int D>
 SolverResult StepProjection<D>::solve_contacts(bool is_rough, double length, int max_iterations) {
   if (constraints_) return constraints_->solve(system_, is_rough, length / 2, max_iterations);
   return system_.solve(is_rough, max_iterations, pool_);
 }
 
-/// Sets the allowed residual of each chosen contact: at most `length` [L], and at most `fraction`
-/// of the impulses at work.
+/// Sets the allowed residual of each chosen contact to half of ResidualScale::allowed() for
+/// `length` [L] and `fraction` [1], and that of each link to half of that for half the length.
 template <int D>
 void StepProjection<D>::allow(double length, double fraction) {
   auto scales = residual_scales();
-  // Half of the allowed residual leaves room for the rounding errors of examine(), which computes
-  // the residuals in another way.
+  // The other half is for rounding errors: examine() computes residuals in another way.
   for (auto& contact : system_.contacts)
     contact.allowed = scales.of(contact).allowed(length, fraction) / 2;
   if (!constraints_) return;
@@ -168,10 +170,10 @@ void StepProjection<D>::allow(double length, double fraction) {
         scale_of_link(link, scales).allowed(length / 2, fraction) / 2);
 }
 
-/// Returns `pairs` and, from the third round on, also the pairs whose gaps they may close in turn.
-/// A blow goes through a chain of particles; without this function each round would find only the
-/// next pair of the chain. The depth of the search is 1 in the third round and doubles in each
-/// further round.
+/// Returns `pairs` and, from the third round on, also pairs that are connected with them and whose
+/// gaps may close next: gaps up to the largest change of a displacement by contacts. Otherwise each
+/// round would find only the next pair of a chain through which an impulse goes. The chain is
+/// followed over 1 pair in round 3, and over twice as many in each further round.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
     const std::vector<std::size_t>& pairs, int round) {
@@ -199,15 +201,14 @@ std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
 template <int D>
 ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double mean_radius) {
   ProjectionResult result;
-  // Tolerate half of the allowed overlap. The other half is for the overlap that this step may add.
+  // Half of the allowed overlap is tolerated. The other half is for the error that this step adds.
   tolerated_ = settings.tolerance * mean_radius / 2;
-  // With friction another solution costs more than contacts that stay open. Therefore pairs whose
-  // gaps are nearly closed are chosen early. With Coulomb's law they are chosen together with the
-  // first pairs that a solution has closed. They are not chosen earlier, because a tower that
-  // stands by itself would then lean on neighbours that it only touches, and because redundant
-  // contacts cost more iterations than they save rounds. With the convex relaxation, (5.9), only
-  // pairs with a film are chosen early, and at once, because it pushes dry particles that slide
-  // apart, also those that would not meet.
+  // With friction another solution takes more time than contacts that stay open do. Therefore pairs
+  // whose gaps are nearly closed (below kMargin mean radii, a free choice) are chosen early. With
+  // Coulomb's law this begins when a solution has closed further gaps, and not before the first
+  // one, because redundant contacts would take loads from particles that stand by themselves, and
+  // cost iterations. With the convex relaxation, (5.9), it begins before the first solution, but
+  // only for pairs with a film, because it pushes sliding particles without film apart.
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
@@ -217,9 +218,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     if (is_convex) choose(nearly_closed(true));
   }
   // Tolerances of the rough solution: of the gaps in mean radii, and of the impulses as a fraction
-  // of the impulses at work. For bench/box2d.cpp with 1000 discs, gaps of 5e-4 to 2e-3 take equally
-  // long, 3e-3 a tenth longer. The fraction is 1, because the rounding errors that limit it are
-  // known only when the impulses are roughly known.
+  // of the impulses at work. For bench/box2d.cpp with 1000 discs, steps with 5e-4 to 2e-3 take the
+  // same time, and with 3e-3 a tenth more. The fraction is 1, because impulses are not yet known.
   constexpr double kRoughLength = 1e-3, kRoughImpulse = 1;
   bool is_rough = settings.tolerance < kRoughLength && settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;
@@ -229,7 +229,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   while (!system_.bodies().empty()) {
     const double length = (is_rough ? kRoughLength : settings.tolerance / 2) * mean_radius;
     allow(length, is_rough ? kRoughImpulse : settings.impulse_tolerance);
-    // A rough solution of Coulomb's law leaves half of the iterations to the accurate one.
+    // A rough solution with friction or links leaves half of the iterations to the accurate one.
     const int most =
         is_rough && constraints_ ? settings.max_iterations / 2 : settings.max_iterations;
     result.iterations += solve_contacts(is_rough, length, most - result.iterations).iterations;
@@ -237,15 +237,16 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
     if (result.residuals.converged) break;
     if (constraints_ && constraints_->has_given_up()) {
-      // Coulomb's law was not solved, and loads are given instead (ConstraintSystem). Only pairs
-      // that have closed since then are still added, in at most this number of rounds.
+      // Coulomb's law was not solved, and its friction is bounded by given loads instead
+      // (ConstraintSystem). Pairs that the solution closes are still added, in at most kMostRounds
+      // rounds, a free choice that bounds the time of such a step.
       constexpr int kMostRounds = 20;
       if (more.empty() || ++rounds_with_given_loads > kMostRounds) break;
       choose(more);
       continue;
     }
     if (is_last) break;
-    // A solution that does not improve in several rounds has reached its rounding errors.
+    // After kPatience rounds (a free choice) without gain or new pair, rounding errors are left.
     constexpr int kPatience = 10;
     waited = more.empty() && !is_rough && result.residuals.excess >= least_excess ? waited + 1 : 0;
     if (waited == kPatience) break;
@@ -268,9 +269,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
 template class StepProjection<2>;
 template class StepProjection<3>;
 
-/// The impulse at work on a body is the largest of three: that of its own motion (of_particle), the
-/// impulses of its contacts, and the impulses that would stop those of its contacts that still
-/// close.
+/// The impulse at work on a particle is the largest of three: that of its own motion
+/// (of_particle()), the impulses of its contacts, and those that would end their overlaps.
 template <int D>
 ResidualScales<D>::ResidualScales(const State& state, double h,
                                   std::span<const double> displacements,
@@ -286,7 +286,7 @@ ResidualScales<D>::ResidualScales(const State& state, double h,
     body_scales_.push_back(of_particle(bodies[b], system.free_displacement(b)));
   for (const auto& contact : system.contacts) {
     const double gap = gap_after(contact, displacements_);
-    // In a glued pair the film also pulls, so that an open gap calls for an impulse, too.
+    // The film of a pair with gamma < 0 also pulls, so that an open gap needs an impulse, too.
     const double impulse = std::max(std::abs(contact.impulse),
                                     (contact.lowest < 0 ? std::abs(gap) : -gap) / contact.w);
     for (const auto particle : {contact.first, contact.second})
@@ -299,8 +299,9 @@ ResidualScales<D>::ResidualScales(const State& state, double h,
   }
 }
 
-/// Impulse at work on a particle that takes part in no contact: the larger of what forces and
-/// gravity give it in the step and of its change of momentum. `moves` is its displacement h u* [L].
+/// The scale of a particle without its contacts. The impulse at work is the larger of the impulse
+/// of forces and gravity in the step and of the change of the particle's momentum. `moves` is its
+/// displacement h u* [L].
 template <int D>
 typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
     std::int32_t particle, const double* moves) const {
@@ -321,7 +322,7 @@ typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
 template <int D>
 ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, double w,
                                     double length) {
-  // Rounding errors are taken as 128 units in the last place of the lengths that are added below.
+  // Rounding errors are taken as 128 units in the last place of the sum of the lengths below.
   constexpr double kRounding = 128 * std::numeric_limits<double>::epsilon();
   ResidualScale scale{w, std::numeric_limits<double>::infinity(), length};
   double around = 0;
@@ -336,8 +337,8 @@ ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, dou
     if (body >= 0) around = std::max(around, island_impulses_[index_of(system_.island(body))]);
   }
   scale.rounding += std::sqrt(scale.w) * around;
-  // Solvers take squares of displacements, and products of these. Below this length they underflow.
-  // In any unit of length that a case may have, a particle that moves by less is at rest.
+  // Solvers compute squares of displacements and products of these, which underflow below this
+  // length [L]. A particle that moves by less is at rest in any unit of length.
   constexpr double kAtRest = 1e-100;
   scale.rounding = std::max(kRounding * scale.rounding, kAtRest);
   return scale;

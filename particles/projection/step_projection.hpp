@@ -1,7 +1,9 @@
-// Solves the projection (5.3) of one step on the contacts and particles that take part in it:
-// chooses them, sets their tolerances, and checks the solution by scales that do not depend on
-// units. Lengths, masses and times are in the units of the case. simulation.cpp uses it; what is
-// not solved is reported, not thrown. The results must not depend on the number of threads.
+// The projection of a time step: the problem for the impulses of contacts that keeps gaps open,
+// docs/physics.md (5.3) and (5.4). Chooses the pairs that take part in it, sets their tolerances,
+// solves it, and measures the residuals of the solution by scales that do not depend on units. h
+// [T] is the length of the step, u* are the velocities at its end without contacts and links, v
+// those with them. Units are any consistent ones. Nothing is thrown: ProjectionResult tells whether
+// the step is solved. simulation.cpp uses it. Results must not depend on the number of threads.
 #pragma once
 
 #include <algorithm>
@@ -26,36 +28,38 @@
 
 namespace viscontact::particles {
 
-/// Scales of one contact.
+/// Scales with which the residual [L] of a contact or link is compared.
 struct ResidualScale {
-  double w = 0;         ///< h (1/m_i + 1/m_j) [T/M]
-  double impulse = 0;   ///< impulses at work in the contact [M L/T]
+  double w = 0;  ///< change of the gap per impulse [T/M], of a contact h (1/m_i + 1/m_j), > 0
+  /// Impulse at work [M L/T], >= 0: the magnitude of the impulses that move the particles of the
+  /// contact or press on them in the step, of which a small fraction is an allowed error.
+  double impulse = 0;
   double rounding = 0;  ///< rounding errors of the gap after the step [L], > 0
-  /// Allowed residual [L]: at most `length` [L], and at most the residual that stands for
-  /// `fraction` of the impulses at work. The second limit is never below the rounding errors.
+  /// Allowed residual [L], > 0: the smaller of `length` > 0 [L] and of the change of the gap by the
+  /// part `fraction` > 0 of the impulse at work, where the latter is at least `rounding`.
   double allowed(double length, double fraction) const {
     return std::min(length, std::max(fraction * impulse * w, rounding));
   }
 };
 
-/// Computes the ResidualScale of each contact of a step.
+/// Computes the ResidualScale of contacts and links of a step.
 template <int D>
 class ResidualScales {
  public:
-  /// Measures the impulses at work for the present impulses of `system` and the displacements h v
-  /// of all particles. `mobilities` are h/m of all particles. The arguments must outlive this
-  /// object.
+  /// Measures the impulses at work at the present impulses of `system` and displacements h v [L].
+  /// `mobilities`: h/m of all particles [T/M], > 0. The arguments must outlive this object.
   ResidualScales(const State& state, double h, std::span<const double> displacements,
                  std::span<const double> mobilities, ContactSystem<D>& system);
 
-  /// Scales of a contact or link between `particles`, of which negative numbers are obstacles, and
-  /// which need not take part. `w` is the change of its gap per impulse [T/M]. `length` [L] is the
-  /// size of the coordinates from which the gap is computed as a difference. Of the impulses at
-  /// work on the particles the smallest counts, because an impulse that is small for a heavy
-  /// particle may be all that moves a light one. The rounding errors are those of the gap, of the
-  /// displacements of its particles, and of a solution for all impulses of its island.
+  /// Scales of a contact or link between `particles`; negative numbers are obstacles. The particles
+  /// need not be in `system`. `w` > 0 is the change of the gap per impulse [T/M]. `length` >= 0 [L]
+  /// is the size of the numbers from which the gap is computed as a difference.
+  ///
+  /// The impulse at work is the smallest of those of the particles, because an impulse that is
+  /// small for a heavy particle may be all that moves a light one. The rounding errors are those of
+  /// the gap, of the displacements of the particles, and of a solution for all connected contacts.
   ResidualScale of(std::span<const std::int32_t> particles, double w, double length);
-  /// Scales of a contact.
+  /// Scales of a contact, from its own particles, w and gap.
   ResidualScale of(const Contact<D>& contact) {
     return of(std::array{contact.first, contact.second}, contact.w, std::abs(contact.gap));
   }
@@ -73,58 +77,59 @@ class ResidualScales {
   double h_;
   std::span<const double> displacements_, mobilities_;
   ContactSystem<D>& system_;
-  std::vector<ParticleScale> body_scales_;
-  std::vector<double> island_impulses_;  // largest sqrt(w) p of each island, at its root
+  std::vector<ParticleScale> body_scales_;  // of all bodies of system_
+  // Largest w^(1/2) p of the contacts of each island [L (M/T)^(1/2)], at ContactSystem::island().
+  std::vector<double> island_impulses_;
 };
 
-/// If the residual of a link after all iterations is more than this part of the mean radius, the
-/// link counts as contradicting others. Smaller residuals may be slow convergence; they are
-/// reported.
+/// If a residual of a link or an overlap exceeds this part of the mean radius after all iterations,
+/// links contradict each other: simulation.cpp throws. A free choice far above tolerances.
 inline constexpr double kBroken = 1e-3;
 
 /// Result of the projection of a step.
 struct ProjectionResult {
   int iterations = 0;       ///< number of iterations of all solutions, >= 0
   StepResiduals residuals;  ///< of the last solution; impulse_errors are in the order of `pairs`
-  /// Number of contacts that exert an impulse or are glued, and turn by more than kLargestTurn.
+  /// Number of contacts with an impulse or a film (gamma < 0) whose particles move around each
+  /// other by more than kLargestTurn (contact.hpp), so that linearised gaps are wrong.
   std::size_t unresolved = 0;
-  double link_residual = 0;  ///< largest residual of a link [L]
-  /// If a link or gap is off by more than kBroken mean radii: the names of the hinges and arms that
-  /// contradict each other; empty if the residuals of all links are allowed.
+  double link_residual = 0;  ///< largest residual of a link [L], >= 0
+  /// Names of the hinges and arms that contradict each other, for messages. Empty if the residuals
+  /// of all links are allowed, or no residual or overlap is more than kBroken mean radii.
   std::vector<std::string> unsolved_links;
-  bool contact_contradicts = false;  ///< whether a contact has a part in that
-  std::vector<Pair*> pairs;          ///< pairs in the projection; solve() does not change them
+  bool contact_contradicts = false;  ///< true: contacts may contradict these links
+  std::vector<Pair*> pairs;          ///< the pairs in the projection, which solve() does not change
   std::vector<double> impulses;      ///< of `pairs` [M L/T]
-  std::vector<PairMemory> memories;  ///< of `pairs`, with friction; empty without constraints
+  std::vector<PairMemory> memories;  ///< new memories of `pairs`; empty without add_constraints()
   std::vector<std::int32_t> bodies;  ///< particles whose displacements the projection changed
 };
 
-/// Chooses the pairs that are glued (gamma < 0), had an impulse in the last step, or whose gap the
-/// free displacements h u* would close, and solves the dual problem (5.4) for them and their
-/// particles. If the solution closes further gaps, their pairs are added and the problem is
-/// solved again, until no gap is closed. A rough solution comes first, because it finds most of
-/// these pairs with little work.
+/// Chooses the pairs that a film holds (gamma < 0, minus the impulse that the film has absorbed),
+/// that had an impulse in the last step, or whose gap the displacements h u* would close, and
+/// solves the problem (5.4) for them and their particles. If the solution closes further gaps,
+/// their pairs are added and the problem is solved again, until no gap is closed. A rough solution
+/// comes first, because it finds most of these pairs with little work.
 ///
-/// The step has converged if the residual |min(D + h G v, w (p - gamma))| of each contact, with D
-/// without the tolerated overlap, is at most half of `tolerance` mean radii, and if the residual
-/// divided by w is at most `impulse_tolerance` of the impulses at work in the contact.
+/// The step has converged if each contact meets two conditions, with its linearised gap d after the
+/// step, impulse p and change w of the gap per impulse. The residual |min(d, w (p - gamma))|,
+/// without the tolerated overlap, is at most half of SolverSettings::tolerance mean radii. The
+/// residual over w is at most SolverSettings::impulse_tolerance of the impulse at work, or within
+/// rounding errors. Links are measured likewise.
 template <int D>
 class StepProjection {
  public:
-  /// All arguments must outlive this object. `displacements` are h u* before solve() and h v after
-  /// it [L]; `mobilities` are h/m [T/M].
+  /// All arguments must outlive this object. `displacements` [L]: h u* before solve(), then h v;
+  /// `mobilities`: h/m [T/M].
   StepProjection(State& state, double h, std::span<const PlanePosition> planes,
                  std::span<double> displacements, std::span<const double> mobilities,
                  ThreadPool& pool);
-  /// Solves with friction, rigid bodies and links. Call it before solve(). `step` must outlive this
-  /// object, which keeps a pointer to it.
+  /// Makes solve() treat friction, rigid bodies and links, too. `step` must outlive this object.
   void add_constraints(const ConstraintStep& step);
-  /// Solves a step in which blows have changed the displacements. A contact is then linearised at
-  /// the places where the blows leave its particles. Linearised at the beginning of the step, it
-  /// would stop particles that only pass each other. `impacts` must outlive this object.
+  /// Makes solve() linearise contacts where collisions (impacts/) have left their particles,
+  /// because elsewhere they could stop particles that pass each other. `impacts` must outlive this.
   void follow(const Impacts<D>& impacts) { impacts_ = &impacts; }
-  /// Solves the projection and sets the displacements h v, but changes neither pairs nor memories.
-  /// `mean_radius` [L], > 0, is the length that the tolerances of `settings` refer to.
+  /// Solves the projection and sets the displacements h v, but changes neither pairs nor memories
+  /// of the state. `mean_radius` [L], > 0, is the unit of SolverSettings::tolerance. Call it once.
   ProjectionResult solve(const SolverSettings& settings, double mean_radius);
 
  private:
@@ -133,7 +138,7 @@ class StepProjection {
     return k < state_.pairs.size() ? state_.pairs[k] : state_.walls[k - state_.pairs.size()];
   }
   std::size_t pair_count() const { return state_.pairs.size() + state_.walls.size(); }
-  // Contact of pair k. A curved obstacle is replaced by its tangent.
+  // Contact of pair k with its true gap. A curved obstacle is replaced by its tangent.
   Contact<D> contact_at_start(std::size_t k) {
     const auto& p = state_.particles;
     if (!tangents_.empty() && pair(k).first < 0)
@@ -152,11 +157,12 @@ class StepProjection {
     return (first < 0 ? 0.0 : mobilities_[index_of(first)]) + mobilities_[index_of(second)];
   }
   ResidualScales<D> residual_scales() { return {state_, h_, displacements_, mobilities_, system_}; }
+  // True if the number is that of a particle in system_.
   bool takes_part(std::int32_t particle) const {
     return particle >= 0 && system_.body_of(particle) >= 0;
   }
   bool gap_would_close(std::size_t k, double margin);
-  // Whether pair k is not chosen yet, but the solution may have closed its gap.
+  // True if pair k is not chosen yet, but has a particle that the solution has moved.
   bool may_have_closed(std::size_t k) {
     return is_chosen_[k] == 0 && (takes_part(pair(k).second) || takes_part(pair(k).first));
   }
@@ -186,7 +192,7 @@ class StepProjection {
   double tolerated_ = 0;             // overlap that is left as it is [L]
   double margin_ = 0;                // gap below which a pair is nearly closed [L]
   std::vector<std::size_t> chosen_;  // pair of each contact of system_
-  std::vector<char> is_chosen_;      // of each pair in the list
+  std::vector<char> is_chosen_;      // 1 for each chosen pair, else 0; in the order of pair()
   ContactSystem<D> system_;
   const Links* links_ = nullptr;
   const ConstraintStep* step_ = nullptr;  // of add_constraints(); null without constraints
