@@ -107,6 +107,12 @@ class ConeScaling {
     return {(y[0] + y[1]) / 2, along * direction_[1] - y[2] * direction_[2],
             along * direction_[2] + y[2] * direction_[1]};
   }
+  /// The numbers of u, with all digits.
+  ConePoint numbers_of_u() const {
+    auto y = scaled_;
+    for (std::size_t k = 0; k < 3; ++k) y[k] *= std::sqrt(square_[k]);
+    return y;
+  }
   /// W r = W^-1 u, as components.
   ConePoint scaled() const { return point(scaled_); }
   /// The inner product u.r of the two points of the constructor.
@@ -232,6 +238,8 @@ struct LinearCones {
     static ConePoint numbers(const ConePoint& x) { return x; }
     /// The coordinates of the point with the numbers `y`: the same.
     static ConePoint point(const ConePoint& y) { return y; }
+    /// The numbers of u.
+    ConePoint numbers_of_u() const { return times(scaled_); }
     /// W r = W^-1 u.
     ConePoint scaled() const { return scaled_; }
     /// The inner product u.r of the two points of the constructor.

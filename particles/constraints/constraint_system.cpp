@@ -126,7 +126,7 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c,
 }
 
 template <int D>
-void ConstraintSystem<D>::add_link(std::size_t l, double mean_radius) {
+void ConstraintSystem<D>::add_link(std::size_t l, double allowed) {
   const auto& link = links_[l];
   ConstraintBlock block;
   block.row = problem_.rows.size();
@@ -134,8 +134,7 @@ void ConstraintSystem<D>::add_link(std::size_t l, double mean_radius) {
   // The stop of a hinge pushes like a contact without film and friction.
   const bool is_stop = link.kind == LinkEquations::Kind::kStop;
   block.is_contact = is_stop;
-  block.allowed = links_allowed[l];
-  if (link.is_angle()) block.allowed /= mean_radius;
+  block.allowed = link.is_angle() ? allowed / mean_radius_ : allowed;
   block.compliance = link.rows.front().compliance;
   problem_.blocks.push_back(block);
   for (std::size_t k = 0; k < link.rows.size(); ++k) {
@@ -321,10 +320,11 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   number_units(system);
   for (std::size_t c = 0; c < system.contacts.size(); ++c)
     add_contact(system.contacts[c], c, allowed_slip);
-  for (std::size_t l = 0; l < links_.size(); ++l) add_link(l, mean_radius_);
-  // The other allowed residuals are a fraction of the impulses at work, which are not known yet.
+  // In a rough solution the impulses at work are not known yet.
   if (is_rough)
     for (auto& block : problem_.blocks) block.allowed = allowed_slip;
+  for (std::size_t l = 0; l < links_.size(); ++l)
+    add_link(l, is_rough ? allowed_slip : links_allowed[l]);
   if (has_given_up_) give_loads_of_step();
   // Each correction multiplies the error by about the turn of the bodies in the step [rad]. With
   // turns of 1 it gains little; then more corrections than this would not help either.
@@ -382,11 +382,15 @@ std::vector<double> ConstraintSystem<D>::least_violations() const {
         problem.add_impulse(r, -weight * value, missing);
       }
     }
-    if (n == kSteps || !matrix.factorise()) return violations;
+    if (n == kSteps || !matrix.factorise()) break;
     const auto change = matrix.solution_of(missing);
     for (std::size_t u = 0; u < y.size(); ++u)
       for (std::size_t k = 0; k < y[u].size(); ++k) y[u][k] += change[u][k];
   }
+  const std::size_t contacts = violations.size() - links_.size();
+  for (std::size_t l = 0; l < links_.size(); ++l)
+    if (links_[l].is_angle()) violations[contacts + l] *= mean_radius_;
+  return violations;
 }
 
 template class ConstraintSystem<2>;

@@ -91,7 +91,7 @@ class ConstraintSystem {
   /// Residual of link `l` of links() in the last solution [L]; of angles times the mean radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
   /// By how much the motion that violates the constraints of the last solve() least violates each
-  /// of them [L] (angles [rad]), >= 0: first of all contacts, then of all links. That motion has
+  /// of them [L], angles times the mean radius, >= 0: first of all contacts, then of all links. That motion has
   /// the least sum of v^2/w over the rows of rigid links and the negative gaps, with the value v
   /// and the mobility w of a row. If some motion satisfies all of these constraints, the result is
   /// 0 but for rounding errors. Otherwise they contradict each other: together the impulses v/w
@@ -102,7 +102,7 @@ class ConstraintSystem {
   ContactSide side_of(std::int32_t particle) const;
   void number_units(const ContactSystem<D>& system);
   void add_contact(const Contact<D>& contact, std::size_t c, double allowed_slip);
-  void add_link(std::size_t l, double mean_radius);
+  void add_link(std::size_t l, double allowed);
   UnitMotion motion_of(std::int32_t unit, std::span<const Motion<D>> motions) const;
   void move_particles(const ContactSystem<D>& system, std::span<const Motion<D>> motions);
   double correct(ContactSystem<D>& system, const ConstraintSolution<D>& solution);

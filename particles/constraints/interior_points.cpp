@@ -181,7 +181,7 @@ void InteriorPoints<D>::set_scaling(Single& part) {
 
 template <int D>
 void InteriorPoints<D>::set_scaling(Cones& part) {
-  part.goal = part.scaling.times(part.scaling.scaled());
+  part.goal = part.scaling.numbers_of_u();
   for (double& number : part.goal) number = -number;
 }
 

@@ -23,7 +23,9 @@ TEST(SecondOrderCone, KeepsTheDigitsOfProductsNearTheBoundary) {
     SCOPED_TRACE(n);
     const double angle = random.uniform(0, 6), turned = random.uniform(0, 1e-9);
     const double u = random.decades(-2, 2), r = random.decades(-2, 2);
-    const double i = u * random.decades(-15, 0), j = r * random.decades(-15, 0);
+    // Near the central path i/u and j/r are of one size.
+    const double share = random.decades(-15, 0);
+    const double i = u * share, j = r * share * random.decades(-1, 1);
     const InnerPoint point{{u + i, u * std::cos(angle), u * std::sin(angle)}, i};
     const InnerPoint dual{{r + j, -r * std::cos(angle + turned), -r * std::sin(angle + turned)}, j};
     const double half = std::sin(turned / 2);
@@ -34,7 +36,7 @@ TEST(SecondOrderCone, KeepsTheDigitsOfProductsNearTheBoundary) {
     EXPECT_NEAR(scaling.product_of_points(), product,
                 kRounding * product + u * r * kAngle * (turned + kAngle));
     // W (W r) = u.
-    const auto back = scaling.point(scaling.times(scaling.scaled()));
+    const auto back = scaling.point(scaling.numbers_of_u());
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back[k], point.x[k], kRounding * (u + i));
   }
 }
