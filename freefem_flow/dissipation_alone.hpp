@@ -17,9 +17,10 @@ namespace viscontact::freefem_flow {
 /// - for a linear flow u = E x with a constant matrix E, which walls or a cell that is periodic
 ///   along both axes prescribe: 2 mu D:D times the area or volume of the domain;
 /// - for a box that is periodic along one axis, whose two walls move along this axis at constant
-///   speeds: plane Couette flow.
+///   speeds that do not depend on time: plane Couette flow.
 ///
-/// It is 0 otherwise, and if the walls are at rest.
+/// It is 0 otherwise, if a pressure gradient drives fluid along a period, and if the walls are at
+/// rest.
 double dissipation_alone(const particles::Fluid& fluid, const particles::Domain& domain);
 
 }  // namespace viscontact::freefem_flow

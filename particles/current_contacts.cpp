@@ -73,16 +73,19 @@ Place place_of(const Setting& setting, const Particles& p, const Pair& pair,
   return p.dimension == 2 ? place_of<2>(p, pair, places) : place_of<3>(p, pair, places);
 }
 
-/// The smallest gap of two discs or their nearest periodic images [L]; 0 if none overlap.
-double smallest_gap_of_images(const Particles& p) {
-  double smallest = 0;
-  for (std::size_t j = 0; j < p.count(); ++j)
-    for (std::size_t i = 0; i < j; ++i) {
-      if (p.are_joined(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j))) continue;
-      const Vector apart = nearest_image(p.cell, p.position(j) - p.position(i));
-      smallest = std::min(smallest, norm(apart) - p.radii[i] - p.radii[j]);
-    }
-  return smallest;
+/// The pairs of particles and images whose circles overlap.
+std::vector<ClosePair> overlapping_circles(const Particles& p) {
+  std::vector<ClosePair> pairs;
+  for (std::int32_t j = 0; index_of(j) < p.count(); ++j)
+    for (std::int32_t i = 0; i < j; ++i)
+      for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
+        if (!has_image(p.cell, image)) continue;
+        const Vector apart =
+            p.position(index_of(j)) + shift_of(p.cell, image) - p.position(index_of(i));
+        if (norm(apart) < p.radii[index_of(i)] + p.radii[index_of(j)])
+          pairs.push_back({i, j, image});
+      }
+  return pairs;
 }
 
 ContactFriction friction_of(const Setting& setting, const PairMemory& memory) {
@@ -112,13 +115,10 @@ double largest_overlap(const Setting& setting, const State& state) {
   ThreadPool pool(1);
   // close_pairs_in_period() takes each image at the shift that it had at the start. In a sheared
   // cell the images have moved since then, and all pairs are compared one by one.
-  std::vector<ClosePair> close;
-  if (p.cell.is_sheared()) {
-    smallest = smallest_gap_of_images(p);
-  } else {
-    close = p.cell.is_periodic() ? close_pairs_in_period(p.cell, p.positions, p.radii, pool)
-                                 : close_pairs(p.dimension, p.positions, p.radii, pool);
-  }
+  const auto close = p.cell.is_sheared() ? overlapping_circles(p)
+                     : p.cell.is_periodic()
+                         ? close_pairs_in_period(p.cell, p.positions, p.radii, pool)
+                         : close_pairs(p.dimension, p.positions, p.radii, pool);
   for (const auto& pair : close)
     if (!p.are_joined(pair.first, pair.second))
       smallest = std::min(

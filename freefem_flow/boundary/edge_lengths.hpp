@@ -138,9 +138,9 @@ std::vector<Point> cut_line(const Point& from, const Point& to, const EdgeLength
 }
 
 /// The points that cut an outline into edges, counter-clockwise; the last point is equal to the
-/// first. There are at least `least` edges, on a plate least/4 on each of its two sides and two
-/// round ends. `edge_length(t)` [L], > 0, is the wanted length at the point outline.at(t). Throws
-/// as cut_curve().
+/// first. There are at least `least` edges; on a plate at least least/4, rounded down, on each of
+/// its two sides and two round ends. `edge_length(t)` [L], > 0, is the wanted length at the point
+/// outline.at(t). Throws as cut_curve().
 template <class EdgeLength>
 std::vector<Point> cut_outline(const particles::Outline& outline, std::size_t least,
                                const EdgeLength& edge_length) {

@@ -272,15 +272,16 @@ class PlacedParticles {
 };
 
 /// Moves particles that are too close apart, in up to `rounds` rounds over all of them. Returns
-/// true after a round in which none was too close when its turn came, otherwise false.
+/// true as soon as none is too close after a round, otherwise false.
 bool push_apart(PlacedParticles& placed, int rounds) {
   // The aim of a push is 1.001 times the distance that two particles must have, because pushes
   // approach their aim without reaching it.
   constexpr double kFurther = 1 + 1e-3;
+  const auto is_free = [&](std::size_t k) { return placed.is_free(placed.centres()[k], k); };
   for (int round = 0; round < rounds; ++round) {
     bool all_free = true;
-    for (std::size_t k = 0; k < placed.centres().size(); ++k) {
-      all_free = all_free && placed.is_free(placed.centres()[k], k);
+    for (std::size_t k = 0; k < placed.count(); ++k) {
+      all_free = all_free && is_free(k);
       // Each of two particles that are too close moves by half of the missing distance. A particle
       // that is too close to a fixed one moves by all of it.
       Vector push{};
@@ -298,6 +299,8 @@ bool push_apart(PlacedParticles& placed, int rounds) {
       if (push != Vector{})
         placed.move(k, placed.places(k).nearest({x[0] + push[0], x[1] + push[1], x[2] + push[2]}));
     }
+    // A late push of the round may have moved a particle too close to one that was pushed earlier.
+    for (std::size_t k = 0; all_free && k < placed.count(); ++k) all_free = is_free(k);
     if (all_free) return true;
   }
   return false;

@@ -3,8 +3,8 @@
 // `dimension` is 2 (discs) or 3 (spheres); for discs only the third component of turns, torques and
 // angular momenta is used. Nothing is checked or thrown here; particles/case checks the bodies.
 // Used in simulation.hpp, particles.hpp, constraints/, dual_problem/, fluid/, impacts/ and links/.
-// io/restart.cpp stores the members of RigidBody after "The motion" in restart files and takes the
-// others from the case file; a change must keep that. Without force, torque and constraints,
+// io/restart.cpp stores BodyMotion in restart files, which take the rest of RigidBody from the case
+// file; a change must keep that. Without force, torque and constraints,
 // momentum and angular momentum must stay constant to rounding.
 #pragma once
 
@@ -30,18 +30,8 @@ inline Vector operator*(const Matrix3& a, const Vector& x) {
           a[6] * x[0] + a[7] * x[1] + a[8] * x[2]};
 }
 
-/// A body that consists of particles, its members. Forces and torques on members act on the body.
-/// "At the start" is when add_rigid_body() makes it.
-struct RigidBody {
-  std::vector<std::int32_t> members;  ///< numbers of particles, increasing, at least one
-  std::vector<Vector> offsets;  ///< vectors from `centre` to the members' centres, at the start [L]
-  /// Angles of discs at the start [rad]. Not used for spheres, which have the body's orientation.
-  std::vector<double> member_angles;
-  double mass = 0;  ///< [M], > 0; >= 0 in a fluid
-  /// Moment of inertia about the centre, with the orientation at the start [M L^2], positive
-  /// definite; discs use only the last entry.
-  Matrix3 inertia{};
-  // The motion.
+/// The place, orientation and motion of a rigid body. Restart files store it as it is.
+struct BodyMotion {
   Vector centre{};    ///< centre of mass [L]
   Vector velocity{};  ///< of the centre [L/T]
   /// Discs: the angle by which the body has turned since the start, in component 2 [rad].
@@ -52,6 +42,19 @@ struct RigidBody {
   /// no torque acts, unlike the angular velocity in three dimensions.
   Vector angular_momentum{};
   Vector angular_velocity{};  ///< [1/T]; of discs only component 2
+};
+
+/// A body that consists of particles, its members. Forces and torques on members act on the body.
+/// "At the start" is when add_rigid_body() makes it.
+struct RigidBody : BodyMotion {
+  std::vector<std::int32_t> members;  ///< numbers of particles, increasing, at least one
+  std::vector<Vector> offsets;  ///< vectors from `centre` to the members' centres, at the start [L]
+  /// Angles of discs at the start [rad]. Not used for spheres, which have the body's orientation.
+  std::vector<double> member_angles;
+  double mass = 0;  ///< [M], > 0; >= 0 in a fluid
+  /// Moment of inertia about the centre, with the orientation at the start [M L^2], positive
+  /// definite; discs use only the last entry.
+  Matrix3 inertia{};
 };
 
 /// The rigid bodies of a case, and which particle belongs to which.

@@ -173,7 +173,8 @@ ContactConditions FluidSimulation::contact_conditions(std::span<const double> fr
     // consists of errors. least_w must lie between these errors and the least w of a gap that can
     // change. A particle resists a force with its mass over the step plus a drag of about the
     // viscosity, or some 1e5 times the viscosity in the narrowest gap that a mesh resolves. Both
-    // factors are free choices within these limits.
+    // factors are free choices within these limits. There are no hinges on an axis, where the drag
+    // would have another dimension.
     constexpr double kShare = 1e-9, kErrors = 10;
     double heaviest = 0;
     const auto& p = state_.particles;

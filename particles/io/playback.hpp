@@ -58,7 +58,7 @@ struct Playback {
   std::vector<Frame> frames;        ///< in order of time, from the start on
   bool is_in_fluid = false;         ///< whether the case has a fluid around the particles
   std::vector<std::int32_t> ids{};  ///< as in Particles
-  PeriodicCell cell{};              ///< as in Particles
+  PeriodicCell cell{};              ///< at the start
   /// Number of the rigid body of each particle, -1: none; empty if there are no bodies.
   std::vector<std::int32_t> bodies{};
   /// The links; empty if there are none.
@@ -66,6 +66,13 @@ struct Playback {
   /// Coefficient of friction, >= 0; empty: there is no friction.
   std::optional<double> friction_coefficient{};
 };
+
+/// The cell at the time of a frame. In a sheared cell images have moved since the start.
+inline PeriodicCell cell_at(const Playback& playback, const Frame& frame) {
+  auto cell = playback.cell;
+  cell.moved_for = frame.time;
+  return cell;
+}
 
 /// Position of particle k in a frame [L]; other components than the first `dimension` are 0.
 inline Vector position(const Playback& playback, const Frame& frame, std::size_t k) {

@@ -36,20 +36,13 @@ struct StoredPair {
   double gamma, impulse, gamma_error;
 };
 
-/// The motion of a rigid body (RigidBody), as versions from 5 on store it.
-struct StoredBody {
-  Vector centre, velocity, angle;
-  std::array<double, 4> orientation;
-  Vector angular_momentum, angular_velocity;
-};
-
 /// What a file stores in another form than State does.
 struct StoredArrays {
   std::vector<std::int32_t> images;  ///< of state.pairs; empty if all are 0
   std::vector<std::int32_t> places;  ///< of state.pairs, then of state.walls; empty if all are 0
   std::vector<Vector> frictions;     ///< of pairs and walls; empty if all are 0
   std::vector<double> carried;       ///< Remembered::kCarried, as `frictions`
-  std::vector<StoredBody> bodies;
+  std::vector<BodyMotion> bodies;    ///< from version 5 on
   /// The other memories (kMemoryFields), if not all of their numbers are 0: `names` has the name of
   /// each with a line break, `memories` for each name one number for each pair and wall.
   std::vector<char> names;
@@ -321,9 +314,7 @@ std::string write_restart(const State& state) {
   clear_zeros(arrays.places);
   clear_zeros(arrays.frictions);
   clear_zeros(arrays.carried);
-  for (const auto& body : state.particles.bodies.bodies)
-    arrays.bodies.push_back({body.centre, body.velocity, body.angle, body.orientation,
-                             body.angular_momentum, body.angular_velocity});
+  for (const auto& body : state.particles.bodies.bodies) arrays.bodies.push_back(body);
   std::string bytes;
   const int version = !state.sources.empty()             ? 11
                       : !arrays.places.empty()           ? 10
@@ -359,16 +350,8 @@ State read_restart(const std::filesystem::path& path) {
   for (std::size_t k = 0; k < arrays.images.size(); ++k) state.pairs[k].image = arrays.images[k];
   for (std::size_t k = 0; k < arrays.places.size(); ++k)
     (k < of_pairs ? state.pairs[k] : state.walls[k - of_pairs]).place = arrays.places[k];
-  for (const auto& stored : arrays.bodies) {
-    RigidBody body;
-    body.centre = stored.centre;
-    body.velocity = stored.velocity;
-    body.angle = stored.angle;
-    body.orientation = stored.orientation;
-    body.angular_momentum = stored.angular_momentum;
-    body.angular_velocity = stored.angular_velocity;
-    state.particles.bodies.bodies.push_back(std::move(body));
-  }
+  for (const auto& motion : arrays.bodies)
+    state.particles.bodies.bodies.emplace_back().BodyMotion::operator=(motion);
   if (!is_consistent(state)) reader.throw_short();
   for (const auto* pairs : {&state.pairs, &state.walls})
     for (const auto& pair : *pairs)

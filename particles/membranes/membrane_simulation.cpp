@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -438,6 +439,7 @@ StepReport MembraneSimulation::step(double end) { return implementation_->step(e
 const State& MembraneSimulation::state() const { return implementation_->state(); }
 
 FlowField MembraneSimulation::flow() {
+  assert(implementation_->before_step().particles.count() > 0);
   return implementation_->flow_at(implementation_->before_step());
 }
 

@@ -26,9 +26,10 @@ namespace {
 /// shifted by -1, 0 or 1 periods along each axis.
 template <class Visit>
 void for_each_image(const PanelSettings& d, const Frame& frame, const Visit& visit) {
+  const auto cell = cell_at(d.scene.playback, frame);
   for (std::size_t k = 0; k < d.scene.playback.radii.size(); k += d.every)
     for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image)
-      if (const auto& cell = d.scene.playback.cell; has_image(cell, image))
+      if (has_image(cell, image))
         visit(k, particles::operator+(position(d.scene.playback, frame, k), shift_of(cell, image)));
 }
 
@@ -45,12 +46,9 @@ bool is_seen(const PanelSettings& panel, double x, double y, double r) {
 /// Vector from the centre of particle `first` to the nearest image of particle `second` [L].
 Vector apart(const PanelSettings& panel, const Frame& frame, std::size_t first,
              std::size_t second) {
-  Vector w =
-      position(panel.scene.playback, frame, second) - position(panel.scene.playback, frame, first);
-  for (std::size_t k = 0; k < 3; ++k)
-    if (const double period = panel.scene.playback.cell.lengths[k]; period > 0)
-      w[k] -= period * std::round(w[k] / period);
-  return w;
+  const auto& playback = panel.scene.playback;
+  return nearest_image(cell_at(playback, frame),
+                       position(playback, frame, second) - position(playback, frame, first));
 }
 
 /// Commands of an SVG path: move the pen to the point p [L], or draw a straight line to it.
@@ -396,7 +394,7 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame, const CurrentCon
   Vector to = position(d.scene.playback, frame, second);
   double radius = d.scene.playback.radii[second];
   Vector from{};
-  const Vector shift = shift_of(d.scene.playback.cell, contact.image);
+  const Vector shift = shift_of(cell_at(d.scene.playback, frame), contact.image);
   if (contact.first < 0) {
     const auto plane =
         tangent_at(frame.planes.at(static_cast<std::size_t>(-1 - contact.first)), to);

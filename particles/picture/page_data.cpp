@@ -163,13 +163,24 @@ Contacts choose_content(PageData& data, const Scene& scene, std::size_t other_by
   // The term `particles` is for the speeds, a byte each.
   const auto bytes_of_frame =
       base64_size(positions + angles + particles + planes * 6 * sizeof(float) + sizeof(double));
-  const auto of_particles = static_cast<std::size_t>(1 + (playback.ids.empty() ? 0 : 1) +
-                                                     (playback.masses.empty() ? 0 : 1));
-  const auto radii_masses_and_ids = of_particles * base64_size(particles * sizeof(float));
+  const auto four = [](bool is_there) { return is_there ? sizeof(float) : 0; };
+  const bool are_added =
+      !playback.frames.empty() &&
+      std::ranges::any_of(playback.frames.front().positions, [](float x) { return std::isnan(x); });
+  // Radii, masses, ids, bodies, first frames, semi-axes and plates.
+  const auto of_particle = four(true) + four(!playback.masses.empty()) +
+                           four(!playback.ids.empty()) + four(!playback.bodies.empty()) +
+                           four(are_added) + 2 * four(!playback.semi_axes.empty()) +
+                           (playback.plates.empty() ? 0 : 1);
+  // Characters of a hinge, and of the two numbers of a spring or arm, at most.
+  constexpr std::size_t kHinge = 80, kEnds = 16;
+  const auto& links = playback.links;
+  const auto of_links =
+      links.hinges.size() * kHinge + (links.springs.size() + links.arms.size()) * kEnds;
   for (std::size_t every = 1;; every *= 2) {
     choose_frames(data, playback, every);
-    const auto others =
-        kRest + other_bytes + data.frames.size() * bytes_of_frame + radii_masses_and_ids;
+    const auto others = kRest + other_bytes + data.frames.size() * bytes_of_frame +
+                        base64_size(particles * of_particle) + of_links;
     const bool last = data.frames.size() <= 2;
     if (others > kMostBytes && !last) continue;
     auto contacts = contacts_of(scene, data);

@@ -148,14 +148,15 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
   auto text = fmt::format(
       "<script type=\"application/json\" id=\"motion\">{{\"dimension\":{},\"every\":{},"
       "\"bytes\":{},\"low\":{},\"step\":{},\"roomLow\":{},\"roomHigh\":{},\"lowest\":{},"
-      "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{}],\"hasAxis\":{},\"flow\":{},"
+      "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{}],\"gradient\":[{}],\"hasAxis\":{},"
+      "\"flow\":{},"
       "\"friction\":[{}],\"hasForces\":{},\"meanRadius\":{},\"hinges\":[{}],\"springs\":[{}],"
       "\"arms\":[{}],\"topForce\":{},\"allForces\":{},\"topSpeed\":{},\"units\":{},\"style\":{}}}"
       "</script>\n",
       playback.dimension, data.every_particle, data.position_bytes, list(data.low), list(data.step),
       list(scene.box.low), list(scene.box.high), scene.lowest_gamma, report::kTouchingColour,
       listed(films), fmt::join(playback.cell.from, ","), fmt::join(playback.cell.lengths, ","),
-      scene.has_axis, flow.settings,
+      fmt::join(playback.cell.gradient, ","), scene.has_axis, flow.settings,
       playback.friction_coefficient ? listed(report::friction_scale(kFrictionColours, "")) : "",
       scene.top_force > 0, scene.mean_radius, hinges, ends_of(links.springs), ends_of(links.arms),
       scene.top_force, scene.top_force > 0 && data.contacts && data.every_particle == 1,
@@ -179,9 +180,7 @@ std::string words_for(const Playback& playback, const PageData& data) {
   else
     words += unit;
   words += ".";
-  if (data.every_frame > 1)
-    words += fmt::format(" Every {}{} frame is shown.", data.every_frame,
-                         data.every_frame == 2 ? "nd" : "th");
+  if (data.every_frame > 1) words += fmt::format(" One frame in {} is shown.", data.every_frame);
   if (data.every_particle > 1)
     words +=
         fmt::format(" One particle in {} is shown, with the contacts between the shown particles.",

@@ -129,10 +129,11 @@ std::vector<char> points_in_bodies(const report::Grid& grid, const Playback& pla
     return std::pair(place(low), place(high));
   };
   const auto& window = grid.window;
+  const auto cell = cell_at(playback, frame);
   for (std::size_t k = 0; k < playback.radii.size(); ++k)
     for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
-      if (!has_image(playback.cell, image)) continue;
-      const auto shift = shift_of(playback.cell, image);
+      if (!has_image(cell, image)) continue;
+      const auto shift = shift_of(cell, image);
       const auto centre = position(playback, frame, k);
       const double x = centre[0] + shift[0], y = centre[1] + shift[1], r = playback.radii[k];
       const auto [left, right] = range(x - r, x + r, window.left, grid.step_x(), grid.columns);

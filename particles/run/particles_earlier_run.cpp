@@ -120,14 +120,7 @@ void take_over_bodies(State& state, const ParticlesCase& c, const fs::path& rest
                     fmt::format("has {} rigid bodies, and {} has {}; a case that continues a run "
                                 "must have the same bodies",
                                 moving.size(), c.path.string(), bodies.size()));
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    bodies[b].centre = moving[b].centre;
-    bodies[b].velocity = moving[b].velocity;
-    bodies[b].angle = moving[b].angle;
-    bodies[b].orientation = moving[b].orientation;
-    bodies[b].angular_momentum = moving[b].angular_momentum;
-    bodies[b].angular_velocity = moving[b].angular_velocity;
-  }
+  for (std::size_t b = 0; b < bodies.size(); ++b) bodies[b].BodyMotion::operator=(moving[b]);
   const auto forces = c.setting.links.force_count(c.particles.dimension);
   if (!state.link_forces.empty() && state.link_forces.size() != forces)
     throw_bad_input(

@@ -95,8 +95,12 @@ Playback read_playback(const ParticlesCase& c, const fs::path& folder) {
     }
     if (f % every != 0 && f + 1 != files.size()) continue;
     frames.push_back(read_frame(files[f].first, folder / files[f].second, c));
-    kept_bytes += (frames.back().positions.size() + frames.back().speeds.size()) * sizeof(float) +
-                  frames.back().contacts.size() * sizeof(CurrentContact);
+    const auto& kept = frames.back();
+    kept_bytes += (kept.positions.size() + kept.speeds.size() + kept.angles.size() +
+                   kept.orientations.size()) *
+                      sizeof(float) +
+                  kept.planes.size() * sizeof(PlanePosition) +
+                  kept.contacts.size() * sizeof(CurrentContact);
   }
   // Particles that a source has not added yet get positions that are no numbers, and are not drawn.
   for (auto& frame : frames) {

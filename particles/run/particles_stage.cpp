@@ -134,7 +134,10 @@ class Run {
 
   /// Adds the flow around the particles at the end of the run, which no step computes. An
   /// interrupted run adds nothing, because the next step computes this flow when the run continues.
+  /// Nor does a run in a sheared cell: for the fluid solver the cell keeps its shape, so that it
+  /// would compute the flow around images that have not moved.
   void add_last_flow() {
+    if (cell_of(case_.setting).is_sheared()) return;
     if (!is_at_end() || stop_.stop_requested() || !log_.lacks_flow()) return;
     try {
       log_.add_flow(simulation_.flow_at_present());

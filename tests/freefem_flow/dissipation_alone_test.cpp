@@ -61,6 +61,31 @@ TEST(DissipationAlone, IsZeroWhereItIsNotKnownOrWallsAreAtRest) {
   const BoxDomain channel{{0, 0}, {1, 1}, {true, false}};
   EXPECT_EQ(dissipation_alone(with_viscosity(1, driven), channel), 0);
   EXPECT_EQ(dissipation_alone(with_viscosity(1, LinearFlow{}), channel), 0);
+  driven[3].kind = WallVelocity::Kind::kConstant;
+  EXPECT_GT(dissipation_alone(with_viscosity(1, driven), channel), 0);
+  auto swinging = driven;
+  swinging[3].period = 2;
+  swinging[3].amplitude = 0.5;
+  EXPECT_EQ(dissipation_alone(with_viscosity(1, swinging), channel), 0);
+  auto stopping = driven;
+  stopping[2].pieces = {{{1, {1, 0, 0}}, {2, {0, 0, 0}}}};
+  EXPECT_EQ(dissipation_alone(with_viscosity(1, stopping), channel), 0);
+}
+
+// It drives Poiseuille flow along the channel, and no flow across it.
+TEST(DissipationAlone, IsNotKnownIfAPressureGradientDrivesTheFluid) {
+  const BoxDomain channel{{0, 0}, {1, 1}, {true, false}};
+  SideVelocities sides;
+  sides[3].value = {1, 0};
+  for (auto fluid : {with_viscosity(1, sides), with_viscosity(1, LinearFlow{{0, 1, 0, 0}})}) {
+    fluid.pressure_gradient = {0, -1};
+    EXPECT_EQ(dissipation_alone(fluid, channel), 1);
+    fluid.pressure_gradient = {-1, 0};
+    EXPECT_EQ(dissipation_alone(fluid, channel), 0);
+  }
+}
+
+TEST(DissipationAlone, IsZeroIfACylinderIsAtRest) {
   EXPECT_EQ(dissipation_alone(with_viscosity(1, LinearFlow{}), particles::CylinderDomain{1, 1}), 0);
 }
 

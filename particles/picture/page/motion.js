@@ -20,6 +20,9 @@ const style = motion.style;  // colours and proportions: SceneStyle of particles
 // The corner of the periodic cell with the smallest coordinates, and the lengths of its sides; a
 // length is 0 if the motion is not periodic along this axis.
 const [cellX, cellY, cellZ, periodX, periodY, periodZ] = motion.cell;
+// In a sheared cell the images of a particle (copies that are shifted by periods) move relative to
+// it, with the velocity gradient motion.gradient = du/dx, du/dy, dv/dx, dv/dy.
+const isSheared = motion.gradient.some((g, i) => g * (i % 2 ? periodY : periodX) !== 0);
 const radii = new Float32Array(bytes('radii')), times = new Float64Array(bytes('times'));
 // The id of each particle in the files of the case. Without ids, the id of particle k is k.
 const ids = document.getElementById('ids') ? new Int32Array(bytes('ids')) : null;
@@ -64,6 +67,7 @@ const orientations = new Float32Array(writtenOrientations ? 4 * count : 0);
 // radius > 0, its centre as `point` and the normal 0; the particles are inside.
 let planes = [];
 let presentFrame = 0;  // the last frame that is not after that time
+let strain = [0, 0, 0, 0];  // of the cell until that time, in the order of motion.gradient
 // The contacts of frame number `frame`, as readContacts() decodes them.
 const lines = {
   frame: -1,
@@ -90,12 +94,28 @@ function placeOf(time) {
 const writtenPlace = (frame, k, d) =>
   motion.low[d] + motion.step[d] * written[(frame * count + k) * dim + d];
 
+// The present shift of an image by numbers of periods along x, y and z [case's length].
+function imageShift([alongX, alongY, alongZ]) {
+  const x = periodX * alongX, y = periodY * alongY, [a, b, c, d] = strain;
+  return [x + (a * x + b * y), y + (c * x + d * y), periodZ * alongZ];
+}
+
+// The numbers of periods of the image whose shift is the nearest one to (x, y, z). In a sheared
+// cell, nearest is meant before the motion of the cell, as in periods_towards() of periods.hpp.
+function nearestPeriods([x, y, z]) {
+  const [a, b, c, d] = strain, determinant = (1 + a) * (1 + d) - b * c;
+  const atStart = [((1 + d) * x - b * y) / determinant, ((1 + a) * y - c * x) / determinant, z];
+  return [periodX, periodY, periodZ].map((period, i) =>
+    (period ? Math.round(atStart[i] / period) : 0));
+}
+
 // Interpolates the motion at a time between two frames. Contacts are those of the nearer frame.
 function setTime(time) {
   const {frame, share} = placeOf(time), n = count * dim;
   const from = frame * n, to = Math.min(frame + 1, frames - 1) * n;
   for (let d = 0; d < dim; ++d) {
-    const period = [periodX, periodY, periodZ][d], begin = [cellX, cellY, cellZ][d];
+    // In a sheared cell particles that leave it are not brought back.
+    const period = isSheared ? 0 : [periodX, periodY, periodZ][d], begin = [cellX, cellY, cellZ][d];
     for (let i = d; i < n; i += dim) {
       const here = motion.low[d] + motion.step[d] * written[from + i];
       let move = motion.low[d] + motion.step[d] * written[to + i] - here;
@@ -119,6 +139,7 @@ function setTime(time) {
     planes.push({point: x.slice(0, 3), normal, radius});
   }
   presentFrame = frame + (share === 1 ? 1 : 0);
+  if (isSheared) strain = motion.gradient.map(g => time * g);
   readContacts(Math.min(frames - 1, frame + Math.round(share)));
 }
 

@@ -136,11 +136,12 @@ function drawSpheres() {
 function drawDiscs() {
   for (let k = 0; k < count; ++k) {
     const x = positions[2 * k], y = positions[2 * k + 1], r = radii[k];
-    // The shift to the opposite side of the cell, if a part of the disc is outside of one side.
-    const besideX = !periodX ? 0 : x - r < cellX ? periodX : x + r > cellX + periodX ? -periodX : 0;
-    const besideY = !periodY ? 0 : y - r < cellY ? periodY : y + r > cellY + periodY ? -periodY : 0;
-    for (const shiftX of besideX ? [0, besideX] : [0])
-      for (const shiftY of besideY ? [0, besideY] : [0]) {
+    // The periods to the opposite side of the cell, if a part of the disc is outside of one side.
+    const besideX = !periodX ? 0 : x - r < cellX ? 1 : x + r > cellX + periodX ? -1 : 0;
+    const besideY = !periodY ? 0 : y - r < cellY ? 1 : y + r > cellY + periodY ? -1 : 0;
+    for (const alongX of isSheared ? [0, 1, -1] : besideX ? [0, besideX] : [0])
+      for (const alongY of isSheared ? [0, 1, -1] : besideY ? [0, besideY] : [0]) {
+        const [shiftX, shiftY] = imageShift([alongX, alongY, 0]);
         const pageAtX = pageX[k] + view.scale * shiftX, pageAtY = pageY[k] - view.scale * shiftY;
         const size = pageRadius[k];
         if (!size) continue;
@@ -214,10 +215,9 @@ const shifted = (k, shift, sign) =>
 // Calls line(x1, y1, x2, y2) for the line from one particle to the nearest copy of another that is
 // shifted by periods; if it is shifted, also for the line that ends at the other particle itself.
 function betweenParticles(first, second, line) {
-  const shift = [periodX, periodY, periodZ].map((period, d) => {
-    const apart = positions[second * dim + d] - positions[first * dim + d];
-    return period ? -period * Math.round(apart / period) : 0;
-  });
+  const apart = [0, 1, 2].map(
+    d => (d < dim ? positions[second * dim + d] - positions[first * dim + d] : 0));
+  const shift = imageShift(nearestPeriods(apart).map(n => -n));
   const beyond = shifted(second, shift, 1);
   line(pageX[first], pageY[first], beyond.x, beyond.y);
   if (!shift.some(s => s)) return;
@@ -340,13 +340,13 @@ function shiftOf(i) {
   if (!images) return kNoShift;
   const image = images[lines.pair[i]];
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
-  return [periodX, periodY, periodZ].map((period, d) => {
+  return imageShift([periodX, periodY, periodZ].map((period, d) => {
     if (!period) return 0;
     const now = positions[second * dim + d] - positions[first * dim + d];
     const then = writtenPlace(lines.frame, second, d) - writtenPlace(lines.frame, first, d);
     const periods = Math.floor((image + 13) / 3 ** d) % 3 - 1;
-    return period * (periods - Math.round((now - then) / period));
-  });
+    return periods - Math.round((now - then) / period);
+  }));
 }
 
 // Traces the line of contact i: between the centres or, with plates, the middle lines of two

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <tuple>
 #include <vector>
 
 #include "tests/common/failure.hpp"
@@ -83,6 +84,15 @@ TEST(Arrangement, HasItsGapsInEachDomainUpToTheAreaFraction06) {
         EXPECT_GE(smallest_gap(x, domain), kGap - 1e-13) << fraction << " " << seed;
         EXPECT_GE(smallest_gap_to_walls(x, domain), kGap - 1e-13) << fraction << " " << seed;
       }
+}
+
+// In these dense cells the last push of a round moved a disc too close to one whose turn was over.
+TEST(Arrangement, HasItsGapsAfterTheLastPush) {
+  for (const auto& [width, height, count] : {std::tuple{3.508, 13.461, 11}, {3.832, 13.517, 13}}) {
+    const BoxDomain cell{{0, 0}, {width, height}, {true, true}};
+    const auto x = arrange({equal(static_cast<std::size_t>(count)), kGap, 1}, cell, {});
+    EXPECT_GE(smallest_gap(x, cell), kGap - 1e-13) << count;
+  }
 }
 
 TEST(Arrangement, IsDecidedByItsSeed) {

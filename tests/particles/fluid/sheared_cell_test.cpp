@@ -263,5 +263,24 @@ TEST(ShearedCell, HasTheGapOfAContactWithTheImageThatMoves) {
   EXPECT_NEAR(gaps[0], gaps[1], 1e-13);
 }
 
+/// Two flat ellipses above each other, whose circles overlap, within the cell and across its side.
+/// After the time 1 the image below has moved by -1 along x.
+TEST(ShearedCell, HasTheOverlapsOfEllipsesAndNotOfTheirCircles) {
+  auto system = in_fluid(2, 1, 0.1, 0.01);
+  system.setting.domain = BoxDomain{{0, 0}, {8, 6}, {true, true}};
+  system.setting.fluid->boundary = LinearFlow{{0, 1.0 / 6, 0, 0}};
+  for (const Vector& at :
+       {Vector{4, 3, 0}, Vector{4, 3.7, 0}, Vector{4, 0.2, 0}, Vector{5, 5.5, 0}})
+    add_pushed(system, at, 1, 0, {});
+  system.setting.fluid->semi_axes.assign(4, {1, 0.25});
+  auto& p = system.state.particles;
+  p.angles.assign(4, 0);
+  p.cell = cell_of(system.setting);
+  p.cell.moved_for = system.state.time = 1;
+  EXPECT_EQ(largest_overlap(system.setting, system.state), 0);
+  p.positions[7] = 5.8;  // the image of the last ellipse at (4, -0.2) overlaps the third by 0.1
+  EXPECT_NEAR(largest_overlap(system.setting, system.state), 0.1, 1e-9);
+}
+
 }  // namespace
 }  // namespace viscontact::particles

@@ -202,6 +202,28 @@ TEST(ParticlesPicture, ShowsTheCellWithImagesOfDiscsAtItsSides) {
   EXPECT_EQ(count_of("<circle ", particles_picture(playback, "Inside", 1)), 1U);
 }
 
+// In a sheared cell the image of the disc at the lower side has moved to the right by 0.5 * 8.
+TEST(ParticlesPicture, ShowsImagesWhereTheShearHasMovedThem) {
+  auto playback = one_particle();
+  playback.cell = {{0, 0}, {10, 8}, {0, 1, 0, 0}};
+  playback.frames[0].time = 0.5;
+  playback.frames[0].positions = {3, 0};
+  const auto svg = particles_picture(playback, "Sheared", 1);
+  const std::regex circle("<circle cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"([0-9.]+)\"");
+  std::vector<double> x, y;
+  double r = 0;
+  for (auto at = std::sregex_iterator(svg.begin(), svg.end(), circle); at != std::sregex_iterator();
+       ++at) {
+    x.push_back(std::stod((*at)[1]));
+    y.push_back(std::stod((*at)[2]));
+    r = std::stod((*at)[3]);
+  }
+  ASSERT_EQ(x.size(), 2U);
+  // The radius is 0.5; numbers in the picture are rounded to 0.01.
+  EXPECT_NEAR((x[1] - x[0]) / (2 * r), 4, 0.01);
+  EXPECT_NEAR((y[0] - y[1]) / (2 * r), 8, 0.01);
+}
+
 TEST(ParticlesPicture, WordsOfScalesNeitherOverlapNorLeaveThePicture) {
   const TemporaryFolder folder;
   auto in_fluid = disc_in_flow(folder, 1, report::turning);

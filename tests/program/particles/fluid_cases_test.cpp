@@ -169,6 +169,8 @@ TEST_F(ShippedFluidCase, ADiscInAChannel) {
 TEST_F(ShippedFluidCase, Lattices) {
   last_of(cut("viscosity_lattice_axes", 0.01, 1));
   EXPECT_NEAR(last("steps.csv", kApparentViscosity), 1.263338, 1e-4);
+  // At the end the images have moved, and the fluid solver knows the cell at the start only.
+  EXPECT_FALSE(fs::exists(out() / "flow_00001.vtu"));
   last_of(cut("viscosity_lattice_diagonals", 0.01, 1));
   EXPECT_NEAR(last("steps.csv", kApparentViscosity), 1.192224, 1e-4);
 }
