@@ -53,7 +53,7 @@ TEST_F(ParticlesCommand, WritesNoMessageIntoItsFilesIfItHasNoStandardStreams) {
                                               out().string()};
   expect_done(run_viscontact(arguments, {}, "exec <&- >&- 2>&-;"));
   for (const auto* name : {"steps.csv", "final_particles.csv", "final_contacts.csv"})
-    EXPECT_THAT(content(out() / name), ::testing::StartsWith("# provenance: ")) << name;
+    EXPECT_THAT(read_file(out() / name), ::testing::StartsWith("# provenance: ")) << name;
 }
 
 TEST_F(ParticlesCommand, FramesOfALongerRunDoNotStay) {
