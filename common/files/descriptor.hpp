@@ -1,7 +1,7 @@
-// A file descriptor (POSIX) that is closed when its object is destroyed. common/files/,
-// common/system/ and freefem_axi/journal/ use it for files, locks and child processes. Nothing is
-// thrown: the code that opens a file checks its descriptor. A change must keep that no descriptor
-// is closed twice.
+// A file descriptor (POSIX) that is closed when its object is destroyed, and a write to it.
+// common/files/, common/system/ and freefem_axi/journal/ use it for files, locks and child
+// processes. Nothing is thrown: the code that opens a file checks its descriptor. A change must
+// keep that no descriptor is closed twice.
 #pragma once
 
 #include <unistd.h>
