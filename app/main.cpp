@@ -1,7 +1,9 @@
 // The program viscontact: reads the command line and runs the command that it names
 // (commands/commands.hpp). Every Error is caught in main(), which prints its message and returns
 // its exit code (results/exit_code.hpp); so are all other exceptions, and a change must keep this.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -94,12 +96,23 @@ int run(int argc, char** argv) {
   return healthy ? 0 : results::exit_code_of(ErrorKind::kExternalProgram);
 }
 
+/// Opens a file in place of each standard stream that this process was started without. Otherwise
+/// the next file that a command opens would get the number of that stream, and messages would be
+/// written into it. What is opened here can be neither read nor written, so that a missing standard
+/// output is still an error.
+void occupy_missing_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0)
+      (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 }  // namespace
 }  // namespace viscontact::app
 
 int main(int argc, char** argv) {
   using viscontact::ErrorKind;
   using viscontact::results::exit_code_of;
+  viscontact::app::occupy_missing_streams();
   viscontact::app::catch_interrupts();
   try {
     const int exit_code = viscontact::app::run(argc, argv);

@@ -465,6 +465,12 @@ lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const Fi
                                  const StopToken& stop) {
   check_linearity(table);
   check_gaps(table, settings);
+  if (const auto& scales = settings.row_scales;
+      !scales.empty() && (scales.size() != table.rows.size() ||
+                          !std::ranges::all_of(scales, [](double scale) { return scale > 0; })))
+    throw Error(ErrorKind::kBadInput, fmt::format("row_scales must be empty or have one number > 0 "
+                                                  "for each of the {} rows of the table",
+                                                  table.rows.size()));
   const double fixed = settings.fix_leading ? fixed_leading(table, settings) : 0;
   const auto equations = assemble(table, settings, fixed);
   const auto solution = solve_robust_least_squares(equations.weight.asDiagonal() * equations.terms,

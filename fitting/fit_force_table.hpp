@@ -41,7 +41,7 @@ struct FitSettings {
 /// Fits a table with at least one row. A force F at the velocity u counts as F u0/u at the velocity
 /// u0 of the first row, because Stokes flow is linear in the velocity. All members of the fit are
 /// set except table_sha256 and versions. Throws Error(kBadInput) if the table has fewer different
-/// gaps than coefficients to fit or than two, if F/u of two rows of equal gap differs by more than
+/// gaps than coefficients to fit or than two, if `row_scales` is not as its comment says, if F/u of two rows of equal gap differs by more than
 /// the sum of their error estimates (unless both are 0: not known), if `fix_leading` is true but
 /// the basis has no other term, lacks 1/q, or there is no value for its coefficient, or if double
 /// precision cannot hold the result; Error(kNotConverged) if the terms are linearly dependent on

@@ -48,15 +48,20 @@ WallShift fit_wall_shift(const lubrication::MotionTable& rough,
                 fmt::format("the table has viscosity {} and radius {}, and the fit has viscosity "
                             "{} and radius {}; they must be equal",
                             rough.viscosity, rough.radius, smooth.viscosity(), smooth.radius()));
+  const auto [smallest, largest] = smooth.interval();
+  if (smallest == 0 || !std::isfinite(largest))
+    throw Error(ErrorKind::kBadInput,
+                "the smooth wall has a formula for gaps outside its fitted interval; give a force "
+                "without one (OutsideInterval)");
   WallShift result;
   // Bounds of the shift, so that all shifted gaps are in the interval of the smooth force.
   double least = 0;
-  double most = smooth.interval()[1];
+  double most = largest;
   for (const auto& row : rough.rows) {
     const double shift = smooth_gap_of(smooth, resistance_of(row), row) - row.gap;
     result.rows.push_back({row.gap, shift, 0, row.relative_error_estimate});
-    least = std::max(least, smooth.interval()[0] - row.gap);
-    most = std::min(most, smooth.interval()[1] - row.gap);
+    least = std::max(least, smallest - row.gap);
+    most = std::min(most, largest - row.gap);
   }
 
   // Gauss-Newton starts at the median of the shifts that single rows need, within the bounds.

@@ -35,8 +35,8 @@ struct WallShift {
 };
 
 /// Fits q_s >= 0 in R_rough(q) = R_smooth(q + q_s): minimises the sum over the rows of `rough` of
-/// (R_smooth(q + q_s)/R_rough(q) - 1)^2. `smooth` has no formula for gaps outside its fitted
-/// interval (OutsideInterval), and all q + q_s are in this interval. Throws Error(kBadInput) if
+/// (R_smooth(q + q_s)/R_rough(q) - 1)^2. All q + q_s are in the fitted interval of `smooth`. Throws
+/// Error(kBadInput) if `smooth` has a formula for gaps outside this interval (OutsideInterval), if
 /// viscosity or radius of table and smooth force differ, or if a resistance of the table is not one
 /// of the smooth force in its interval; Error(kNotConverged) after 100 steps of the iteration.
 WallShift fit_wall_shift(const lubrication::MotionTable& rough,

@@ -11,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 
 #include "viscontact/common/error.hpp"
@@ -51,13 +52,19 @@ std::array<double, 2> middle_of(std::vector<double>& values) {
   return {at(0.025), at(0.975)};
 }
 
-/// The times at which gaps are computed [T]. The first is that of 0, the jumps of the external
-/// force and the end at which the impulse of this force is least, where the gap is smallest if the
-/// force has one sign between jumps. Then follow `times` equidistant times from 0 to the end.
+/// The times at which gaps are computed [T]. The first is the one at which the impulse of the
+/// external force is least, and with it the gap: 0, a time at which the force jumps or changes its
+/// sign, or the end. Then follow `times` equidistant times from 0 to the end.
 std::vector<double> instants_of(const Motion& motion, std::size_t times) {
   auto ends = motion.external_force.jumps();
   std::erase_if(ends, [&](double t) { return t > motion.end_time; });
   ends.insert(ends.end(), {0, motion.end_time});
+  try {
+    std::ranges::copy(motion.external_force.sign_changes(motion.end_time),
+                      std::back_inserter(ends));
+  } catch (const Error&) {
+    // The force has too many periods to find all its changes of sign.
+  }
   std::vector<double> instants = {*std::ranges::min_element(
       ends, {}, [&](double t) { return motion.external_force.impulse(t); })};
   for (std::size_t i = 0; i < times; ++i)

@@ -53,8 +53,9 @@ inline constexpr std::size_t kDraws = 10000;
 ///   misfit  uses |R_fit/R - 1| <= misfit, so that Gamma_fit(q(t)) is between Gamma_fit(q0) +
 ///           (1 - misfit) int f_ext and Gamma_fit(q0) + (1 + misfit) int f_ext. This bound is valid
 ///           for every shape of the misfit, as far as the misfit is known at the gaps of the table.
-/// Outside the fit's interval the drag follows outside.with_limits(). The smallest gap, q_min, is
-/// sought only at 0, at the jumps of f_ext or its slope, and at the end. `times` is the number of
+/// Outside the fit's interval the drag follows outside.with_limits(). The smallest gap, q_min, is at
+/// 0, where f_ext changes its sign, or at the end. If f_ext has too many periods for
+/// ExternalForce::sign_changes(), its changes through 0 are left out. `times` is the number of
 /// further, equidistant instants from 0 to motion.end_time; 0 asks for q_min alone. Equal arguments
 /// give equal numbers. Throws the Errors of LubricationForce if it refuses the fit itself or cannot
 /// compute a gap with it, and Error(kNotConverged) if all draws were left out.

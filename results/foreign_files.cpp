@@ -1,6 +1,7 @@
 // Recognises files of Viscontact by their provenance, the record of how a file was made
-// (provenance.hpp), in their first MiB, for all commands that write files. A file that must not be
-// replaced is an Error(kBadInput). A change must still recognise files of earlier versions.
+// (provenance.hpp), in their first MiB or, in a PDF, in their last one, for all commands that write
+// files. A file that must not be replaced is an Error(kBadInput). A change must still recognise
+// files of earlier versions.
 #include "viscontact/results/foreign_files.hpp"
 
 #include <fmt/format.h>
@@ -37,10 +38,20 @@ std::string read_head(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw_bad_input({path.string()}, fmt::format("cannot be read ({})", std::strerror(errno)));
-  std::string head(kMost, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
-  return head;
+  std::string text;
+  const auto read_most = [&] {
+    std::string part(kMost, '\0');
+    file.read(part.data(), static_cast<std::streamsize>(part.size()));
+    text += part.substr(0, static_cast<std::size_t>(file.gcount()));
+  };
+  read_most();
+  // The provenance of a PDF is in its last lines. If the file is shorter than both parts together, a
+  // part of it is read twice.
+  if (text.starts_with("%PDF-") && file) {
+    file.seekg(-static_cast<std::streamoff>(kMost), std::ios::end);
+    read_most();
+  }
+  return text;
 }
 
 bool is_written_by_viscontact(const std::filesystem::path& path) {

@@ -9,12 +9,12 @@
 
 namespace viscontact::results {
 
-/// The first MiB of a file. Every output of Viscontact has its provenance there, the record of how
-/// it was made, unless it is a PDF of more than 1 MiB. Throws Error(kBadInput) that names the path
-/// if the file cannot be read.
+/// The first MiB of a file, and of a longer PDF also the last MiB, behind the first. Every output of
+/// Viscontact has its provenance there, the record of how it was made. Throws Error(kBadInput) that
+/// names the path if the file cannot be read.
 std::string read_head(const std::filesystem::path& path);
 
-/// True if Viscontact wrote the file at `path`, which must exist. Only its first MiB is read,
+/// True if Viscontact wrote the file at `path`, which must exist. Only read_head() is searched,
 /// because a restart file can be a gigabyte long. Throws the error of read_head().
 bool is_written_by_viscontact(const std::filesystem::path& path);
 

@@ -181,12 +181,9 @@ SpherePlan planned_sphere(const case_file::Case& c) {
 
 Study sphere_study(SpherePlan plan, const std::string& version) {
   const SphereTemplate cases(plan.case_path);
-  if (plan.points.variations.empty())
-    throw Error(ErrorKind::kWrongUsage, "the sweep varies no key");
   if (plan.fit.basis.empty())
     throw Error(ErrorKind::kWrongUsage, "the sweep has no fit of the drag");
   if (plan.reference.empty()) plan.reference = reduced_model::reference_of(plan.models);
-  refuse_doubles(plan.points.keys(), "the key");
   refuse_doubles(plan.models, "the model");
   for (const auto& model : plan.models) (void)reduced_model::find_model(model);
   for (const auto& key : plan.points.keys()) refuse_unread(key);

@@ -86,10 +86,14 @@ auto at_point(const Points& points, std::uint64_t index, const Make& make) {
   }
 }
 
-/// Calls `make`, which makes a case, for the first and the last row, so that a range that leads to
-/// a wrong case is an Error before rows are computed.
+/// Throws Error(kWrongUsage) if nothing or a key twice is varied. Then calls `make`, which makes a
+/// case, for the first and the last row, so that a range that leads to a wrong case is an Error
+/// before rows are computed.
 template <class Make>
 void check_ends(const Points& points, const Make& make) {
+  if (points.variations.empty() && points.draws == 0)
+    throw Error(ErrorKind::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
+  refuse_doubles(points.keys(), "the key");
   for (const std::uint64_t index : {std::uint64_t{0}, points.rows() - 1})
     at_point(points, index, make);
 }

@@ -1,11 +1,14 @@
-// A file descriptor (POSIX) that is closed when its object is destroyed. common/files/,
-// common/system/ and freefem_axi/journal/ use it for files, locks and child processes. Nothing is
-// thrown: the code that opens a file checks its descriptor. A change must keep that no descriptor
-// is closed twice.
+// A file descriptor (POSIX) that is closed when its object is destroyed, and a write to it.
+// common/files/, common/system/ and freefem_axi/journal/ use it for files, locks and child
+// processes. Nothing is thrown: the code that opens a file checks its descriptor. A change must
+// keep that no descriptor is closed twice.
 #pragma once
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <string_view>
 #include <utility>
 
 namespace viscontact {
@@ -34,5 +37,16 @@ class Descriptor {
  private:
   int descriptor_;
 };
+
+/// Writes all of `text` at the position of an open file. Returns false, with the reason in errno, if
+/// that fails; a part of the text may then have been written.
+inline bool write_all(const Descriptor& file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(file.get(), text.data(), text.size());
+    if (count < 0 && errno != EINTR) return false;
+    text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(0, count)));
+  }
+  return true;
+}
 
 }  // namespace viscontact

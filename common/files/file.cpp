@@ -38,22 +38,24 @@ constexpr std::string_view kUnfinishedOf = ".viscontact-", kUnfinished = ".tmp";
 /// NAME is `of`, or any name if `of` is empty.
 void remove_left_behind(const std::filesystem::path& folder, const std::string& of) {
   std::error_code ignored;  // a folder that cannot be read is left as it is
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
+  // A range-based for would call the operator ++, which throws.
+  for (std::filesystem::directory_iterator entry(folder, ignored), end; entry != end;
+       entry.increment(ignored)) {
+    const std::string name = entry->path().filename().string();
     const auto after = name.rfind(kUnfinishedOf);
     if (after == std::string::npos || !name.ends_with(kUnfinished) ||
         (!of.empty() && name.compare(0, after, of) != 0))
       continue;
     const char* const begin = name.data() + after + kUnfinishedOf.size();
-    const char* const end = name.data() + name.size() - kUnfinished.size();
+    const char* const end_of_number = name.data() + name.size() - kUnfinished.size();
     pid_t process = 0;
-    const auto number = std::from_chars(begin, std::max(begin, end), process);
-    if (number.ec != std::errc() || number.ptr != end || process <= 0) continue;
+    const auto number = std::from_chars(begin, std::max(begin, end_of_number), process);
+    if (number.ec != std::errc() || number.ptr != end_of_number || process <= 0) continue;
     if (::kill(process, 0) == 0 || errno != ESRCH) continue;
     // On a shared disk the file may belong to a process on another machine, which has locked it.
-    const Descriptor file(::open(entry.path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
+    const Descriptor file(::open(entry->path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
     if (file.get() >= 0 && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0)
-      ::unlink(entry.path().c_str());
+      ::unlink(entry->path().c_str());
   }
 }
 
@@ -99,12 +101,7 @@ std::filesystem::path put_content(const std::filesystem::path& path, std::string
                                   bool is_flushed) {
   return put_in_place(path, is_flushed, [&](const std::filesystem::path& beside) {
     auto file = open_locked(path, beside, O_WRONLY | O_CREAT | O_TRUNC);
-    while (!content.empty()) {
-      const ssize_t count = ::write(file.get(), content.data(), content.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) throw_system_error(path, "written", errno);
-      content.remove_prefix(static_cast<std::size_t>(count));
-    }
+    if (!write_all(file, content)) throw_system_error(path, "written", errno);
     return file;
   });
 }

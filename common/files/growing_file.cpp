@@ -64,7 +64,7 @@ void GrowingFile::append(std::string_view lines) {
 }
 
 void GrowingFile::sync() {
-  if (!waiting_.empty()) write_waiting();
+  if (!waiting_.empty() || file_.get() < 0) write_waiting();
   if (::fsync(file_.get()) != 0) throw_cannot_be("written", path_);
 }
 
@@ -88,14 +88,8 @@ void GrowingFile::write_waiting() {
 }
 
 void GrowingFile::write_at(std::uint64_t place, std::string_view text) const {
-  while (!text.empty()) {
-    const ssize_t count =
-        ::pwrite(file_.get(), text.data(), text.size(), static_cast<off_t>(place));
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw_cannot_be("written", path_);
-    place += static_cast<std::uint64_t>(count);
-    text.remove_prefix(static_cast<std::size_t>(count));
-  }
+  if (::lseek(file_.get(), static_cast<off_t>(place), SEEK_SET) < 0 || !write_all(file_, text))
+    throw_cannot_be("written", path_);
 }
 
 }  // namespace viscontact

@@ -23,9 +23,9 @@ struct FileEnd {
 /// that sync() has not written when the object is destroyed are lost.
 class GrowingFile {
  public:
-  /// A new file at `path` with the lines `head`. It is made, and replaces an earlier file, when the
-  /// first lines are written. At any time the file ends with `foot`, which may be empty, such as
-  /// the closing tags of XML.
+  /// A new file at `path` with the lines `head`, which may be empty. It is made, and replaces an
+  /// earlier file, when the first lines are written, at the latest by sync(). At any time the file
+  /// ends with `foot`, which may be empty, such as the closing tags of XML.
   GrowingFile(std::filesystem::path path, std::string_view head, std::string foot = "");
 
   /// Throws Error(kBadInput), which names the path, if the file cannot be read, is shorter than

@@ -57,12 +57,7 @@ Descriptor open_and_lock(const std::filesystem::path& path, const std::string& m
 }
 
 void append_to(const Descriptor& file, std::string_view text, const std::filesystem::path& path) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(file.get(), text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw_not_written(path, errno);
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
+  if (!write_all(file, text)) throw_not_written(path, errno);
 }
 
 void sync_file(const Descriptor& file, const std::filesystem::path& path) {

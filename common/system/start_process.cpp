@@ -4,6 +4,7 @@
 // a lock at the moment of the fork.
 #include "viscontact/common/system/start_process.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -23,13 +24,25 @@ struct Pipe {
   Descriptor read_end{}, write_end{};
 };
 
+/// The open file `number`, which is closed if its number is that of a standard stream, under another
+/// number. If this process was started without such a stream, a new file can have its number, and
+/// dup2() of this number to itself would leave the file to be closed when the child becomes the
+/// program.
+Descriptor beyond_standard_streams(int number) {
+  if (number > STDERR_FILENO) return Descriptor(number);
+  const Descriptor standard(number);
+  const int other = ::fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  if (other < 0) throw std::system_error(errno, std::generic_category(), "fcntl");
+  return Descriptor(other);
+}
+
 /// Makes a pair of sockets and not a pipe, because send() with MSG_NOSIGNAL fails with EPIPE if the
 /// child no longer reads, while a write to a pipe would raise SIGPIPE.
 Pipe make_pipe() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw std::system_error(errno, std::generic_category(), "socketpair");
-  return {Descriptor(ends[0]), Descriptor(ends[1])};
+  return {beyond_standard_streams(ends[0]), beyond_standard_streams(ends[1])};
 }
 
 /// The variables of this process that `added` does not set, followed by `added`.

@@ -99,7 +99,6 @@ ParticlesSweep::ParticlesSweep(const std::filesystem::path& case_path, sweep::Po
     throw Error(ErrorKind::kWrongUsage,
                 "random samples need a varied key, which gives their range");
   check_varied_keys(points_);
-  sweep::refuse_doubles(points_.keys(), "the key");
   // A free choice, the same as for the points of a grid in sweep/variation.cpp. Without a limit the
   // product of points and draws could exceed 64 bits.
   constexpr std::uint64_t kMostRows = 1000000000000;

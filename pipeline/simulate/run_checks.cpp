@@ -27,6 +27,7 @@ void check_run(const case_file::Case& c, const std::vector<std::string>& models)
   const auto& gaps = case_file::required_tabulation(c).gaps;
   const auto& request = case_file::required_fit(c);
   const auto& motion = case_file::required_motion(c);
+  const auto exact = lubrication::LubricationForce::exact_plane(c.viscosity, c.radius);
   const std::size_t different = std::set(gaps.begin(), gaps.end()).size();
   const std::size_t terms =
       request.settings.basis.terms.size() - (request.settings.fix_leading ? 1 : 0);
@@ -45,14 +46,17 @@ void check_run(const case_file::Case& c, const std::vector<std::string>& models)
   };
   for (const auto& name : models) {
     const auto choice = reduced_model::find_model(name);
-    if (choice.exact_drag || choice.model->contact != nullptr) continue;
-    if (motion.initial_gap < smallest &&
+    const bool makes_contact = choice.model->contact != nullptr;
+    if (!choice.exact_drag && !makes_contact && motion.initial_gap < smallest &&
         request.outside.below == lubrication::BelowInterval::kError)
       refuse(name, "below the smallest", smallest, "below = \"lubrication_limit\"");
-    if (motion.initial_gap > largest && request.outside.above == lubrication::AboveInterval::kError)
+    check_parameters(c, {name});
+    // Some contact models resolve the drag above the gap of contact.
+    if (!choice.exact_drag && motion.initial_gap > largest &&
+        request.outside.above == lubrication::AboveInterval::kError &&
+        (!makes_contact || reduced_model::contact_model_of(choice, motion, exact).drag))
       refuse(name, "above the largest", largest, "above = \"stokes_limit\"");
   }
-  check_parameters(c, models);
 }
 
 void warn_of_gaps_outside(const case_file::Case& c, const std::vector<std::string>& models,

@@ -18,9 +18,9 @@ namespace viscontact::pipeline {
 void check_parameters(const case_file::Case& c, const std::vector<std::string>& models);
 
 /// Throws Error(kBadInput), which names the case, if it has fewer different gaps than coefficients
-/// to be fitted, if a model that is no contact model would start at a gap outside the case's gaps
-/// while the case asks for no formula there (keys `below`, `above` of [fit]), or if
-/// check_parameters() throws.
+/// to be fitted, if a model would start above the case's gaps, or a model that is no contact model
+/// below them, and needs the drag there while the case asks for no formula (keys `below`, `above` of
+/// [fit]), or if check_parameters() throws.
 void check_run(const case_file::Case& c, const std::vector<std::string>& models);
 
 /// Warns on standard error if models will leave the interval of the case's gaps, and says how far.

@@ -256,8 +256,7 @@ Trajectory simulate_inertial(const Motion& motion, const lubrication::Lubricatio
   return InertialRun(motion, force, 0).run();
 }
 
-Trajectory simulate_inertial_rough(const Motion& motion,
-                                   const lubrication::LubricationForce& force) {
+void check_start_outside_roughness(const Motion& motion) {
   const double solid_gap = motion.roughness[0] + motion.roughness[1];
   if (!(motion.initial_gap > solid_gap))
     throw Error(
@@ -265,7 +264,12 @@ Trajectory simulate_inertial_rough(const Motion& motion,
         fmt::format("motion.initial_gap is {}; it must be greater than the roughness heights "
                     "together, {}",
                     motion.initial_gap, solid_gap));
-  return InertialRun(motion, force, solid_gap).run();
+}
+
+Trajectory simulate_inertial_rough(const Motion& motion,
+                                   const lubrication::LubricationForce& force) {
+  check_start_outside_roughness(motion);
+  return InertialRun(motion, force, motion.roughness[0] + motion.roughness[1]).run();
 }
 
 }  // namespace viscontact::reduced_model

@@ -59,9 +59,11 @@ inline constexpr std::array kInertialRoughParameters = {kReferenceTimeStep, kRel
 /// without external force, before and after the impact; the latter is 0 if the film stops the
 /// sphere before it gets there.
 ///
-/// Throws the errors of simulate_inertial(), and Error(kBadInput) if the initial gap is not greater
-/// than r1 + r2.
+/// Throws the errors of simulate_inertial() and of check_start_outside_roughness().
 Trajectory simulate_inertial_rough(const Motion& motion,
                                    const lubrication::LubricationForce& force);
+
+/// Throws Error(kBadInput) unless the initial gap is greater than r1 + r2 above.
+void check_start_outside_roughness(const Motion& motion);
 
 }  // namespace viscontact::reduced_model

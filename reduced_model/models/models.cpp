@@ -105,7 +105,8 @@ constexpr std::array kModels = {
           viscous_contact_leapfrog, kOnRequest, kInertia, kFluid, kContactParameters,
           &kContactTimeStep},
     Model{"inertial_rough", "with inertia and solid contact, CVODE", simulate_inertial_rough,
-          nullptr, kOnRequest, kInertia, kFluid, kInertialRoughParameters},
+          nullptr, kOnRequest, kInertia, kFluid, kInertialRoughParameters, nullptr, "variable",
+          !kInSweeps, !kUsualReference, check_start_outside_roughness},
     // A new model stands here, at the end, so that the others keep their colours in the report.
 };
 
@@ -270,6 +271,7 @@ void check_model(const ModelChoice& choice, const Motion& motion,
   with_place("model " + choice.name, [&] {
     for (const auto& parameter : choice.model->parameters)
       if (parameter.is_time_step) (void)step_count(motion.end_time, motion.parameter(parameter));
+    if (choice.model->check != nullptr) choice.model->check(motion);
     if (choice.model->contact != nullptr) (void)contact_model_of(choice, motion, force);
   });
 }

@@ -42,6 +42,8 @@ struct Model {
   bool in_sweeps = false;
   /// True for the one model that others are compared with when a user names no reference.
   bool usual_reference = false;
+  /// Throws the Error(kBadInput) of `simulate` for a motion that it refuses; null if there is none.
+  void (*check)(const Motion&) = nullptr;
 };
 
 /// All models. The place of a model here decides on the colour of its lines in the report.
@@ -113,9 +115,10 @@ ContactModel contact_model_of(const ModelChoice& choice, const Motion& motion,
 /// The description of the model and of its suffixes, a line for legends.
 std::string description_of(const ModelChoice& choice);
 
-/// Throws the Error(kBadInput) that simulate() would throw for a time step that is too short or, if
-/// the model is a contact model, for a gap, a roughness or a fit that it refuses, but does not run
-/// the model. Of `force`, only its interval and its coefficient k are used.
+/// Throws the Error(kBadInput) that simulate() would throw for a time step that is too short, for a
+/// motion that the model refuses (Model::check) or, if the model is a contact model, for a gap, a
+/// roughness or a fit that it refuses, but does not run the model. Of `force`, only its interval and
+/// its coefficient k are used.
 void check_model(const ModelChoice& choice, const Motion& motion,
                  const lubrication::LubricationForce& force);
 

@@ -87,11 +87,8 @@ RollingPlan planned_rolling(const RollingCase& c) {
 
 sweep::Study rolling_study(RollingPlan plan, const std::string& version) {
   const case_file::CaseTemplate<RollingCase> cases(plan.case_path);
-  if (plan.points.variations.empty())
-    throw Error(ErrorKind::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
   if (plan.models.empty()) plan.models = cases.with({}).models;
   for (const auto& key : plan.points.keys()) check_rolling_key(key);
-  sweep::refuse_doubles(plan.points.keys(), "the key");
   for (const auto& model : plan.models) check_rolling_model(model);
   sweep::refuse_doubles(plan.models, "the model");
   const auto fit = motions::read_pair_fit(plan.fit_path);

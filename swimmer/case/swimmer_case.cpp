@@ -402,6 +402,13 @@ std::vector<case_file::KeyTable> tables_of_swimmer_case() {
           case_file::describe_keys("[optimal]", optimal_keys)};
 }
 
+std::vector<std::filesystem::path> files_of(const SwimmerCase& c) {
+  std::vector<std::filesystem::path> files = {c.path};
+  if (c.table_file) files.push_back(*c.table_file);
+  files.insert(files.end(), c.stroke_files.begin(), c.stroke_files.end());
+  return files;
+}
+
 SwimmerCase read_swimmer_case(const std::filesystem::path& path) {
   return case_file::read_case_file<SwimmerCase>(path);
 }

@@ -46,6 +46,9 @@ struct SwimmerCase {
 /// value and what is allowed.
 SwimmerCase read_swimmer_case(const std::filesystem::path& path);
 
+/// The case file and the files of tables and strokes that it names.
+std::vector<std::filesystem::path> files_of(const SwimmerCase& c);
+
 /// What docs/case-file.md says about the keys of each section.
 std::vector<case_file::KeyTable> tables_of_swimmer_case();
 

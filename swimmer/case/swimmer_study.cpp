@@ -1,6 +1,8 @@
 // Computes the strokes of a sweep (swimmer_study.hpp). Numbers are in the units of the case. Used
 // by the command `sweep`. A key that cannot be varied is an Error(kWrongUsage); a stroke that fails
-// leaves its columns empty. A change must keep the names of the columns, which users' scripts read.
+// leaves its columns empty. A change must keep the names of the columns, which users' scripts read,
+// and put everything that determines the rows into the head, so that rows of another sweep are not
+// kept.
 #include "viscontact/swimmer/case/swimmer_study.hpp"
 
 #include <fmt/format.h>
@@ -8,6 +10,7 @@
 #include <utility>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/swimmer/case/swimmer_case.hpp"
@@ -57,10 +60,7 @@ sweep::RowResults swim_strokes(const SwimmerCase& c, ResistanceFit fit, const St
 sweep::Study swimmer_study(const std::filesystem::path& case_path, sweep::Points points,
                            const ResistanceFit& fit, const std::string& version) {
   const case_file::CaseTemplate<SwimmerCase> cases(case_path);
-  if (points.variations.empty())
-    throw Error(ErrorKind::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
   for (const auto& key : points.keys()) check_swimmer_key(key);
-  sweep::refuse_doubles(points.keys(), "the key");
   SwimmerCase last;
   sweep::check_ends(points, [&](const auto& numbers) {
     last = cases.with(numbers);
@@ -82,8 +82,10 @@ sweep::Study swimmer_study(const std::filesystem::path& case_path, sweep::Points
     if (last.stroke) study.results.emplace_back(result);
   for (const auto result : kSwimmerResults)
     if (last.optimal) study.results.push_back("optimal." + std::string(result));
-  study.comments =
-      sweep::head_of("sweep of a swimmer", cases.text(), points, sweep::text_of(points), version);
+  std::string identity = sweep::text_of(points);
+  const auto files = files_of(last);  // the first is the case, whose hash the head has
+  for (std::size_t i = 1; i < files.size(); ++i) identity += read_file(files[i]);
+  study.comments = sweep::head_of("sweep of a swimmer", cases.text(), points, identity, version);
   study.comments["fit"] = sha256(write_resistance_fit(fit));
   study.run = [cases, points, fit](std::uint64_t index, const StopToken& stop) {
     sweep::RowResults results;

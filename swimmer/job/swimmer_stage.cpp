@@ -220,9 +220,7 @@ void run_swimmer(const SwimmerRequest& request) {
   const SwimmerFolder folder{request.folder};
   check_files(folder);
   const LockedFolder lock(folder.path, results::kFolderIsLocked);
-  std::vector<fs::path> given = {results.c.path};
-  if (results.c.table_file) given.push_back(*results.c.table_file);
-  given.insert(given.end(), results.c.stroke_files.begin(), results.c.stroke_files.end());
+  const auto given = files_of(results.c);
   const auto of_fit = results::provenance_of({given, {}});
 
   if (results.c.table_file)

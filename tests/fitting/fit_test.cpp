@@ -126,6 +126,23 @@ TEST(Fit, WithEveryCoefficientHeldIsRefused) {
       HasSubstr("nothing to fit"));
 }
 
+TEST(Fit, NeedsAScaleForEachRow) {
+  const auto table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
+  const auto fitted_with = [&](std::size_t scales, double last) {
+    FitSettings settings;
+    settings.row_scales.assign(scales, 1);
+    settings.row_scales.back() = last;
+    return fit_force_table(table, settings);
+  };
+  EXPECT_NO_THROW(fitted_with(50, 1));
+  for (const std::size_t scales : {std::size_t{1}, std::size_t{49}, std::size_t{51}})
+    EXPECT_THAT(bad_input([&] { fitted_with(scales, 1); }),
+                HasSubstr("one number > 0 for each of the 50 rows"));
+  for (const double last : {0.0, -1.0, std::nan("")})
+    EXPECT_THAT(bad_input([&] { fitted_with(50, last); }),
+                HasSubstr("one number > 0 for each of the 50 rows"));
+}
+
 TEST(Fit, OfForcesThatNoDoubleCanSquareIsRefused) {
   auto table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
   table.rows[3].force = 1e305;

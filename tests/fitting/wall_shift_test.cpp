@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "tests/common/failure.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/motion_table.hpp"
@@ -77,6 +78,19 @@ TEST(WallShift, RefusesAnotherFluidAndADragBeyondTheFit) {
   table = shifted_table();
   table.rows[0].force *= 100;
   fails_with(table, "interval");
+}
+
+TEST(WallShift, RefusesASmoothWallWithAFormulaOutsideTheFit) {
+  const auto fit =
+      lubrication::read_fit(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/fits/lecture.json");
+  using lubrication::OutsideInterval;
+  for (const auto& outside :
+       {OutsideInterval{}.with_limits(), OutsideInterval{lubrication::BelowInterval::kTheoryLimit},
+        OutsideInterval{.above = lubrication::AboveInterval::kStokesLimit}})
+    EXPECT_THAT(bad_input([&] {
+                  fit_wall_shift(shifted_table(), lubrication::LubricationForce(fit, outside));
+                }),
+                HasSubstr("the smooth wall has a formula for gaps outside its fitted interval"));
 }
 
 }  // namespace

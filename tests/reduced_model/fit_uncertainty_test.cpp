@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
@@ -85,6 +86,29 @@ TEST(FitUncertainty, HoldsTheExactMinimumOfTheLecturesCase) {
     EXPECT_LE(gap.random[0], gap.gap * (1 + 1e-12));
     EXPECT_GE(gap.random[1], gap.gap * (1 - 1e-12));
   }
+}
+
+TEST(FitUncertainty, IsThatOfTheSmallestGapWhereTheForceTurnsWithinAPiece) {
+  // The force -sin t has its lowest impulse, cos t - 1 = -2, at pi, and no jump.
+  constexpr double k = 3;
+  Motion motion = lecture_motion();
+  motion.end_time = 5;
+  motion.external_force = ExternalForce::sinusoidal({-1, 1, 0});
+  const auto sine = propagate_fit(motion, leading_term_fit(k), 0);
+  EXPECT_NEAR(sine.smallest.time, std::numbers::pi, 1e-12);
+  EXPECT_NEAR(sine.smallest.gap / std::exp(-2 / k), 1, 1e-12);
+  // Samples from -1 at 0 to 1 at 2, with the impulse -1/2 at 1.
+  motion.end_time = 2;
+  motion.external_force = ExternalForce({{2, -1, {1}}});
+  const auto sampled = propagate_fit(motion, leading_term_fit(k), 0);
+  EXPECT_NEAR(sampled.smallest.time, 1, 1e-12);
+  EXPECT_NEAR(sampled.smallest.gap / std::exp(-0.5 / k), 1, 1e-12);
+}
+
+TEST(FitUncertainty, DoesNotFailForMorePeriodsThanCanBeFollowed) {
+  Motion motion = lecture_motion();
+  motion.external_force = ExternalForce::sinusoidal({1, 1e6, 0});
+  EXPECT_EQ(propagate_fit(motion, leading_term_fit(60), 0).smallest.time, 0);
 }
 
 TEST(FitUncertainty, IsTheSameAtEachCall) {

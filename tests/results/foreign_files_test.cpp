@@ -33,6 +33,23 @@ TEST(ForeignFiles, AreNotThoseThatAnotherProgramWroteAgainWithOtherSpaces) {
       is_written_by_viscontact(folder.file("notes.txt", "On the provenance of a command.\n")));
 }
 
+TEST(ForeignFiles, AreNotLongPdfsThatHaveTheirProvenanceAtTheEnd) {
+  const TemporaryFolder folder;
+  const auto pdf_of = [](std::size_t bytes) {
+    return "%PDF-1.5\n" + std::string(bytes, 'x') + "\nstartxref\n9\n%%EOF\n";
+  };
+  // Around one and two MiB, the lengths of the parts that are read, and longer.
+  for (const std::size_t bytes : {std::size_t{1} << 20U, (std::size_t{2} << 20U) - 500,
+                                  std::size_t{2} << 20U, std::size_t{5} << 20U}) {
+    const auto own =
+        folder.file("own.pdf", with_provenance(TextKind::kPdf, pdf_of(bytes), sample_provenance()));
+    EXPECT_NO_THROW(refuse_other_kind(own, "%PDF-", "picture")) << bytes;
+    const auto users = folder.file("users.pdf", pdf_of(bytes));
+    EXPECT_THAT(bad_input([&] { refuse_other_kind(users, "%PDF-", "picture"); }),
+                HasSubstr("is not a picture that Viscontact wrote"));
+  }
+}
+
 TEST(ForeignFiles, AreThoseOfAnotherKindToo) {
   const TemporaryFolder folder;
   const auto table = folder.file(

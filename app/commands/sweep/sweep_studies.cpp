@@ -20,6 +20,7 @@
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/rolling/case/rolling_study.hpp"
 #include "viscontact/sweep/sphere_study.hpp"
+#include "viscontact/swimmer/case/swimmer_case.hpp"
 #include "viscontact/swimmer/case/swimmer_study.hpp"
 
 namespace viscontact::app {
@@ -66,8 +67,6 @@ CaseStudy study_of_sphere(const SweepOptions& o) {
   results::refuse_other_kind(o.output, "# viscontact: sweep", "sweep");
   const case_file::Case c = case_file::read_case(o.case_file);
   sweep::SpherePlan plan = sphere_plan(o, c);
-  if (plan.points.variations.empty())
-    throw Error(ErrorKind::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
   if (plan.fit.basis.empty())
     throw Error(ErrorKind::kWrongUsage,
                 "the drag is not given: the section [fit] of the case has neither 'file' nor "
@@ -100,8 +99,9 @@ CaseStudy study_of_swimmer(const SweepOptions& o) {
   CaseStudy s{
       .study = swimmer::swimmer_study(o.case_file, std::move(points),
                                       swimmer::read_resistance_fit(o.fit), VISCONTACT_VERSION),
-      .files = {o.case_file, o.fit},
+      .files = swimmer::files_of(swimmer::read_swimmer_case(o.case_file)),
       .part = "stroke"};
+  s.files.emplace_back(o.fit);
   for (const char* column : {"displacement", "optimal.displacement"})
     if (std::ranges::find(s.study.results, column) != s.study.results.end())
       s.columns.emplace_back(column);
@@ -154,11 +154,13 @@ particles::ParticlesSweep sweep_of_particles(const SweepOptions& o) {
 
 CaseStudy study_of_particles(const particles::ParticlesSweep& sweep) {
   const auto c = particles::read_particles_case(sweep.case_path());
-  return {.study = sweep.study(VISCONTACT_VERSION, {}),
-          .files = {sweep.case_path()},
-          .part = "run",
-          .request = c.sweep.value_or(case_file::SweepRequest{}),
-          .columns = {c.setting.fluid ? "mean_apparent_viscosity" : "contacts"}};
+  CaseStudy s{.study = sweep.study(VISCONTACT_VERSION, {}),
+              .files = {sweep.case_path()},
+              .part = "run",
+              .request = c.sweep.value_or(case_file::SweepRequest{}),
+              .columns = {c.setting.fluid ? "mean_apparent_viscosity" : "contacts"}};
+  if (!c.particles_file.empty()) s.files.push_back(c.particles_file);
+  return s;
 }
 
 void sweep_many_particles(const SweepOptions& o, const particles::ParticlesSweep& sweep) {

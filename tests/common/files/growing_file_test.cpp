@@ -50,6 +50,15 @@ TEST_F(GrowingTable, HasItsHeadItsLinesAndItsFoot) {
   EXPECT_EQ(text(), "# head\nn\n1\n2\n3\nend\n");
 }
 
+TEST_F(GrowingTable, WithoutAHeadIsMadeBySyncBeforeItsFirstLine) {
+  GrowingFile growing(path_, "", "end\n");
+  growing.sync();
+  EXPECT_EQ(text(), "end\n");
+  growing.append("1\n");
+  growing.sync();
+  EXPECT_EQ(text(), "1\nend\n");
+}
+
 TEST_F(GrowingTable, DoesNotKeepManyLinesInMemory) {
   auto growing = file();
   std::string lines;

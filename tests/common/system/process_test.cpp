@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -11,6 +12,7 @@
 #include <thread>
 
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {
@@ -172,6 +174,23 @@ TEST(ProcessWithATimeLimit, IsAsWithoutIfItEndsInTime) {
   EXPECT_FALSE(result.timed_out);
   EXPECT_EQ(result.exit_status, 7);
   EXPECT_EQ(result.output, "input");
+}
+
+TEST(Process, HasAllItsStreamsIfThisProcessHasNone) {
+  const TemporaryFolder folder;
+  const auto said = folder.path() / "said";
+  const pid_t without_streams = ::fork();
+  ASSERT_GE(without_streams, 0);
+  if (without_streams == 0) {
+    for (const int stream : {0, 1, 2}) ::close(stream);
+    const auto result = shell("cat; echo errors >&2", {}, "input\n");
+    std::ofstream(said) << result.output;
+    ::_exit(result.exit_status);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(without_streams, &status, 0), without_streams);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(read_file(said), "input\nerrors\n");
 }
 
 TEST(Process, LeavesNoDescriptorOpen) {

@@ -48,6 +48,14 @@ TEST_F(ParticlesCommand, WritesWhatTheInterfacePromises) {
               ::testing::ContainsRegex("2,-1,[^,]*,-2,[^,]*,[^,]*,0,0\n"));
 }
 
+TEST_F(ParticlesCommand, WritesNoMessageIntoItsFilesIfItHasNoStandardStreams) {
+  const std::vector<std::string> arguments = {"particles", put_case(kCase).string(), "-o",
+                                              out().string()};
+  expect_done(run_viscontact(arguments, {}, "exec <&- >&- 2>&-;"));
+  for (const auto* name : {"steps.csv", "final_particles.csv", "final_contacts.csv"})
+    EXPECT_THAT(read_file(out() / name), ::testing::StartsWith("# provenance: ")) << name;
+}
+
 TEST_F(ParticlesCommand, FramesOfALongerRunDoNotStay) {
   expect_done(run(put_case(kCase), out()));
   put_text(out() / "particles_mine.vtp", "a user's own");

@@ -81,6 +81,19 @@ TEST_F(Run, GapsThatTheModelsOrTheBasisCannotDoWithAreFoundBeforeTheTabulation) 
           "motion.initial_gap is 2, which is above the largest gap of tabulation.gaps, 1.5");
   refused(replaced(text, "initial_gap = 1.0", "initial_gap = 0.01"),
           "motion.initial_gap is 0.01, which is below the smallest gap of tabulation.gaps, 0.05");
+  const auto of_model = [&](const std::string& model, const std::string& roughness) {
+    return replaced(
+        replaced(text, "end_time = 4.0", "end_time = 4.0\nmodels = [\"" + model + "\"]"),
+        "roughness = [0.0, 0.0]", "roughness = " + roughness);
+  };
+  for (const std::string model : {"viscous_contact_regular_drag", "viscous_contact_threshold"})
+    refused(replaced(of_model(model, "[0.0, 0.0]"), "initial_gap = 1.0", "initial_gap = 2.0"),
+            "motion.initial_gap is 2, which is above the largest gap of tabulation.gaps, 1.5; the "
+            "model " +
+                model + " needs the drag there");
+  refused(
+      replaced(of_model("inertial_rough", "[0.4, 0.1]"), "initial_gap = 1.0", "initial_gap = 0.5"),
+      "model inertial_rough: motion.initial_gap is 0.5; it must be greater than the roughness");
   EXPECT_TRUE(fake_.answered().empty());
 }
 

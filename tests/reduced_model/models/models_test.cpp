@@ -148,6 +148,15 @@ TEST(Models, HaveABudgetThatBalances) {
   EXPECT_NEAR(budget.film_work / dissipated, 1, 1e-4);
 }
 
+TEST(Models, AreCheckedForAStartWithinTheRoughnessWithoutARun) {
+  Motion motion = lecture_motion();
+  motion.roughness = {motion.initial_gap, 0};
+  const auto force = lubrication::LubricationForce::exact_plane(3, 1);
+  EXPECT_THAT(bad_input([&] { check_model(find_model("inertial_rough"), motion, force); }),
+              AllOf(StartsWith("model inertial_rough: "), HasSubstr("motion.initial_gap is 1;")));
+  EXPECT_NO_THROW(check_model(find_model("inertial"), motion, force));
+}
+
 TEST(Models, SayWhenTheyLeaveTheNumbersOfADouble) {
   Motion motion = lecture_motion();
   motion.mass = 1e-300;
