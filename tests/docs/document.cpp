@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "tests/common/regular_expressions.hpp"
 #include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
@@ -108,6 +109,15 @@ std::vector<double> numbers_in(const std::string& line) {
   return values;
 }
 
+std::string changed(std::string text, const Changes& changes) {
+  for (const auto& [expression, replacement] : changes) {
+    auto other = replaced_matches(text, expression, replacement);
+    EXPECT_NE(other, text) << expression;
+    text = std::move(other);
+  }
+  return text;
+}
+
 std::string difference_from(const std::string& promised, const std::string& output,
                             double tolerance) {
   const auto printed = lines_of(output);
@@ -131,7 +141,8 @@ std::string difference_from(const std::string& promised, const std::string& outp
 }
 
 ReadersFolder::ReadersFolder(const fs::path& executable) {
-  fs::create_directory_symlink(fs::path(VISCONTACT_SOURCE_FOLDER) / "data", path() / "data");
+  fs::copy(fs::path(VISCONTACT_SOURCE_FOLDER) / "data", path() / "data",
+           fs::copy_options::recursive);
   fs::create_directories(path() / "build/release");
   fs::create_symlink(executable, path() / "build/release/viscontact");
 }
@@ -141,9 +152,21 @@ ProcessResult ReadersFolder::run(const std::string& commands) const {
                      path().string());
 }
 
-int ReadersFolder::run_page(const fs::path& page) const {
+void ReadersFolder::change_case(const std::string& name, const Changes& changes) const {
+  const auto file = path() / "data/cases" / name;
+  write_file(file, changed(read_file(file), changes));
+}
+
+int ReadersFolder::run_page(const fs::path& page, const Changes& changes) const {
   int promises = 0;
-  const auto blocks = blocks_of(page);
+  auto blocks = blocks_of(page);
+  for (const auto& change : changes) {
+    const auto block = std::ranges::find_if(blocks, [&](const Block& b) {
+      return b.language == "sh" && !matches_in(b.text, change.first).empty();
+    });
+    EXPECT_NE(block, blocks.end()) << change.first;
+    if (block != blocks.end()) block->text = changed(block->text, {change});
+  }
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (blocks[i].language != "sh") continue;
     const auto result = run(blocks[i].text);

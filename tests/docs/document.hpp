@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/common/temporary_folder.hpp"
@@ -35,8 +36,14 @@ std::vector<double> numbers_in(const std::string& line);
 std::string difference_from(const std::string& promised, const std::string& output,
                             double tolerance);
 
+/// Regular expressions, and what takes the place of what they match.
+using Changes = std::vector<std::pair<std::string, std::string>>;
+
+/// A text after these changes. Fails the test for an expression that changes nothing.
+std::string changed(std::string text, const Changes& changes);
+
 /// A temporary folder that has what a reader's commands need of the source folder after a build:
-/// data/ and build/release/viscontact, whose folder is in PATH.
+/// a copy of data/, and build/release/viscontact, whose folder is in PATH.
 class ReadersFolder {
  public:
   explicit ReadersFolder(const std::filesystem::path& executable);
@@ -47,8 +54,11 @@ class ReadersFolder {
 
   /// Runs the blocks of language `sh` of a page in their order. Each must succeed, and its output
   /// must be that of the block of language `text` that follows it directly, if there is one.
-  /// Returns the number of outputs that were compared.
-  int run_page(const std::filesystem::path& page) const;
+  /// Returns the number of outputs that were compared. `changes` make the commands shorter first.
+  int run_page(const std::filesystem::path& page, const Changes& changes = {}) const;
+
+  /// Changes a case, for example to make it shorter. `name` is its path in data/cases.
+  void change_case(const std::string& name, const Changes& changes) const;
 
  private:
   TemporaryFolder folder_;

@@ -28,7 +28,12 @@ TEST(TutorialOfAFallingSphere, DoesWhatItSays) {
 
 TEST(Recipes, AllSucceedInTheirOrder) {
   const ReadersFolder folder(VISCONTACT_EXECUTABLE);
-  folder.run_page(VISCONTACT_SOURCE_FOLDER "/docs/recipes.md");
+  // Fewer and coarser rows, to save time.
+  folder.change_case("lecture.toml", {{"relative_accuracy = 1e-5", "relative_accuracy = 1e-2"}});
+  folder.run_page(VISCONTACT_SOURCE_FOLDER "/docs/recipes.md",
+                  {{"/count = 12/",
+                    "/count = 6/; s/radius = 40.0, height = 80.0/radius = 5.0, height = 10.0/; "
+                    "s/accuracy = 1e-5/accuracy = 1e-2/"}});
 }
 
 // The pages of results: their commands succeed, and print what the pages say. Three commands are no
@@ -47,6 +52,9 @@ class Results : public ::testing::TestWithParam<PageOfResults> {};
 TEST_P(Results, DoWhatTheyPromise) {
   const ReadersFolder folder(VISCONTACT_EXECUTABLE);
   const auto& [name, outputs] = GetParam();
+  // Two steps: tests/program/swimmer/direct_simulation_test.cpp checks how far a stroke leads.
+  folder.change_case("swimmer/direct_simulation.toml", {{"end_time = 1.0", "end_time = 0.1"}});
+  folder.change_case("swimmer/inertia.toml", {{"end_time = 6.0", "end_time = 0.05"}});
   EXPECT_EQ(folder.run_page(VISCONTACT_SOURCE_FOLDER "/docs/" + name + ".md"), outputs);
 }
 

@@ -60,13 +60,13 @@ Answer answer_of(const ProcessResult& result) {
 
 TEST(Attempts, GoOnUntilTheAccuracyIsMetAndAnswerWithTheirOwnEstimateWhereItIsNot) {
   const auto one = answer_of(solve(default_freefem(), "1e-15", "2", "1"));
-  const auto three = answer_of(solve(default_freefem(), "3e-7", "2", "3"));
+  const auto three = answer_of(solve(default_freefem(), "5e-7", "2", "3"));
   const double exact = 6 * std::numbers::pi * bispherical_plane_factor(kGap);
   for (const auto& answer : {one, three}) {
     EXPECT_LE(std::abs(answer.force / exact - 1), answer.estimate);
   }
   // At gap 0.5 the first attempt's estimate is about 4e-6.
-  EXPECT_LE(three.estimate, 3e-7);
+  EXPECT_LE(three.estimate, 5e-7);
   EXPECT_GT(three.unknowns, 2 * one.unknowns);
 }
 
@@ -83,7 +83,7 @@ FreeFem limited_freefem(const TemporaryFolder& scratch) {
 
 TEST(Attempts, OutOfMemoryIsAFailureNotAForce) {
   const TemporaryFolder scratch;
-  const auto result = solve(limited_freefem(scratch), "1e-15", "5", "1");
+  const auto result = solve(limited_freefem(scratch), "1e-15", "4", "1");
   EXPECT_THAT(result.output, HasSubstr("viscontact-level 0"));
   EXPECT_NE(result.exit_status, 0);
   EXPECT_THAT(result.output, HasSubstr("viscontact-error the linear solve failed"));

@@ -80,11 +80,11 @@ TEST(ContainerThatIsTooLarge, ForTheFinerMeshesLeavesTheResultOfTheFirstOnes) {
 
 class SecondSphere : public ::testing::TestWithParam<double> {};
 
+// Near contact; error_estimate_test.cpp draws other gaps and radii.
 TEST_P(SecondSphere, MayBeAHundredTimesSmallerOrLarger) {
-  const double radius = GetParam();
-  for (const double gap : {1e-3 * std::min(1.0, radius), 1.0})
-    expect_reached(exact_row("sphere", gap, {radius, 0, 0}, kAccuracy,
-                             two_sphere_drag_factor(gap, radius, 0)));
+  const double radius = GetParam(), gap = 1e-3 * std::min(1.0, radius);
+  expect_reached(
+      exact_row("sphere", gap, {radius, 0, 0}, kAccuracy, two_sphere_drag_factor(gap, radius, 0)));
 }
 
 INSTANTIATE_TEST_SUITE_P(OfRadius, SecondSphere, ::testing::Values(0.01, 100.0),

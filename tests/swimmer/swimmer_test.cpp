@@ -17,7 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 
 /// Three equal spheres of radius 1, arms from 2.2 to 12: twelve values each, the table of the case
-/// three_spheres.toml. It takes a second or two, so that all tests share it.
+/// three_spheres.toml. It takes a second.
 const Swimmer& swimmer() {
   static const Swimmer instance(fit_resistance(exact_table({1, 1, 1}, 2.2, 12, 12)));
   return instance;
@@ -134,7 +134,7 @@ TEST(ShapeMechanics, SlopesAreThoseOfDifferences) {
 TEST(OptimalStroke, OfASmallDisplacementIsACircleInTheMetric) {
   // With constant curl B and metric G the least energy is 4 pi sqrt(det G) displacement / B (the
   // isoperimetric inequality). B and G vary by 1e-2 over this loop; its energy can gain from that.
-  const OptimalStrokeRequest request{1e-5, arms(6, 6), 8};
+  const OptimalStrokeRequest request{1e-5, arms(6, 6), 4};
   const auto optimal = find_optimal_stroke(swimmer(), request, {});
   const double formula = 4 * std::numbers::pi * request.displacement *
                          std::sqrt(swimmer().at(request.through).metric.determinant()) /

@@ -52,8 +52,8 @@ constexpr double kRounding = 1e-12;
 TEST(Rows, AreTheSameInAnyUnits) {
   const auto freefem = default_freefem();
   Random random(29);
-  for (const auto& row :
-       {exact_row("plane", 0.7, {}, 1e-2, 1), exact_row("sphere", 0.03, {1.7, 0.3, 0}, 1e-2, 1)}) {
+  for (const auto& row : {exact_row("sphere", 0.03, {1.7, 0.3, 0}, 1e-2, 1),
+                          exact_row("cavity", 0.7, {2.5}, 1e-2, 1)}) {
     const auto& plain = row.tabulation;
     const auto expected = solve_row(freefem, plain, row.gap(), -1);
     const Units u{log_uniform(random, 1e-5, 1e5), log_uniform(random, 1e-5, 1e5),
@@ -64,7 +64,7 @@ TEST(Rows, AreTheSameInAnyUnits) {
         solve_row(freefem, tabulation, gap, tabulation.reference_velocities.front());
     EXPECT_NEAR(solved.force / (u.viscosity * u.radius * u.speed) / expected.force, 1, kRounding);
     EXPECT_EQ(solved.degrees_of_freedom, expected.degrees_of_freedom);
-    if (plain.geometry != "plane") continue;  // rows of sliding take four times as long
+    if (plain.geometry != "cavity") continue;  // in unbounded fluid, sliding takes long
     const auto expected_slide = solve_motions(freefem, plain, MotionGroup::kAcross, row.gap());
     const auto slide = solve_motions(freefem, tabulation, MotionGroup::kAcross, gap);
     for (const std::size_t motion : {0U, 1U}) {
@@ -95,9 +95,7 @@ struct Slide {
 
 TEST(Sliding, IsNotRefusedIfLittleAccuracyIsAsked) {
   for (const auto& slide :
-       {Slide{"free_surface", {}, 1e-3, 13.6627890}, Slide{"free_surface", {}, 1, 15.8115006},
-        Slide{"sphere", {1, 1, 0}, 0.03, 13.7080397},
-        Slide{"sphere", {0.1, 0, 0}, 1, 19.1346787}}) {
+       {Slide{"free_surface", {}, 1e-3, 13.6627890}, Slide{"sphere", {0.1, 0, 0}, 1, 19.1346787}}) {
     const auto tabulation =
         exact_row(slide.geometry, slide.gap, slide.parameters, 1e-2, 1).tabulation;
     const auto row = solve_motions(default_freefem(), tabulation, MotionGroup::kAcross, slide.gap);

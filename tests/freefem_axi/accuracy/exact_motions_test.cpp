@@ -55,7 +55,7 @@ TEST(MotionsAboveAPlane, AreWithinTheirEstimatesAndTheAccuracyThatWasAsked) {
   const auto plane = in_unbounded_fluid("plane", {}, kAccuracy);
   const auto rows = exact_factors();
   ASSERT_EQ(rows.size(), 5U);
-  for (const auto& exact : {rows[0], rows[2], rows[4]}) {
+  for (const auto& exact : {rows[0], rows[4]}) {
     SCOPED_TRACE(exact.gap);
     const auto across = solve_motions(default_freefem(), plane, MotionGroup::kAcross, exact.gap);
     const auto& slide = across.at(0);
@@ -132,8 +132,9 @@ TEST(MotionsOfAPair, AreThoseOfARigidBodyIfItTurnsAsAWhole) {
 TEST(MotionsOfAPair, AddUpFromThoseOfEachSphere) {
   constexpr double kGap = 0.3, kMoves = 0.7, kTurns = -1.3;
   const auto solved = [](double moves, double turns) {
-    return solve_motions(default_freefem(), in_unbounded_fluid("sphere", {2, moves, turns}, 1e-2),
-                         MotionGroup::kAcross, kGap);
+    auto pair = in_unbounded_fluid("sphere", {2, moves, turns}, 1e-2);
+    pair.container = Container{4, 10};  // fewer elements than unbounded fluid
+    return solve_motions(default_freefem(), pair, MotionGroup::kAcross, kGap);
   };
   const auto alone = solved(0, 0), both = solved(1, 1), any = solved(kMoves, kTurns);
   for (std::size_t motion : {0, 1}) {

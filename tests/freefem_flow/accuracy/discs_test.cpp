@@ -86,6 +86,8 @@ TEST(Discs, MoveAsExactWithEachConstraint) {
   for (const auto* name : {"off the centre, across", "near the wall, towards it",
                            "two, gap 0.1, squeezed", "two, gap 0.1, along", "unequal"})
     for (const auto constraint : kConstraints) {
+      // By penalty, one flow without symmetry is enough; force_errors_test.cpp drives the others.
+      if (constraint == RigidConstraint::kPenalty && std::string(name) != "unequal") continue;
       SCOPED_TRACE(::testing::Message()
                    << name << (constraint == kConstraints[1] ? ", rigid" : ""));
       const Mobility exact(name);

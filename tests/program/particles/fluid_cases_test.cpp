@@ -59,20 +59,20 @@ TEST_F(ShippedFluidCase, EachHasATest) {
 
 // The nearer wall is on the left: the fluid shears the disc more there, and turns it clockwise.
 TEST_F(ShippedFluidCase, ADiscSinksAndTurns) {
-  last_of(cut("one_disc", 0.25, 2));
+  last_of(cut("one_disc", 0.25, 1));
   EXPECT_LT(last("motion.csv", 6), 0);  // vy
   EXPECT_NE(last("motion.csv", 7), 0);  // angular velocity
 }
 
 TEST_F(ShippedFluidCase, SevenDiscsFallTogether) {
-  const auto record = last_of(cut("seven_discs", 0.5, 2));
+  const auto record = last_of(cut("seven_discs", 0.5, 1));
   EXPECT_LT(record["velocity_error_estimate"]["first_step"], 1e-3);
   for (std::size_t disc = 0; disc < 7; ++disc)
     EXPECT_LT(last("motion.csv", 6, disc), 0) << disc;  // vy
 }
 
 TEST_F(ShippedFluidCase, ShearedDiscsRubEachOther) {
-  auto text = cut("friction", 0.2, 2);
+  auto text = cut("friction", 0.2, 1);
   text = replaced_matches(text, "edges_per_particle = 12", "edges_per_particle = 8");
   const auto record = last_of(text);
   EXPECT_EQ(record["failed_steps"], 0);
@@ -113,14 +113,14 @@ TEST_F(ShippedFluidCase, FrictionIsAForceAndATorque) {
 }
 
 TEST_F(ShippedFluidCase, ShearedDiscsRaiseTheViscosity) {
-  last_of(cut("shear", 0.2, 2));
+  last_of(cut("shear", 0.2, 1));
   // 20 discs are a third of the area: 1 + 2 phi = 1.65 is less than the suspension has.
   EXPECT_GT(last("steps.csv", kApparentViscosity), 1.65);
   EXPECT_LT(last("steps.csv", kApparentViscosity), 5);
 }
 
 TEST_F(ShippedFluidCase, TheFlowCarriesDiscsToTheSieve) {
-  last_of(cut("sieve", 0.1, 2));
+  last_of(cut("sieve", 0.1, 1));
   EXPECT_GT(last("motion.csv", 5), 0);  // vx of the last particle, which is free
   EXPECT_THAT(content(out() / "final_particles.csv"), HasSubstr("0,6,0.9,0,0,0.4,"));
 }
@@ -213,7 +213,7 @@ centre = )" +
 }
 
 TEST_F(ShippedFluidCase, ContactOfShearedDiscs) {
-  last_of(cut("viscosity_contact", 0.1, 3));
+  last_of(cut("viscosity_contact", 0.1, 1));
   EXPECT_GT(last("steps.csv", kApparentViscosity), 1.6);
   EXPECT_THAT(content(out() / "contacts.csv"),
               ::testing::StartsWith("time,i,j,gap,gamma,normal_force,tangential_force_x"));

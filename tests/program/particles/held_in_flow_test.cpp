@@ -65,7 +65,7 @@ class HeldInFlow : public ParticlesCommand {
 };
 
 TEST_F(HeldInFlow, APendulumFallsAndLosesEnergyToTheFluid) {
-  PendulumCase pendulum;
+  PendulumCase pendulum{.end_time = 0.35};
   const double coarse = angle(pendulum);
   // The hinge is 0.55 from the centre of the body.
   const auto x = column("bodies.csv", "x"), y = column("bodies.csv", "y");
@@ -122,7 +122,7 @@ edges_per_particle = 12
 [domain]
 box = { from = [-2.0, 0.0], to = [2.0, 6.0] }
 [viscous_contact]
-time_step = 0.02
+time_step = 0.03
 end_time = 0.3
 [output]
 every = 0.3
@@ -146,17 +146,18 @@ density = 3.0
 }
 
 TEST_F(HeldInFlow, ContinuesWithTheSameBits) {
-  PendulumCase pendulum{.end_time = 0.3};
+  PendulumCase pendulum{.end_time = 0.2};
   const double whole = angle(pendulum);
   const auto forces = column("hinges.csv", "force_y");
-  for (const double end : {0.05, 0.15}) {
+  // After the first step, whose mesh is new, and later, when it has moved.
+  pendulum.end_time = 0.05;
+  angle(pendulum);
+  for (const double end : {0.15, 0.2}) {
     pendulum.end_time = end;
-    angle(pendulum);
-    pendulum.end_time = 0.3;
     continue_last_run(pendulum.text());
-    EXPECT_EQ(column("bodies.csv", "angle").back(), whole);
-    EXPECT_EQ(column("hinges.csv", "force_y").back(), forces.back());
   }
+  EXPECT_EQ(column("bodies.csv", "angle").back(), whole);
+  EXPECT_EQ(column("hinges.csv", "force_y").back(), forces.back());
 }
 
 }  // namespace

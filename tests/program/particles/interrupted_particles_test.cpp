@@ -22,7 +22,7 @@ using ::testing::Not;
 
 /// Three discs that fall onto a floor and onto each other, one of them pushed by its id. So many
 /// steps that an interrupt comes between two of the twenty frames.
-const std::string kLongCase = discs_on_a_floor("5e-5", "10.0", R"([output]
+const std::string kLongCase = discs_on_a_floor("1e-4", "10.0", R"([output]
 every = 0.5
 [[force]]
 particles = [7]
@@ -79,7 +79,7 @@ TEST_F(InterruptedParticles, GoOnByTheSameCommandToTheSameFilesAsWithoutAnInterr
   EXPECT_THAT(last.errors, HasSubstr("continues from t = "));
   expect_same_files(path("whole"), path("parts"));
   const auto record = nlohmann::json::parse(read_file(path("parts/run.json")));
-  EXPECT_EQ(record["steps"], 200000);
+  EXPECT_EQ(record["steps"], 100000);
   EXPECT_EQ(record["from_time"], 0);
 }
 
@@ -101,7 +101,7 @@ TEST_F(InterruptedParticles, ListEachReboundOnce) {
 }
 
 TEST_F(InterruptedParticles, ThatAreFinishedAreUpToDate) {
-  put_case(replaced(kLongCase, "5e-5", "1e-2"));
+  put_case(replaced(kLongCase, "1e-4", "1e-2"));
   expect_done(run("out"));
   const auto before = files_below(path("out"));
   const auto again = run("out");
@@ -114,7 +114,7 @@ TEST_F(InterruptedParticles, ThatAreFinishedAreUpToDate) {
 
 TEST_F(InterruptedParticles, WhoseStepsDidNotConvergeSayItAgain) {
   // A stack that needs more than an iteration.
-  put_case(replaced(kLongCase, "5e-5", "1e-2") + "[solver]\nmax_iterations = 1\n");
+  put_case(replaced(kLongCase, "1e-4", "1e-2") + "[solver]\nmax_iterations = 1\n");
   put_text(path("discs.csv"), kFallingDiscs + "20,0.1,4.1,0,0,1,1\n21,0.2,6.2,0,0,1,1\n");
   expect_refusal(run("out"), ErrorKind::kNotConverged, HasSubstr("All results are written"));
   const auto again = run("out");
@@ -123,7 +123,7 @@ TEST_F(InterruptedParticles, WhoseStepsDidNotConvergeSayItAgain) {
 }
 
 TEST_F(InterruptedParticles, FinishedOneOfWhichAFileIsMissingIsCompletedWithoutAStep) {
-  put_case(replaced(kLongCase, "5e-5", "1e-2"));
+  put_case(replaced(kLongCase, "1e-4", "1e-2"));
   expect_done(run("out"));
   const auto before = without_costs(path("out"));
   fs::remove(path("out/particles.html"));
@@ -135,7 +135,7 @@ TEST_F(InterruptedParticles, FinishedOneOfWhichAFileIsMissingIsCompletedWithoutA
 
 TEST_F(InterruptedParticles, OfAnotherCaseAreReplacedAndItIsSaid) {
   run_half("out");
-  put_case(replaced(kLongCase, "5e-5", "1e-2"));
+  put_case(replaced(kLongCase, "1e-4", "1e-2"));
   const auto changed = run("out");
   expect_done(changed);
   EXPECT_THAT(changed.errors, HasSubstr("was made from another version of " + path("case.toml") +
@@ -186,7 +186,7 @@ TEST_F(InterruptedParticles, KilledBetweenTwoFilesGoOnFromTheOlderRestart) {
   ASSERT_EQ(run("out", {"INT", 9}).exit_status, results::exit_code_of(ErrorKind::kInterrupted));
   // As if the process had been killed while it appended to its tables, before it wrote restart.bin.
   put_text(path("out/restart.bin"), older);
-  put_text(path("out/steps.csv"), read_file(path("out/steps.csv")) + "90001,4.5");
+  put_text(path("out/steps.csv"), read_file(path("out/steps.csv")) + "45001,4.5");
   put_text(path("out/particles.pvd"), read_file(path("out/particles.pvd")) + "<Data");
   const auto last = run("out");
   expect_done(last);

@@ -30,7 +30,7 @@ threshold_gap = 0.1
 box = {{ from = [0.0, 0.0], to = [7.0, 6.0] }}
 [viscous_contact]
 time_step = {}
-end_time = 1.0
+end_time = 0.6
 [output]
 every = 0.1
 [[particle]]
@@ -71,7 +71,7 @@ class KilledInFluid : public ParticlesCommand {
     constexpr unsigned kSeed = 20071115;
     std::mt19937 random(kSeed);
     int disturbed = 0;
-    for (const std::string signal : {"KILL", "INT", "KILL", "TERM", "KILL"}) {
+    for (const std::string signal : {"KILL", "INT", "TERM"}) {
       const double share = static_cast<double>(random()) / std::mt19937::max();
       const auto result = run_until("parts", signal, 0.02 + share * seconds);
       if (result.exit_status == 0) break;
@@ -92,17 +92,14 @@ TEST_F(KilledInFluid, GoesOnWithASolverOfTheUsersOwn) {
   expect_same_if_disturbed(case_in_fluid("solver = [\"python3\", \"" VISCONTACT_SOURCE_FOLDER
                                          "/examples/stokes_drag.py\"]",
                                          "0.0005"),
-                           0.5);
-}
-
-TEST_F(KilledInFluid, GoesOnWithFreeFem) {
-  expect_same_if_disturbed(case_in_fluid("", "0.05"), 2.5);
+                           0.3);
 }
 
 // All discs have mass, and the steps are short enough for the mesh to follow them.
 TEST_F(KilledInFluid, GoesOnWithInertiaOfTheFluid) {
-  const auto text = case_in_fluid("density = 1.0\nconstraint = \"rigid\"", "0.02");
-  expect_same_if_disturbed(replaced_matches(text, "mass = 0.0", "mass = 2.0"), 4);
+  auto text = case_in_fluid("density = 1.0\nconstraint = \"rigid\"", "0.02");
+  text = replaced(text, "end_time = 0.6", "end_time = 0.3");
+  expect_same_if_disturbed(replaced_matches(text, "mass = 0.0", "mass = 2.0"), 1.2);
 }
 
 TEST_F(KilledInFluid, GoesOnWithMembranes) {
@@ -117,7 +114,7 @@ velocity = { shear_rate = 1.0 }
 box = { from = [-4.0, -3.0], to = [4.0, 3.0], periodic = [true, false] }
 [viscous_contact]
 time_step = 0.1
-end_time = 3.0
+end_time = 1.5
 [output]
 every = 0.3
 [[membrane]]
@@ -128,7 +125,7 @@ bending_rigidity = 1.0
 inner_viscosity = 3.0
 beads = 16
 )",
-                           1.5);
+                           0.8);
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ using ::testing::Not;
 TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
   const TemporaryFolder scratch;
   const auto folder = scratch.path() / "run";
-  put_text(scratch.path() / "case.toml", gentle_case_text());
+  put_text(scratch.path() / "case.toml",
+           replaced(gentle_case_text(), "relative_accuracy = 1e-3", "relative_accuracy = 1e-2"));
   const std::vector<std::string> arguments = {
       "run", (scratch.path() / "case.toml").string(), "-o", folder.string(), "--jobs", "2"};
   expect_done(run_viscontact(arguments));
@@ -48,7 +49,7 @@ TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
   const auto table = lubrication::read_force_table(folder / "table.csv");
   ASSERT_EQ(table.rows.size(), 6U);
   for (const auto& row : table.rows)
-    EXPECT_LE(row.relative_error_estimate, 1e-3);  // asked by the case
+    EXPECT_LE(row.relative_error_estimate, 1e-2);  // asked by the case
   for (const auto* program : {"FreeFEM", "Viscontact"})
     EXPECT_TRUE(table.versions.contains(program)) << program;
   // Six gaps and five terms: nearly interpolation. The basis lacks ln q, which it makes up for to a

@@ -75,16 +75,14 @@ void expect_room_around(const std::string& name, const std::string& picture) {
   EXPECT_TRUE(found);
 }
 
-TEST_F(PagePictures, LeaveRoomAroundTheNameOfTheAxis) {
+TEST_F(PagePictures, LeaveRoomAroundTheNameOfTheAxisAndTellCurvesByTheirColours) {
   expect_room_around("arm x1", path("swimmer/plots/loops.svg"));
   expect_room_around("time / period", path("swimmer/plots/position.svg"));
   expect_room_around("time", path("swimmer/plots/arms.svg"));
   expect_room_around("polynomials for each arm", path("swimmer/plots/convergence.svg"));
   for (const char* name : {"gap", "velocity", "friction"})
     expect_room_around("time", path("incline/plots/" + std::string(name) + ".svg"));
-}
-
-TEST_F(PagePictures, DrawACurveInOneColourAndNoTwoCurvesInTheSame) {
+  // No two curves have the same colour, and each has the same one in all pictures.
   for (const auto& [page, curves] :
        std::map<std::string, std::size_t>{{"swimmer", 2 + 2 + 3 + 2}, {"incline", 3}}) {
     std::map<std::string, std::set<std::string>> colours, names;

@@ -43,21 +43,21 @@ std::string case_of_2_rows() {
 class LongRun : public DisturbedTabulation {
  protected:
   /// Runs the command with a signal at a random moment, within `seconds` at first and ever later,
-  /// until it is done. `answered` gives the rows that FreeFEM has answered so far.
-  template <class Answered>
-  void disturb_until_done(const std::string& table, const std::string& freefem, double seconds,
-                          const Answered& answered) const {
+  /// until it is done.
+  void disturb_until_done(const std::string& table, const freefem_axi::FakeFreeFem& fake,
+                          double seconds) const {
     std::mt19937 random(20081);  // NOLINT: the same moments each time, as far as a machine has them
     std::uniform_real_distribution<double> moment(0, seconds);
     constexpr int kMostAttempts = 100;
     int disturbed = 0;
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
       const auto before = finished(table);
-      const auto answers_before = answered().size();
+      const auto answers_before = fake.answered().size();
       const auto signal = std::array{"KILL", "KILL", "INT", "TERM"}.at(random() % 4);
       const double later = seconds * attempt / 10;
-      const auto result = tabulate(table, freefem, signal_after(later + moment(random), signal));
-      const auto answers = answered();
+      const auto result =
+          tabulate(table, fake.executable(), signal_after(later + moment(random), signal));
+      const auto answers = fake.answered();
       for (auto i = answers_before; i < answers.size(); ++i)
         EXPECT_FALSE(before.contains(answers[i])) << answers[i] << " was finished";
       const auto after = finished(table);
@@ -83,30 +83,7 @@ TEST_F(LongRun, KilledAtRandomMomentsItLosesNoFinishedRowAndEndsWithTheSameTable
   const freefem_axi::FakeFreeFem fake(scratch_.path(), "sleep 0.03\n");
   put_text(path("case.toml"), case_of_24_rows());
   expect_done(tabulate(path("undisturbed.csv"), fake.executable()));
-  disturb_until_done(path("table.csv"), fake.executable(), 0.4, [&] { return fake.answered(); });
-  EXPECT_EQ(without_seconds(path("table.csv")), without_seconds(path("undisturbed.csv")));
-}
-
-TEST_F(LongRun, WithFreeFemToo) {
-  // FreeFEM in a shell that notes which rows it answers.
-  const auto freefem = scratch_.file("freefem", R"sh(#!/bin/sh
-FreeFem++-nw "$@" || exit
-case $4 in
-  *version.edp) exit 0 ;;
-esac
-)sh" + std::string(freefem_axi::kReadRow) + "echo \"$gap $velocity\" >> \"" +
-                                                    path("answered") + "\"\n");
-  make_executable(freefem);
-  put_text(path("case.toml"), replaced(case_of_2_rows(), "count = 2", "count = 3"));
-  const auto start = std::chrono::steady_clock::now();
-  expect_done(tabulate(path("undisturbed.csv"), freefem.string()));
-  const std::chrono::duration<double> undisturbed = std::chrono::steady_clock::now() - start;
-  disturb_until_done(path("table.csv"), freefem.string(), undisturbed.count(), [&] {
-    std::vector<std::string> lines;
-    std::ifstream file(path("answered"));
-    for (std::string line; std::getline(file, line);) lines.push_back(line);
-    return lines;
-  });
+  disturb_until_done(path("table.csv"), fake, 0.4);
   EXPECT_EQ(without_seconds(path("table.csv")), without_seconds(path("undisturbed.csv")));
 }
 

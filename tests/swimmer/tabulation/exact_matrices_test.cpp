@@ -46,7 +46,7 @@ TEST_P(ExactMatrix, IsMetWithinTheAccuracyThatWasAskedAndWithinTheEstimates) {
 // The exact matrices have eight digits or more at these gaps (exact_resistance). A gap below 0.15
 // of the smaller radius has a structured film.
 INSTANTIATE_TEST_SUITE_P(Rows, ExactMatrix,
-                         ::testing::Values(Row{{1, 1, 1}, {0.1, 0.1}}, Row{{1, 2, 0.5}, {1, 8}},
+                         ::testing::Values(Row{{1, 1, 1}, {0.1, 0.1}},
                                            Row{{0.7, 1, 0.5, 1.2}, {0.5, 2, 0.14}}));
 
 TEST(CollinearSpheres, InALongTubeHaveTheDragOfOneIfTheyAreFarApart) {
