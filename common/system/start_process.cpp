@@ -135,7 +135,10 @@ StartedProcess start_process(const ProcessCommand& command, ErrorStream errors) 
 }
 
 std::string end_by_signal_in_words(int signal) {
-  return fmt::format("ended by signal {} ({})", signal, sigdescr_np(signal));
+  // Real-time signals have no description.
+  const char* description = sigdescr_np(signal);
+  return description ? fmt::format("ended by signal {} ({})", signal, description)
+                     : fmt::format("ended by signal {}", signal);
 }
 
 }  // namespace viscontact
