@@ -22,15 +22,17 @@
 
 namespace viscontact::sweep {
 
-/// The results of a row, by the names of their columns. A column without a result is empty.
+/// The results of a row, by the names of their columns (Study::results), in the units that the
+/// makers of the study state. A column without a result is empty.
 struct RowResults {
   std::map<std::string, double> values;  ///< a value that is not finite gives an empty field
   std::map<std::string, std::uint64_t> numbers;  ///< results that are whole numbers
   std::string failure;                           ///< why results are missing; empty if none is
 };
 
-/// Calls `part`, which computes some results of a row. If it fails, the reason is added to the
-/// failure of the row. Throws Error(kInterrupted) if `part` does.
+/// Calls `part`, which computes some results of a row. If it throws an Error, the reason is added
+/// to the failure of the row. Throws Error(kInterrupted) if `part` does, and exceptions of other
+/// types.
 template <class Part>
 void add_part(RowResults& results, const Part& part) {
   try {
@@ -53,9 +55,11 @@ struct Study {
   /// whole sweep.
   std::function<RowResults(std::uint64_t index, const StopToken& stop)> run;
 
-  std::uint64_t size() const { return points.rows(); }  ///< number of rows, > 0
-  std::vector<std::string> columns() const;             ///< names of all columns
-  /// Row `index` as a line of CSV. Throws what `run` throws.
+  std::uint64_t size() const {
+    return points.rows();
+  }                                          ///< number of rows, > 0; throws as points.rows()
+  std::vector<std::string> columns() const;  ///< names of all columns
+  /// Row `index` < size() as a line of CSV with its line end. Throws what `run` throws.
   std::string row(std::uint64_t index, const StopToken& stop = {}) const;
 };
 
@@ -74,8 +78,8 @@ void refuse_doubles(const std::vector<std::string>& names, std::string_view kind
 std::vector<Variation> variations_of_case(const std::vector<std::string>& ranges,
                                           const std::filesystem::path& case_path);
 
-/// Returns `make(numbers)` for the keys and values of row `index`. An Error that it throws is
-/// thrown again with the point in its message.
+/// Returns `make(numbers)` for the keys and values of row `index` < points.rows(). An Error that it
+/// throws is thrown again with the point in its message.
 template <class Make>
 auto at_point(const Points& points, std::uint64_t index, const Make& make) {
   const auto numbers = points.numbers(index);
@@ -88,7 +92,8 @@ auto at_point(const Points& points, std::uint64_t index, const Make& make) {
 
 /// Throws Error(kWrongUsage) if nothing or a key twice is varied. Then calls `make`, which makes a
 /// case, for the first and the last row, so that a range that leads to a wrong case is an Error
-/// before rows are computed.
+/// before rows are computed; rows between them are not checked. Throws the Errors of `make` and of
+/// Points::rows().
 template <class Make>
 void check_ends(const Points& points, const Make& make) {
   if (points.variations.empty() && points.draws == 0)
@@ -136,7 +141,8 @@ struct SweepOutcome {
 /// the file cannot be read.
 SweepOutcome read_outcome(const Study& study, const std::filesystem::path& path);
 
-/// Number of rows of this sweep that are finished, in PATH or PATH.part.
+/// Number of rows of this sweep that are finished, in PATH or PATH.part; 0 if neither belongs to
+/// it. Throws Error(kBadInput) if PATH exists and is not a regular file.
 std::uint64_t finished_rows(const Study& study, const std::filesystem::path& path);
 
 }  // namespace viscontact::sweep

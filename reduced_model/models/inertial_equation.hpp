@@ -29,7 +29,9 @@ struct InertialInstant {
 };
 
 /// Equation (S) and what follows from a solution of it. Motion and force must outlive the object.
-/// Every function of a gap throws Error(kBadInput) if the gap is outside the interval of the force.
+/// Every function of a gap but state_of() throws Error(kBadInput) if the gap is outside the
+/// interval of the force, as does the constructor for the initial gap. Times are in [0, end_time];
+/// neither they nor signs of gaps are checked.
 class InertialEquation {
  public:
   /// The equation for the sphere of `motion` under the drag `force`; `relative_tolerance` > 0 is
@@ -37,7 +39,7 @@ class InertialEquation {
   InertialEquation(const Motion& motion, const lubrication::LubricationForce& force,
                    double relative_tolerance);
 
-  double gap_of(double s) const;      ///< q = r e^s [L]
+  double gap_of(double s) const;      ///< q = r e^s [L], for s [1]
   double state_of(double gap) const;  ///< s = ln(q/r), for q > 0 [1]
   double momentum(double t) const;    ///< P(t) [M L/T]
   /// Adds an impulse [M L/T] to P: that of an impact, or that of solids which carried the force.
@@ -62,15 +64,17 @@ class InertialEquation {
   /// the velocity follows a jump of f_ext at once.
   double first_step(double t, double gap) const;
 
-  /// The state s near that of `gap` [L] in which drag and force at time t are balanced. It obeys
-  /// (I) exactly.
+  /// The state s [1] near that of `gap` [L] in which drag and force at time t are balanced. It
+  /// obeys (I) exactly. Throws the errors of LubricationForce::gap_of_impulse() if no gap does.
   double balanced_state(double t, double gap) const;
 
   /// True if the rest of a fall takes less time than the rounding of t. `film` [L] is then set to
-  /// the gap Gamma^{-1}(P(t)), at which the velocity is 0 by (I).
+  /// the gap Gamma^{-1}(P(t)), at which the velocity is 0 by (I). Throws the errors of
+  /// LubricationForce::gap_of_impulse() if there is no such gap.
   bool lands_at_once(double t, const InertialInstant& now, double& film) const;
 
-  /// The smallest ratio of a step to the time t that CVODE can resolve.
+  /// The smallest ratio of a step to the time t that CVODE can resolve; well above the rounding of
+  /// t.
   static constexpr double kTimeResolution = 1e-12;
 
  private:
