@@ -27,8 +27,7 @@ void fit_stage(const std::filesystem::path& table_path, const std::filesystem::p
 /// Fits a table in every basis, prints the fits side by side, as JSON if `json` is true, and draws
 /// their residuals into the file of `picture`, whose path must not be empty and must end as a kind
 /// of picture does (not checked). Throws Error(kBadInput) if the table is wrong or no basis can be
-/// fitted, Error(kExternalProgram) if gnuplot fails or is missing; then the fits are already
-/// printed.
+/// fitted, Error(kExternalProgram), after printing, if gnuplot fails.
 void compare_bases_stage(const std::filesystem::path& table_path,
                          const fitting::FitSettings& settings,
                          const results::PictureRequest& picture, bool json, const StopToken& stop);
@@ -38,8 +37,7 @@ void compare_bases_stage(const std::filesystem::path& table_path,
 /// the shift of each row to `shift_path` (CSV), prints the common shift [L], >= 0, and, unless the
 /// path of `picture` is empty, draws a picture. `stop` is checked only while the picture is drawn.
 /// Throws Error(kBadInput) for a wrong table or fit, Error(kNotConverged) if the least squares
-/// fail, Error(kExternalProgram) if gnuplot fails or is missing; then the CSV file is already
-/// written.
+/// fail, Error(kExternalProgram), after writing the CSV file, if gnuplot fails.
 void shift_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path,
                  const std::filesystem::path& shift_path, const results::PictureRequest& picture,
                  const StopToken& stop);

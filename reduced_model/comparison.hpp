@@ -27,8 +27,7 @@ struct ModelComparison {
   /// never < 0. Contact models only.
   std::optional<double> recovered_minimal_gap;
   /// First time at which contact begins and last time at which it ends [T]. In a trajectory that
-  /// does not state them: the times of the first and the last row with gamma < 0. Nothing without
-  /// contact.
+  /// does not state them: the times of the first and last row with gamma < 0, if any.
   std::optional<std::array<double, 2>> contact_interval;
   /// When the solids touch for the first time; nothing if they never do, or if the model has no
   /// solids.
@@ -61,8 +60,7 @@ struct Comparison {
 /// Compares each trajectory with that of `reference_model` over the times that both cover. Between
 /// its rows each trajectory is linear; each must have a row (not checked). Throws Error(kBadInput)
 /// if no trajectory has that name, if two have the same name, or if one has no time in common with
-/// the reference, and Error(kInterrupted) if `stop` requests a stop before a trajectory is
-/// compared.
+/// the reference, and Error(kInterrupted) if `stop` requests a stop.
 Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
                                 std::string_view reference_model, const StopToken& stop = {});
 

@@ -13,10 +13,9 @@ namespace viscontact::reduced_model {
 
 struct Motion;
 
-/// The part SECTION of a key SECTION.NAME in the case file; a key without a point is returned
-/// whole.
+/// The part SECTION of a key SECTION.NAME in the case file; without a point, the whole key.
 constexpr std::string_view section_of(std::string_view key) { return key.substr(0, key.find('.')); }
-/// The part NAME of a key SECTION.NAME in the case file; a key without a point is returned whole.
+/// The part NAME of a key SECTION.NAME in the case file; without a point, the whole key.
 constexpr std::string_view name_of(std::string_view key) { return key.substr(key.find('.') + 1); }
 
 /// A parameter of one or several models of motion. A model lists its parameters in its row of the

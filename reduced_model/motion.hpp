@@ -52,8 +52,7 @@ struct Motion {
 /// The time step [T] with which a motion has 4000 steps, as many as the case of Lefebvre's lecture.
 inline double default_time_step(const Motion& motion, double) { return motion.end_time / 4000; }
 
-/// Step h of `reference` [T], > 0, and spacing of the rows of models that choose their steps
-/// themselves.
+/// Step h of `reference` [T], > 0, and row spacing of models that choose their steps themselves.
 inline constexpr ModelParameter kReferenceTimeStep = {
     "reference.time_step",
     "time step of the reference, row spacing of reference_exact and inertial",

@@ -17,8 +17,7 @@ namespace viscontact::sweep {
 /// What is computed at each point of the sweep.
 struct SpherePlan {
   std::filesystem::path case_path;  ///< the case whose keys are varied
-  lubrication::Fit
-      fit;  ///< of the drag, scaled at each point to viscosity and radius; no basis: none
+  lubrication::Fit fit;  ///< of the drag; scaled at each point; none if its `basis` is empty
   lubrication::OutsideInterval outside;  ///< drag outside the interval of the fit
   Points points;                         ///< at least one variation; `draws` is 0
   std::vector<std::string> models;       ///< names of models, at least one
@@ -39,8 +38,8 @@ SpherePlan planned_sphere(const case_file::Case& c);
 /// ModelComparison), MODEL.film_ratio [1] (thinnest film or smallest gap, over that of the
 /// reference), MODEL.steps (a whole number), MODEL.solid_contact_from [T] and
 /// MODEL.solid_contact_velocity [L/T] (empty if the solids do not touch). Those of a model that
-/// fails are empty, and so are all distances if the reference fails. `version` is that of
-/// Viscontact.
+/// fails are empty, and so are all distances and ratios if the reference fails; of the Errors of a
+/// row only Error(kInterrupted) is thrown. `version` is that of Viscontact.
 ///
 /// Reads the case. Throws Error(kBadInput) if it cannot be read, has no [motion] or a model is
 /// unknown, if the first or the last point of the plan gives no valid case, or if the fit cannot be

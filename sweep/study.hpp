@@ -31,8 +31,7 @@ struct RowResults {
 };
 
 /// Calls `part`, which computes some results of a row. If it throws an Error, the reason is added
-/// to the failure of the row. Throws Error(kInterrupted) if `part` does, and exceptions of other
-/// types.
+/// to the failure of the row. Throws Error(kInterrupted) if `part` does.
 template <class Part>
 void add_part(RowResults& results, const Part& part) {
   try {
@@ -55,10 +54,8 @@ struct Study {
   /// whole sweep.
   std::function<RowResults(std::uint64_t index, const StopToken& stop)> run;
 
-  std::uint64_t size() const {
-    return points.rows();
-  }                                          ///< number of rows, > 0; throws as points.rows()
-  std::vector<std::string> columns() const;  ///< names of all columns
+  std::uint64_t size() const { return points.rows(); }  ///< number of rows, > 0
+  std::vector<std::string> columns() const;             ///< names of all columns, in their order
   /// Row `index` < size() as a line of CSV with its line end. Throws what `run` throws.
   std::string row(std::uint64_t index, const StopToken& stop = {}) const;
 };
@@ -92,7 +89,7 @@ auto at_point(const Points& points, std::uint64_t index, const Make& make) {
 
 /// Throws Error(kWrongUsage) if nothing or a key twice is varied. Then calls `make`, which makes a
 /// case, for the first and the last row, so that a range that leads to a wrong case is an Error
-/// before rows are computed; rows between them are not checked. Throws the Errors of `make` and of
+/// before rows are computed; rows between are not checked. Throws the Errors of `make` and
 /// Points::rows().
 template <class Make>
 void check_ends(const Points& points, const Make& make) {
@@ -104,9 +101,10 @@ void check_ends(const Points& points, const Make& make) {
 }
 
 /// Computes the rows `begin`, ..., `size` - 1 with `jobs` >= 1 threads and passes them to `take` in
-/// order. Ends early if `stop` requests it. If `row` or `take` throws, ends early and throws the
-/// same exception. The memory that it needs does not grow with the number of rows. Returns the
-/// index of the last row taken plus 1, or `begin` if none was taken.
+/// order, from one thread at a time. If `stop` requests a stop, ends early without an Error, even
+/// if `row` throws one then. If `row` or `take` throws otherwise, ends early and throws the same
+/// exception. The memory that it needs does not grow with the number of rows. Returns the index of
+/// the last row taken plus 1, or `begin` if none was taken.
 std::uint64_t run_rows(
     std::uint64_t size, std::uint64_t begin, int jobs,
     const std::function<std::string(std::uint64_t index, const StopToken& stop)>& row,
@@ -117,7 +115,8 @@ std::uint64_t run_rows(
 /// Until all rows are finished, they are in PATH.part, in order. A later call keeps the rows in
 /// that file if they belong to the same sweep (Study::comments), and otherwise deletes them. A
 /// finished file of the same sweep is left as it is. `how_made` is empty or a line "# provenance:
-/// ...\n" for the head of a new file. `progress(done, size)` is called after each row.
+/// ...\n" for the head of a new file. `progress(done, size)` is called after each row, by one
+/// thread at a time.
 ///
 /// Throws Error(kInterrupted) if `stop` requests a stop, Error(kBadInput) if a file cannot be
 /// written or another process writes the same file, and the Errors of Study::run. Finished rows are
@@ -137,8 +136,8 @@ struct SweepOutcome {
   std::string first_failure;
 };
 
-/// Reads from the finished file of a sweep how many points have results. Throws Error(kBadInput) if
-/// the file cannot be read.
+/// Reads from the finished file of this sweep (not checked) how many rows have results. Throws
+/// Error(kBadInput) if the file cannot be read.
 SweepOutcome read_outcome(const Study& study, const std::filesystem::path& path);
 
 /// Number of rows of this sweep that are finished, in PATH or PATH.part; 0 if neither belongs to

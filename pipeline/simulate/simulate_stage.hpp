@@ -3,8 +3,7 @@
 // in the units of the case. The commands `run`, `simulate` and `sweep`, and python/, call it. A
 // change must keep that trajectories are written after the copies of the inputs and
 // uncertainty.json, because `run` takes a trajectory as the sign that those are written. Functions
-// that make the text of an output also throw Error(kWrongUsage) if the environment variable
-// SOURCE_DATE_EPOCH is not a time.
+// that make or write outputs throw Error(kWrongUsage) if the variable SOURCE_DATE_EPOCH is no time.
 #pragma once
 
 #include <filesystem>
@@ -31,8 +30,7 @@ struct FitFile {
 std::vector<std::filesystem::path> files_of_motion(const case_file::Case& c);
 
 /// Names of the models to run, at least one: `asked` or, if this is empty, those that the case
-/// names or, if the case names none, reduced_model::default_models(). The names in `asked` are not
-/// checked.
+/// names or, if the case names none, reduced_model::default_models(). The names are not checked.
 std::vector<std::string> models_to_run(const case_file::Case& c,
                                        std::vector<std::string> asked = {});
 

@@ -20,13 +20,11 @@ namespace viscontact::pipeline {
 std::vector<double> gaps_to_picture(const freefem_axi::Tabulation& tabulation,
                                     const std::vector<double>& asked);
 
-/// The folder for the pictures of a table, beside the table: table.plots for table.csv. It is not
-/// made.
+/// The folder for the pictures of a table, beside the table: table.plots for table.csv.
 std::filesystem::path picture_folder(const std::filesystem::path& table_path);
 
 /// Throws Error(kBadInput) if a picture of these gaps in `folder` would replace a file that
-/// Viscontact did not write, or one of another kind. Must be called before the tabulation, which
-/// can take hours.
+/// Viscontact did not write, or one of another kind. Must be called before the long tabulation.
 void check_pictures(const std::vector<double>& gaps, const std::filesystem::path& folder);
 
 /// Solves the flow again for each of these gaps (> 0) at the first reference velocity of the

@@ -2,8 +2,9 @@
 // shape of a swimmer. This process computes the rows, or each task of a job on a cluster computes a
 // share of them, and gather_stage() puts them together. Numbers are in the units of each case. Used
 // by app/, python/, rolling/job and swimmer/job. A change must not lose finished rows, because a
-// table can take hours. Functions that read or write files throw Error(kBadInput) if one cannot be
-// read or written.
+// table can take hours. A file that cannot be read or written is an Error(kBadInput), an
+// environment variable VISCONTACT_FREEFEM_TIME_LIMIT that is not a whole number of seconds an
+// Error(kWrongUsage) of the functions that compute rows.
 #pragma once
 
 #include <filesystem>
@@ -34,8 +35,7 @@ struct CaseTable {
 };
 
 /// The table, in the file `table`, of the force on a sphere that approaches its neighbour. Throws
-/// Error(kBadInput) if the case has no section [tabulation], or one with other motions. The file is
-/// not touched, here and in case_tables().
+/// Error(kBadInput) if the case has no section [tabulation], or one with other motions.
 CaseTable case_table(const case_file::Case& c, const std::filesystem::path& table);
 
 /// The tables of all motions of a tabulation, whose case is the file `case_path` with the content
@@ -49,7 +49,6 @@ std::vector<CaseTable> case_tables(const std::filesystem::path& case_path,
 
 /// The points of each table's grid that belong to the share, one list for each of `tables`, in
 /// their order; a list may be empty. The rows of all tables are numbered in one sequence from 0.
-/// `share` is not checked.
 std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<CaseTable>& tables,
                                                           const Share& share);
 
@@ -93,8 +92,7 @@ void share_stage(const std::vector<CaseTable>& tables, const Share& share, int j
 /// error that names them: Error(kExternalProgram) if some of them failed, else
 /// Error(kNotConverged). `slurm_folder` contains logs and submitted cases (array_job.hpp), which
 /// that error mentions; it need not exist. Of several tables, each is tried. Throws
-/// Error(kInterrupted) before the next of them if `stop` requests a stop; for one table `stop` is
-/// not checked.
+/// Error(kInterrupted) between two tables if `stop` requests a stop.
 [[nodiscard]] RowFailure gather_stage(const std::vector<CaseTable>& tables,
                                       const std::filesystem::path& slurm_folder,
                                       const StopToken& stop);

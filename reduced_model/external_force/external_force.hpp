@@ -47,8 +47,7 @@ class ExternalForce {
   /// The force of one sinusoid. Throws Error(kBadInput) if its angular frequency is not > 0.
   static ExternalForce sinusoidal(const Sinusoid& sinusoid);
 
-  /// Adds another force. A piece of the sum that is as short as rounding errors (are_one_time()) is
-  /// left out.
+  /// Adds another force. Pieces as short as rounding errors (are_one_time()) are left out.
   ExternalForce& operator+=(const ExternalForce& other);
 
   /// The same force stretched in time: f_ext(t/factor), factor > 0 (not checked).
@@ -102,8 +101,7 @@ class ExternalForce {
 /// constant.
 class ForceWalk {
  public:
-  /// The walk begins at time 0. `force` must outlive the object. Nothing is thrown, and the order
-  /// of the times is not checked.
+  /// The walk begins at time 0. `force` must outlive the object. Times are not checked.
   explicit ForceWalk(const ExternalForce& force) : force_(force) { enter(0); }
 
   /// The force [M L/T^2] at `time` [T], >= 0.

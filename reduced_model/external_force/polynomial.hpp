@@ -14,8 +14,7 @@
 
 namespace viscontact::reduced_model::polynomial {
 
-/// The sum of weighted(c_k, k) tau^(k - first) for k >= first, by Horner's scheme; 0 if there is no
-/// such k.
+/// The sum of weighted(c_k, k) tau^(k - first) for k >= first, by Horner's scheme.
 template <class Weighted>
 double horner(std::span<const double> coefficients, double tau, std::size_t first,
               const Weighted& weighted) {
@@ -60,8 +59,7 @@ inline double mean(std::span<const double> coefficients, double a, double b) {
   return mean;
 }
 
-/// The same polynomial about another point: p(tau + shift) in powers of tau, as many coefficients
-/// as before.
+/// The same polynomial about another point: p(tau + shift) in powers of tau, of the same degree.
 inline std::vector<double> shifted(std::vector<double> coefficients, double shift) {
   if (shift == 0) return coefficients;
   for (std::size_t i = 0; i + 1 < coefficients.size(); ++i)  // repeated Horner scheme

@@ -16,8 +16,7 @@
 namespace viscontact::reduced_model {
 
 /// A stiff system y' = f(t, y) with its Jacobian; y, f and the tolerances have `dimension`
-/// components. Each function may throw an Error, and nothing else, for a state in which it is not
-/// defined.
+/// components. Each function may throw an Error, and nothing else, where it is not defined.
 struct StiffSystem {
   int dimension = 0;  ///< number of components of y, > 0
   /// Computes f(t, y).

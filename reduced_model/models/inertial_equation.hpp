@@ -30,8 +30,8 @@ struct InertialInstant {
 
 /// Equation (S) and what follows from a solution of it. Motion and force must outlive the object.
 /// Every function of a gap but state_of() throws Error(kBadInput) if the gap is outside the
-/// interval of the force, as does the constructor for the initial gap. Times are in [0, end_time];
-/// neither they nor signs of gaps are checked.
+/// interval of the force, as does the constructor for the initial gap. Times [T] are in [0,
+/// end_time], which is not checked.
 class InertialEquation {
  public:
   /// The equation for the sphere of `motion` under the drag `force`; `relative_tolerance` > 0 is
@@ -73,8 +73,7 @@ class InertialEquation {
   /// LubricationForce::gap_of_impulse() if there is no such gap.
   bool lands_at_once(double t, const InertialInstant& now, double& film) const;
 
-  /// The smallest ratio of a step to the time t that CVODE can resolve; well above the rounding of
-  /// t.
+  /// The smallest ratio of a step to the time t that CVODE can resolve, far above rounding.
   static constexpr double kTimeResolution = 1e-12;
 
  private:

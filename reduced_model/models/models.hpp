@@ -89,8 +89,8 @@ struct ModelChoice {
   bool smooth = false;           ///< true: smooth surfaces, whatever the roughness (kSmoothSuffix)
 };
 
-/// The model with this name, which may have suffixes; nothing if there is none, or if a model that
-/// is no contact model has the suffix _smooth.
+/// The model with this name, which may have suffixes; nothing if there is none, or if _smooth
+/// follows the name of a model without contact.
 std::optional<ModelChoice> known_model(std::string_view name);
 
 /// As known_model(), but throws Error(kBadInput), which lists the names, if there is no such model.
@@ -110,18 +110,17 @@ Motion motion_of(const ModelChoice& choice, const Motion& motion);
 
 /// The contact model that the choice, which must be of a contact model (not checked), makes of
 /// motion_of(choice, motion) and `force`. `force` must outlive the result, which refers to it.
-/// Throws Error(kBadInput) if the model refuses the motion or the force.
+/// Throws the Error(kBadInput) of a model that refuses them.
 ContactModel contact_model_of(const ModelChoice& choice, const Motion& motion,
                               const lubrication::LubricationForce& force);
 
 /// The description of the model and of its suffixes, a line for legends.
 std::string description_of(const ModelChoice& choice);
 
-/// Throws the Error(kBadInput) that simulate() would throw for a parameter without a value, for a
-/// time step that is too short (more than 1e8 steps), for a motion that the model refuses
-/// (Model::check) or, if the model is a contact model, for a gap, a roughness or a fit that it
-/// refuses, but does not run the model. Of `force`, only its interval and its coefficient k are
-/// used.
+/// Throws the Error(kBadInput) that simulate() would throw for a time step that is missing or makes
+/// more than 1e8 steps, for a motion that the model refuses (Model::check) or, if the model is a
+/// contact model, for a gap, a roughness or a fit that it refuses, but does not run the model. Of
+/// `force`, only its interval and its coefficient k are used.
 void check_model(const ModelChoice& choice, const Motion& motion,
                  const lubrication::LubricationForce& force);
 

@@ -20,8 +20,7 @@ namespace viscontact::reduced_model {
 struct ResolvedDrag {
   /// Resistance: the drag over the velocity [M/T], > 0.
   std::function<double(double gap)> resistance;
-  /// A primitive of the resistance [M L/T]; both functions may throw the Errors of
-  /// LubricationForce.
+  /// A primitive of the resistance [M L/T].
   std::function<double(double gap)> impulse;
 };
 
@@ -37,8 +36,7 @@ struct ContactModel {
   double solid_resistance = 0;
   /// The resolved drag; nothing if only the external force acts outside contact.
   std::optional<ResolvedDrag> drag{};
-  /// Thickness [L], >= 0, that the film has at a value of gamma [M L/T], < 0; empty if there is no
-  /// film.
+  /// Film thickness [L], >= 0, at a value of gamma [M L/T], < 0; empty if there is no film.
   std::function<double(double gamma)> film_thickness{};
   /// The function film_thickness as a formula, for the head of trajectory files; may be empty.
   std::string film_law{};
@@ -62,15 +60,14 @@ struct ContactModel {
 /// the velocity and gamma that half a step of the force gives from the middle of the step to the
 /// time of the row.
 ///
-/// motion.initial_gap must be > model.contact_gap (not checked). Throws Error(kBadInput) if the
+/// motion.initial_gap must be >= model.contact_gap (not checked). Throws Error(kBadInput) if the
 /// motion has more than 1e8 steps or no value of viscous_contact.time_step, Error(kInterrupted) if
 /// `motion.stop` requests a stop, and the errors of the functions of `model`.
 Trajectory run_contact_model(const Motion& motion, ContactModel model);
 
 /// A function that makes a contact model for a motion and a force.
 using MakeContactModel = ContactModel (*)(const Motion&, const lubrication::LubricationForce&);
-/// Makes the contact model for `motion` and `force`, and runs it as above. Throws the errors of
-/// `make`, too.
+/// Makes the contact model for `motion` and `force`, and runs it. Throws the errors of both steps.
 inline Trajectory run_contact_model(MakeContactModel make, const Motion& motion,
                                     const lubrication::LubricationForce& force) {
   return run_contact_model(motion, make(motion, force));

@@ -4,9 +4,8 @@
 // it back before the sphere is released. Gamma_res(D) is the primitive of the resistance that the
 // model resolves, so that its difference is the impulse of the drag. The index n marks values at
 // the end of step n. Lengths, masses and times are in any consistent units. All contact models with
-// a time step, and rolling/, use it. Nothing is checked, and only errors of the drag are thrown. A
-// change must keep m u + Gamma_res(D) + gamma - int f dt constant to round-off as long as no solid
-// carries load.
+// a time step, and rolling/, use it. Nothing is checked; only the drag throws Errors. A change must
+// keep m u + Gamma_res(D) + gamma - int f dt constant to round-off while no solid is loaded.
 #pragma once
 
 #include <algorithm>
@@ -59,8 +58,7 @@ struct NoDrag {
 
 /// One step of viscous contact (Maury 2007, "A gluey particle model"; Lefebvre 2009, "Numerical
 /// simulation of gluey particles"). `push` = h f^n is the impulse of the external force in the step
-/// [M L/T], lambda the force of the contact on the sphere, and Gamma_res is 0 without resolved
-/// drag:
+/// [M L/T], lambda the force of the contact on the sphere, and Gamma_res is 0 without drag:
 ///
 ///     m (u^{n+1} - u^n) = h f^n - (Gamma_res(D^{n+1}) - Gamma_res(D^n)) + h lambda,
 ///     D^{n+1} = D^n + h u^{n+1},   gamma^{n+1} = gamma^n - h lambda,
