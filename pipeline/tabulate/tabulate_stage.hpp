@@ -48,7 +48,9 @@ std::vector<CaseTable> case_tables(const std::filesystem::path& case_path,
                                    const freefem_axi::TablePath& path_of);
 
 /// The points of each table's grid that belong to the share, one list for each of `tables`, in
-/// their order; a list may be empty. The rows of all tables are numbered in one sequence from 0.
+/// their order; a list may be empty. A point is the gap [L] and velocity [L/T] of a row, its gap
+/// alone, or the gaps between the spheres of a swimmer [L]. The rows of all tables are numbered in
+/// one sequence from 0.
 std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<CaseTable>& tables,
                                                           const Share& share);
 
