@@ -60,7 +60,7 @@ class InertialEquation {
   InertialInstant instant(double t, double gap, double force_time) const;
 
   /// The first step [T] that CVODE should try after a restart at time t and gap q; 0 leaves the
-  /// choice to CVODE. It is positive if the damping time m/R is below the rounding of t, so that
+  /// choice to CVODE. It is positive if the damping time m/R is below kTimeResolution t, so that
   /// the velocity follows a jump of f_ext at once.
   double first_step(double t, double gap) const;
 
@@ -68,8 +68,9 @@ class InertialEquation {
   /// obeys (I) exactly. Throws the errors of LubricationForce::gap_of_impulse() if no gap does.
   double balanced_state(double t, double gap) const;
 
-  /// True if the rest of a fall takes less time than the rounding of t. `film` [L] is then set to
-  /// the gap Gamma^{-1}(P(t)), at which the velocity is 0 by (I). Throws the errors of
+  /// True if the rest of a fall, and the damping time m/R at its end, are below kTimeResolution t.
+  /// `film` [L] is then set to the gap Gamma^{-1}(P(t)), at which the velocity is 0 by (I); if the
+  /// result is false, `film` has no meaning. Throws the errors of
   /// LubricationForce::gap_of_impulse() if there is no such gap.
   bool lands_at_once(double t, const InertialInstant& now, double& film) const;
 
