@@ -15,19 +15,23 @@
 namespace viscontact::pipeline {
 
 /// The CSV files of a folder that are named after models, in no particular order; none if the
-/// folder does not exist.
+/// folder does not exist. Throws std::filesystem::filesystem_error if the folder cannot be listed.
 std::vector<std::filesystem::path> files_of_models(const std::filesystem::path& folder);
 
-/// Prints a comparison to standard output, as a table or as JSON.
+/// Prints a comparison to standard output, as JSON if `json` is true, else as a table.
 void print_comparison(const reduced_model::Comparison& comparison, bool json);
 
-/// Compares the trajectories of a folder, and those in the files `others`, writes the comparison to
-/// `comparison_path` and prints it, as JSON if `json` is true, else as a table. `given` are the
-/// files of the user from which the same command made the trajectories; it is empty if the user
-/// gave the trajectories themselves. If `reference_model` is empty, the reference is
-/// reduced_model::usual_reference() or, if that model failed, the model of the first trajectory.
-/// Throws Error(kBadInput) if there is no trajectory, if one cannot be read or compared, or if the
-/// reference has none, and Error(kInterrupted) if `stop` requests a stop; then nothing is written.
+/// Compares the trajectories of a folder and those in the files `others`, which may be empty.
+/// Writes the comparison to `comparison_path` and prints it, as JSON if `json` is true, else as a
+/// table. The trajectories of the folder are the CSV files except table.csv in its sub-folder
+/// trajectories/ or, if there is none, in the folder itself. `given` are the files of the user from
+/// which the same command made the trajectories; it is empty if the user gave the trajectories
+/// themselves. If `reference_model` is empty, the reference is reduced_model::usual_reference() or,
+/// if that model failed, the model of the first trajectory. Throws Error(kBadInput) if the folder
+/// does not exist, if there is no trajectory, if one cannot be read or compared, if the reference
+/// has none, or if the record failed_models.json of the folder is damaged, and Error(kInterrupted)
+/// if `stop` requests a stop before a trajectory is read or compared; then nothing is written.
+/// Throws the errors of results::write_output() if the file cannot be written.
 void compare_stage(const std::filesystem::path& folder,
                    const std::vector<std::filesystem::path>& others,
                    const std::string& reference_model, const std::filesystem::path& comparison_path,

@@ -16,25 +16,27 @@ namespace viscontact::pipeline {
 struct DryRun {
   std::string output;          ///< path of the table or of the sweep's file
   std::uint64_t rows = 0,      ///< number of all rows
-      finished = 0;            ///< number of the rows that would not be computed again
-  std::uint64_t failed = 0;    ///< number of the unfinished rows that were tried and failed
+      finished = 0;            ///< number of the rows that would not be computed again, <= rows
+  std::uint64_t failed = 0;    ///< unfinished rows that were tried and failed; 0 for sweeps
   double seconds_per_row = 0;  ///< mean time of a row on one core [s], >= 0
   std::string basis;           ///< what seconds_per_row was estimated from, in words
 };
 
 /// The estimate for a table. The time of a row is the mean over the finished rows. If there are
 /// none, it is the time that rows of the shipped tables took, which has the right order of
-/// magnitude on a similar machine. Throws Error(kBadInput) if the file of the table or of its
-/// finished rows cannot be read.
+/// magnitude on a similar machine. A table of other inputs counts as no rows. Throws
+/// Error(kBadInput) if the file of the table or of its finished rows cannot be read.
 DryRun dry_run(const CaseTable& one);
 
 /// The estimate for a sweep into the file `output`. The first, the middle and the last row are
-/// computed and timed. Throws the Errors of Study::run, Error(kInterrupted) among them if `stop`
-/// requests a stop.
+/// computed and timed; a row in which models fail counts as computed. Throws the Errors of
+/// Study::run, Error(kInterrupted) among them if `stop` requests a stop, and Error(kBadInput) if
+/// `output` exists and is not a regular file.
 DryRun dry_run(const sweep::Study& study, const std::string& output, const StopToken& stop);
 
-/// A line for each output, then the time that all of them take if `jobs` >= 1 rows are computed at
-/// once. If `json` is true, the same as a JSON object.
+/// A line for each output, then the time that all of them take if `jobs` rows are computed at once
+/// (>= 1, not checked). If `json` is true, the same as a JSON object: "jobs", "seconds" [s] of all
+/// missing rows, and "outputs", an array of objects, in the order of `runs`. Nothing is thrown.
 std::string dry_run_text(const std::vector<DryRun>& runs, int jobs, bool json);
 
 }  // namespace viscontact::pipeline

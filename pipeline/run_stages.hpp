@@ -12,11 +12,14 @@
 namespace viscontact::pipeline {
 
 /// Runs the stages, `jobs` >= 1 rows of the table at once, and writes into `folder`. A stage whose
-/// inputs have not changed is not run again. Throws Error(kBadInput) before the tabulation starts
-/// if the case is wrong or if a file of the user would be replaced. If rows of the table or models
-/// failed, their error is thrown after all results of the others are written. If `json` is true,
-/// the comparison is printed as JSON. Throws Error(kInterrupted) if `stop` requests a stop;
-/// finished results are kept.
+/// inputs have not changed is not run again. The comparison is printed, as JSON if `json` is true,
+/// else as a table. Throws Error(kBadInput) before the tabulation starts if the case is wrong, if
+/// it lacks [motion] or [fit] (or [tabulation], unless [fit] names a fit or the exact drag), or if
+/// a file of the user would be replaced. If rows of the table or models failed, their error is
+/// thrown after all results of the others are written; if all models failed, at once. Throws the
+/// other errors of the stages (tabulate_stage.hpp, fit_stages.hpp, simulate_stage.hpp,
+/// compare_stage.hpp, report.hpp), such as Error(kExternalProgram) if FreeFEM or gnuplot fails, and
+/// Error(kInterrupted) if `stop` requests a stop; finished results are kept.
 void run_stages(const case_file::Case& c, const std::filesystem::path& folder, int jobs, bool json,
                 const StopToken& stop);
 

@@ -16,21 +16,25 @@ namespace viscontact::pipeline {
 /// The options of a sweep.
 struct SweepStageRequest {
   std::string output;  ///< path of the file of rows (CSV)
-  int jobs = 1;        ///< number of rows at once, >= 1
-  StopToken stop{};    ///< a stop ends the sweep
+  int jobs = 1;        ///< number of rows at once, >= 1 (not checked)
+  StopToken stop{};    ///< a stop ends the sweep with Error(kInterrupted)
 };
 
 /// Computes the missing rows and writes their file, shows the progress, and says how many rows
 /// there are and how many failed. `inputs` are the files that the rows depend on, for the record of
 /// how the file was made. `part` is the word for the parts of a row that may fail, such as "model".
-/// Throws Error(kNotConverged) after all is written if every part failed in every row, and the
-/// errors of write_rows().
+/// Throws Error(kNotConverged) after all is written if every part failed in every row,
+/// Error(kBadInput) if the written file cannot be read, and the errors of write_rows().
 void run_sweep(const sweep::Study& study, const SweepStageRequest& request,
                const results::Inputs& inputs, const std::string& part);
 
-/// Computes the missing rows, writes their file, and returns their number. `progress` gets the
-/// number of finished rows and that of all rows. Throws the errors of sweep::write_sweep(), such as
-/// Error(kInterrupted) if `stop` requests a stop; finished rows are kept.
+/// Computes the missing rows, writes their file, and returns the number of rows that it computed; 0
+/// if none was missing. `progress` gets the number of finished rows and that of all rows after each
+/// row; one thread at a time calls it. Throws Error(kBadInput) if a file of `inputs` cannot be
+/// read, Error(kWrongUsage) if the environment variable SOURCE_DATE_EPOCH is not a time, and the
+/// errors of sweep::write_sweep(): Error(kInterrupted) if `request.stop` requests a stop,
+/// Error(kBadInput) if the file cannot be written, and errors of rows that end the sweep. Finished
+/// rows are kept.
 std::uint64_t write_rows(const sweep::Study& study, const SweepStageRequest& request,
                          const results::Inputs& inputs,
                          const std::function<void(std::uint64_t, std::uint64_t)>& progress);

@@ -21,12 +21,13 @@ namespace viscontact::reduced_model {
 /// What the comparison finds for one trajectory.
 struct ModelComparison {
   std::string model;            ///< its name
-  double minimal_gap = 0;       ///< smallest gap of the rows [L]
+  double minimal_gap = 0;       ///< smallest gap of the rows [L], >= 0
   double minimal_gap_time = 0;  ///< time of the first row with this gap [T]
-  /// Film thickness that the model computes from the lowest gamma [L], > 0; contact models only.
+  /// Film thickness that the model computes from the lowest gamma [L], >= 0; nothing if gamma is
+  /// never < 0. Contact models only.
   std::optional<double> recovered_minimal_gap;
   /// First time at which contact begins and last time at which it ends [T]. In a trajectory that
-  /// Viscontact did not write: the times of the first and the last row with gamma < 0.
+  /// does not state them: the times of the first and last row with gamma < 0, if any.
   std::optional<std::array<double, 2>> contact_interval;
   /// When the solids touch for the first time; nothing if they never do, or if the model has no
   /// solids.
@@ -35,11 +36,11 @@ struct ModelComparison {
   std::vector<Rebound> rebounds;
   /// Impulse and work of each force; nothing in a trajectory that Viscontact did not write.
   std::optional<MomentumEnergyBudget> budget;
-  double sup_gap_distance = 0;      ///< max over time of |q - q_ref| [L]
-  double l1_gap_distance = 0;       ///< integral over time of |q - q_ref| [L T]
-  double l1_velocity_distance = 0;  ///< integral over time of |u - u_ref| [L]
-  long steps = 0;                   ///< number of steps of the integrator
-  double seconds = 0;               ///< computing time on a clock [s]
+  double sup_gap_distance = 0;      ///< max over time of |q - q_ref| [L], >= 0
+  double l1_gap_distance = 0;       ///< integral over time of |q - q_ref| [L T], >= 0
+  double l1_velocity_distance = 0;  ///< integral over time of |u - u_ref| [L], >= 0
+  long steps = 0;                   ///< number of steps of the integrator; 0 if not stated
+  double seconds = 0;               ///< computing time on a clock [s]; 0 if not stated
 };
 
 /// A model that should have run but failed.
@@ -57,16 +58,16 @@ struct Comparison {
 };
 
 /// Compares each trajectory with that of `reference_model` over the times that both cover. Between
-/// its rows each trajectory is linear. Throws Error(kBadInput) if no trajectory has that name, if
-/// two have the same name, or if one has no time in common with the reference, and
-/// Error(kInterrupted) if `stop` requests a stop before a trajectory is compared.
+/// its rows each trajectory is linear; each must have a row (not checked). Throws Error(kBadInput)
+/// if no trajectory has that name, if two have the same name, or if one has no time in common with
+/// the reference, and Error(kInterrupted) if `stop` requests a stop.
 Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
                                 std::string_view reference_model, const StopToken& stop = {});
 
-/// Reads the comparison file (JSON). Throws Error(kBadInput) if the file is missing or of another
-/// form.
+/// Reads the comparison file (JSON). Throws Error(kBadInput), which names file and line, if the
+/// file is missing or of another form.
 Comparison read_comparison(const std::filesystem::path& path);
-/// The text of the comparison file.
+/// The text of the comparison file. Nothing is thrown.
 std::string write_comparison(const Comparison& comparison);
 
 }  // namespace viscontact::reduced_model

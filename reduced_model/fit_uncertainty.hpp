@@ -19,9 +19,9 @@ namespace viscontact::reduced_model {
 
 /// A gap of the motion without inertia at one time, with two intervals for it.
 struct UncertainGap {
-  double time = 0;  ///< [T]
-  double gap = 0;   ///< gap with the fit unchanged [L]
-  /// Interval that contains 95 % of the draws of coefficients [L].
+  double time = 0;  ///< [T], >= 0
+  double gap = 0;   ///< gap with the fit unchanged [L], > 0
+  /// Ends, in increasing order, of the interval that contains 95 % of the draws [L].
   std::array<double, 2> random = {};
   /// The gaps if the drag is everywhere as large, or as small, as the misfit allows, in increasing
   /// order [L].
@@ -30,7 +30,7 @@ struct UncertainGap {
 
 /// The uncertain gaps of a motion.
 struct FitUncertainty {
-  std::size_t draws = 0;  ///< number of draws of coefficients
+  std::size_t draws = 0;  ///< number of draws of coefficients, those left out included
   /// Number of draws that were left out, because their drag is not positive or the motion is
   /// impossible with it.
   std::size_t refused = 0;
@@ -39,7 +39,7 @@ struct FitUncertainty {
   /// error estimate e of the table.
   double misfit = 0;
   UncertainGap smallest;           ///< smallest gap of the motion, q_min
-  std::vector<UncertainGap> gaps;  ///< at equidistant times
+  std::vector<UncertainGap> gaps;  ///< at equidistant, increasing times; may be empty
 };
 
 /// Default number of draws. The ends of the interval of 95 % then have an error of about 1 % of its
@@ -53,17 +53,19 @@ inline constexpr std::size_t kDraws = 10000;
 ///   misfit  uses |R_fit/R - 1| <= misfit, so that Gamma_fit(q(t)) is between Gamma_fit(q0) +
 ///           (1 - misfit) int f_ext and Gamma_fit(q0) + (1 + misfit) int f_ext. This bound is valid
 ///           for every shape of the misfit, as far as the misfit is known at the gaps of the table.
-/// Outside the fit's interval the drag follows outside.with_limits(). The smallest gap, q_min, is at
-/// 0, where f_ext changes its sign, or at the end. If f_ext has too many periods for
+/// Outside the fit's interval the drag follows outside.with_limits(). The smallest gap, q_min, is
+/// at 0, where f_ext changes its sign, or at the end. If f_ext has too many periods for
 /// ExternalForce::sign_changes(), its changes through 0 are left out. `times` is the number of
-/// further, equidistant instants from 0 to motion.end_time; 0 asks for q_min alone. Equal arguments
-/// give equal numbers. Throws the Errors of LubricationForce if it refuses the fit itself or cannot
-/// compute a gap with it, and Error(kNotConverged) if all draws were left out.
+/// further, equidistant instants from 0 to motion.end_time; 0 asks for q_min alone, and 1 also for
+/// the start. fit.covariance must have a row and a column for each term (not checked). Equal
+/// arguments give equal numbers. Throws the Errors of LubricationForce (kBadInput or kNotConverged)
+/// if it refuses the fit itself or cannot compute a gap with it, and Error(kNotConverged) if all
+/// draws were left out or `draws` is 0.
 FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, std::size_t times,
                              const lubrication::OutsideInterval& outside = {},
                              std::size_t draws = kDraws);
 
-/// The text of the file uncertainty.json.
+/// The text of the file uncertainty.json (JSON). Nothing is thrown.
 std::string write_uncertainty(const FitUncertainty& uncertainty);
 
 /// Reads uncertainty.json. Throws Error(kBadInput) if the file is missing or of another form.

@@ -13,9 +13,9 @@ namespace viscontact::reduced_model {
 
 struct Motion;
 
-/// The part SECTION of a key SECTION.NAME in the case file.
+/// The part SECTION of a key SECTION.NAME in the case file; without a point, the whole key.
 constexpr std::string_view section_of(std::string_view key) { return key.substr(0, key.find('.')); }
-/// The part NAME of a key SECTION.NAME in the case file.
+/// The part NAME of a key SECTION.NAME in the case file; without a point, the whole key.
 constexpr std::string_view name_of(std::string_view key) { return key.substr(key.find('.') + 1); }
 
 /// A parameter of one or several models of motion. A model lists its parameters in its row of the
@@ -24,9 +24,9 @@ struct ModelParameter {
   std::string_view key;          ///< SECTION.NAME in the case file
   std::string_view description;  ///< for the report
   std::string_view dimension;    ///< dimension of the values, such as "L"; for the report
-  Allowed allowed;               ///< the values that are accepted
-  /// Value for a case without this key. It must not depend on parameters of `motion`, which are not
-  /// set yet; `radius` > 0 is that of the sphere [L].
+  Allowed allowed;               ///< the finite values that are accepted
+  /// Value for a case without this key, one that `allowed` accepts; never null. It must not depend
+  /// on parameters of `motion`, which are not set yet; `radius` > 0 is that of the sphere [L].
   double (*fallback)(const Motion& motion, double radius);
   /// True for a time step: it must be at most Motion::end_time, and the key motion.time_scale of a
   /// case multiplies it.

@@ -1,7 +1,7 @@
 // What every model of motion is given: the sphere, its start, the external force, and the values of
-// the models' parameters. Lengths, masses and times are in any consistent units. Case files set
-// these members; reduced_model/, rolling/ and case_file/ use them. A change must keep the keys,
-// which users' case files contain.
+// the models' parameters. Lengths, masses and times are in any consistent units. Case files set and
+// check these members, models do not check them; reduced_model/, rolling/ and case_file/ use them.
+// A change must keep the keys, which users' case files contain.
 #pragma once
 
 #include <array>
@@ -30,7 +30,8 @@ struct Motion {
 
   /// Heights r1, r2 of the roughness of sphere and wall [L], >= 0; smooth surfaces if both are 0.
   std::array<double, 2> roughness = {};
-  /// Values of the models' parameters by ModelParameter::key; parameter() reads them.
+  /// Values of the models' parameters by ModelParameter::key, in ModelParameter::dimension;
+  /// parameter() reads them.
   std::map<std::string_view, double> parameters{};
 
   /// Approximate number of rows of a trajectory file (fewer_rows()), >= 2; 0 writes all rows.
@@ -40,7 +41,7 @@ struct Motion {
   /// If it requests a stop, report_progress() throws Error(kInterrupted).
   StopToken stop{};
 
-  /// The value of a parameter. Throws Error(kBadInput) if it has no value.
+  /// The value of a parameter in its dimension. Throws Error(kBadInput) if it has no value.
   double parameter(const ModelParameter& which) const;
   /// Coefficient of restitution e_d of the solids, 0 to 1 [1]; 0 without a value of kRestitution.
   double restitution() const;
@@ -51,7 +52,7 @@ struct Motion {
 /// The time step [T] with which a motion has 4000 steps, as many as the case of Lefebvre's lecture.
 inline double default_time_step(const Motion& motion, double) { return motion.end_time / 4000; }
 
-/// Step h of `reference` [T], and spacing of the rows of models that choose their steps themselves.
+/// Step h of `reference` [T], > 0, and row spacing of models that choose their steps themselves.
 inline constexpr ModelParameter kReferenceTimeStep = {
     "reference.time_step",
     "time step of the reference, row spacing of reference_exact and inertial",
@@ -60,7 +61,7 @@ inline constexpr ModelParameter kReferenceTimeStep = {
     default_time_step,
     true,
     "`end_time`/4000"};
-/// Step h of the contact models and of `explicit_euler` [T].
+/// Step h of the contact models and of `explicit_euler` [T], > 0.
 inline constexpr ModelParameter kContactTimeStep = {"viscous_contact.time_step",
                                                     "time step of the contact models",
                                                     "T",
@@ -69,7 +70,7 @@ inline constexpr ModelParameter kContactTimeStep = {"viscous_contact.time_step",
                                                     true,
                                                     "`end_time`/4000"};
 
-/// Coefficient e_d of restitution of the solids [1].
+/// Coefficient e_d of restitution of the solids [1], 0 to 1.
 inline constexpr ModelParameter kRestitution = {
     "viscous_contact.restitution",
     "coefficient of restitution of the solids",
@@ -87,18 +88,20 @@ void report_progress(const Motion& motion, double time);
 /// take about 0.1 ms, so that the calls cost little and a stop acts at once.
 inline constexpr int kStepsBetweenProgressReports = 4096;
 
-/// Number of steps of size `step` > 0 that cover [0, end]. The last step may be shorter. A last
-/// step of less than 1e-6 `step` is dropped, because it is round-off of end/step. Throws
-/// Error(kBadInput) for more than 1e8 steps.
+/// Number of steps, >= 1, of size `step` > 0 [T] that cover [0, end] [T]. The last step may be
+/// shorter. A last step of less than 1e-6 `step` is dropped, because it is round-off of end/step.
+/// Throws Error(kBadInput) for more than 1e8 steps.
 int step_count(double end, double step);
 
-/// The time [T] after `index` of the `count` steps; after the last step it is exactly `end`.
+/// The time [T] after `index` of the `count` steps, 0 <= index <= count (not checked); after the
+/// last step it is exactly `end`.
 inline double step_time(int index, int count, double end, double step) {
   return index == count ? end : index * step;
 }
 
 /// The times [T] of the rows of a model without a fixed step: 0, the multiples of `parameter`, the
-/// jumps of the force or of its slope, and end_time. Throws the error of step_count().
+/// jumps of the force or of its slope, and end_time, in increasing order. A multiple within 1e-6 of
+/// the spacing from a jump is left out. Throws the errors of step_count() and Motion::parameter().
 std::vector<double> row_times(const Motion& motion,
                               const ModelParameter& parameter = kReferenceTimeStep);
 

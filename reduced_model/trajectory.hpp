@@ -116,7 +116,7 @@ struct Rebound {
   /// Impulse that the solids took up before they gave a part back [M L/T], > 0.
   double solid_impulse = 0;
   double velocity = 0;  ///< velocity at which the sphere leaves the film [L/T], >= 0; 0: it stays
-  double coefficient = 0;  ///< coefficient of restitution, velocity/|approach_velocity| [1]
+  double coefficient = 0;  ///< of restitution, velocity/|approach_velocity| [1], >= 0
   bool operator==(const Rebound&) const = default;  ///< whether all numbers are equal
 };
 
@@ -137,10 +137,11 @@ inline constexpr int kModelsRevision = 5;
 struct Trajectory {
   std::string model;                ///< its name
   std::vector<TrajectoryRow> rows;  ///< in strictly increasing time, at least one
-  /// Smallest film thickness [L] that gamma stands for; contact models only.
+  /// Smallest film thickness [L], >= 0, that gamma stands for; nothing if gamma is never < 0.
+  /// Contact models only.
   std::optional<double> recovered_minimal_gap;
-  /// Beginning of the first contact and end of the last one (or of the motion) [T]; contact models
-  /// only.
+  /// Beginning of the first contact and end of the last one (or of the motion) [T]; nothing without
+  /// contact. Contact models only.
   std::optional<std::array<double, 2>> contact_interval;
   /// When the solids touch first; nothing if they never do, or if the model has no solids.
   std::optional<SolidTouch> solid_contact_from{};
@@ -148,26 +149,29 @@ struct Trajectory {
   std::vector<Rebound> rebounds;
   /// The budget; nothing in a trajectory that Viscontact did not write.
   std::optional<MomentumEnergyBudget> budget;
-  long steps = 0;      ///< number of steps of the integrator
-  double seconds = 0;  ///< computing time on a clock [s]
+  long steps = 0;      ///< number of steps of the integrator, >= 0; 0 if not stated
+  double seconds = 0;  ///< computing time on a clock [s]; 0 if not stated
   /// Further lines "# key: value" of the file, such as fit, case and time step.
   std::map<std::string, std::string> provenance;
 };
 
 /// Reads a trajectory file, which Viscontact or a user wrote. The columns time, gap and velocity
 /// are required. The name of the model is that of the line "# model:", or else the file name
-/// without its ending. Throws Error(kBadInput) with file and line if a value is missing or not
-/// finite, if a gap is negative, or if times do not increase.
+/// without its ending. Throws Error(kBadInput), with the file and, for a fault of a row, its line,
+/// if the file cannot be read, a required column or value is missing, a number is not finite, a gap
+/// is negative, times do not increase, there is no row, or a number in the head is wrong. Signs of
+/// other values are not checked.
 Trajectory read_trajectory(const std::filesystem::path& path);
 
-/// The text of the trajectory file (CSV).
+/// The text of the trajectory file (CSV). Nothing is checked or thrown.
 std::string write_trajectory(const Trajectory& trajectory);
 
-/// About `count` >= 2 of the rows, in their order; all of them if they are at most `count`. They
-/// are the first rows at or after each of `count` equidistant times, and the rows that a comparison
-/// needs: the first, the last, the first with the smallest gap, with the largest gap and with the
-/// lowest gamma, and the two rows around each instant at which contact or solid contact begins or
-/// ends. If there are more than `count` such instants, only the first and the last of them count.
+/// About `count` >= 2 (not checked) of the rows, in their order; all of them if they are at most
+/// `count`. They are the first rows at or after each of `count` equidistant times, and the rows
+/// that a comparison needs: the first, the last, the first with the smallest gap, with the largest
+/// gap and with the lowest gamma, and the two rows around each instant at which contact or solid
+/// contact begins or ends. If there are more than `count` such instants, only the first and the
+/// last of them count.
 std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, int count);
 
 }  // namespace viscontact::reduced_model

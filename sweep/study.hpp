@@ -22,15 +22,16 @@
 
 namespace viscontact::sweep {
 
-/// The results of a row, by the names of their columns. A column without a result is empty.
+/// The results of a row, by the names of their columns (Study::results), in the units that the
+/// makers of the study state. A column without a result is empty.
 struct RowResults {
   std::map<std::string, double> values;  ///< a value that is not finite gives an empty field
   std::map<std::string, std::uint64_t> numbers;  ///< results that are whole numbers
   std::string failure;                           ///< why results are missing; empty if none is
 };
 
-/// Calls `part`, which computes some results of a row. If it fails, the reason is added to the
-/// failure of the row. Throws Error(kInterrupted) if `part` does.
+/// Calls `part`, which computes some results of a row. If it throws an Error, the reason is added
+/// to the failure of the row. Throws Error(kInterrupted) if `part` does.
 template <class Part>
 void add_part(RowResults& results, const Part& part) {
   try {
@@ -54,8 +55,8 @@ struct Study {
   std::function<RowResults(std::uint64_t index, const StopToken& stop)> run;
 
   std::uint64_t size() const { return points.rows(); }  ///< number of rows, > 0
-  std::vector<std::string> columns() const;             ///< names of all columns
-  /// Row `index` as a line of CSV. Throws what `run` throws.
+  std::vector<std::string> columns() const;             ///< names of all columns, in their order
+  /// Row `index` < size() as a line of CSV with its line end. Throws what `run` throws.
   std::string row(std::uint64_t index, const StopToken& stop = {}) const;
 };
 
@@ -74,8 +75,8 @@ void refuse_doubles(const std::vector<std::string>& names, std::string_view kind
 std::vector<Variation> variations_of_case(const std::vector<std::string>& ranges,
                                           const std::filesystem::path& case_path);
 
-/// Returns `make(numbers)` for the keys and values of row `index`. An Error that it throws is
-/// thrown again with the point in its message.
+/// Returns `make(numbers)` for the keys and values of row `index` < points.rows(). An Error that it
+/// throws is thrown again with the point in its message.
 template <class Make>
 auto at_point(const Points& points, std::uint64_t index, const Make& make) {
   const auto numbers = points.numbers(index);
@@ -88,7 +89,8 @@ auto at_point(const Points& points, std::uint64_t index, const Make& make) {
 
 /// Throws Error(kWrongUsage) if nothing or a key twice is varied. Then calls `make`, which makes a
 /// case, for the first and the last row, so that a range that leads to a wrong case is an Error
-/// before rows are computed.
+/// before rows are computed; rows between are not checked. Throws the Errors of `make` and
+/// Points::rows().
 template <class Make>
 void check_ends(const Points& points, const Make& make) {
   if (points.variations.empty() && points.draws == 0)
@@ -99,9 +101,10 @@ void check_ends(const Points& points, const Make& make) {
 }
 
 /// Computes the rows `begin`, ..., `size` - 1 with `jobs` >= 1 threads and passes them to `take` in
-/// order. Ends early if `stop` requests it. If `row` or `take` throws, ends early and throws the
-/// same exception. The memory that it needs does not grow with the number of rows. Returns the
-/// index of the last row taken plus 1, or `begin` if none was taken.
+/// order, from one thread at a time. If `stop` requests a stop, ends early without an Error, even
+/// if `row` throws one then. If `row` or `take` throws otherwise, ends early and throws the same
+/// exception. The memory that it needs does not grow with the number of rows. Returns the index of
+/// the last row taken plus 1, or `begin` if none was taken.
 std::uint64_t run_rows(
     std::uint64_t size, std::uint64_t begin, int jobs,
     const std::function<std::string(std::uint64_t index, const StopToken& stop)>& row,
@@ -112,7 +115,8 @@ std::uint64_t run_rows(
 /// Until all rows are finished, they are in PATH.part, in order. A later call keeps the rows in
 /// that file if they belong to the same sweep (Study::comments), and otherwise deletes them. A
 /// finished file of the same sweep is left as it is. `how_made` is empty or a line "# provenance:
-/// ...\n" for the head of a new file. `progress(done, size)` is called after each row.
+/// ...\n" for the head of a new file. `progress(done, size)` is called after each row, by one
+/// thread at a time.
 ///
 /// Throws Error(kInterrupted) if `stop` requests a stop, Error(kBadInput) if a file cannot be
 /// written or another process writes the same file, and the Errors of Study::run. Finished rows are
@@ -132,11 +136,12 @@ struct SweepOutcome {
   std::string first_failure;
 };
 
-/// Reads from the finished file of a sweep how many points have results. Throws Error(kBadInput) if
-/// the file cannot be read.
+/// Reads from the finished file of this sweep (not checked) how many rows have results. Throws
+/// Error(kBadInput) if the file cannot be read.
 SweepOutcome read_outcome(const Study& study, const std::filesystem::path& path);
 
-/// Number of rows of this sweep that are finished, in PATH or PATH.part.
+/// Number of rows of this sweep that are finished, in PATH or PATH.part; 0 if neither belongs to
+/// it. Throws Error(kBadInput) if PATH exists and is not a regular file.
 std::uint64_t finished_rows(const Study& study, const std::filesystem::path& path);
 
 }  // namespace viscontact::sweep

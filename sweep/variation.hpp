@@ -23,11 +23,11 @@ struct Variation {
   bool logarithmic = false;  ///< true: the values of a range are in geometric progression
   std::uint64_t count = 0;   ///< number of values, >= 1
 
-  /// Value i, 0 <= i < count.
+  /// Value i, 0 <= i < count (not checked), in the unit of the key.
   double value(std::uint64_t i) const;
 
   /// The value at the fraction `share` of the way from `first` to `last`, 0 <= share < 1, measured
-  /// in the logarithm if `logarithmic`. Of a list of n values, the element floor(n share).
+  /// in the logarithm if `logarithmic`. Of a list of n values, element floor(n share) from 0.
   double at(double share) const;
 };
 
@@ -36,25 +36,26 @@ struct Variation {
 /// not finite, a logarithmic range contains 0 or changes sign, or N is not an integer in [1, 1e9].
 Variation parse_variation(std::string_view text);
 
-/// Keys and values of point `index` of the grid, which combines every value of each variation with
-/// every value of the others. From one point to the next, the last variation changes first.
+/// Keys and values of point `index` < grid_size() (not checked) of the grid, which combines every
+/// value of each variation with every value of the others. From one point to the next, the last
+/// variation changes first.
 std::vector<std::pair<std::string, double>> grid_point(const std::vector<Variation>& variations,
                                                        std::uint64_t index);
 
-/// Keys and values of random sample `index`. Each value is uniformly distributed over its range (in
-/// the logarithm, if the range is logarithmic) or over its list, and independent of all others.
-/// Equal arguments give equal values, which come from a hash (common/splitmix.hpp) of seed, index
-/// and number of the variation.
+/// Keys and values of random sample `index`; each index is allowed. Each value is uniformly
+/// distributed over its range (in the logarithm, if the range is logarithmic) or over its list, and
+/// independent of all others. Equal arguments give equal values, which come from a hash
+/// (common/splitmix.hpp) of seed, index and number of the variation.
 std::vector<std::pair<std::string, double>> random_point(const std::vector<Variation>& variations,
                                                          std::uint64_t index, std::uint64_t seed);
 
-/// Number of points of the grid. Throws Error(kWrongUsage) if it exceeds 1e12, the largest number
-/// of rows that a sweep may have.
+/// Number of points of the grid, >= 1 (1 if nothing is varied). Throws Error(kWrongUsage) if it
+/// exceeds 1e12, a free limit, because so many rows take too long.
 std::uint64_t grid_size(const std::vector<Variation>& variations);
 
 /// The points of a sweep: a grid, or random points. In a sweep of randomly arranged particles a
 /// point has several draws, which are arrangements with different seeds. Each draw is a row, and
-/// the draws of a point follow each other.
+/// the draws of a point follow each other. Functions that count points throw as grid_size().
 struct Points {
   std::vector<Variation> variations;  ///< the varied keys
   std::uint64_t samples = 0;          ///< number of random points; 0: the whole grid
@@ -68,7 +69,7 @@ struct Points {
   std::uint64_t rows() const;   ///< number of rows: points times draws, or points if `draws` is 0
   /// The varied keys, and arrangement.seed if there are draws.
   std::vector<std::string> keys() const;
-  /// Keys and values of a row, 0 <= index < rows().
+  /// Keys and values of a row, 0 <= index < rows() (not checked), in the order of keys().
   std::vector<std::pair<std::string, double>> numbers(std::uint64_t index) const;
   std::string key_fields(std::uint64_t index) const;  ///< the values of a row as fields of CSV
   bool is_varied(const std::string& key) const;       ///< true if a variation has this key

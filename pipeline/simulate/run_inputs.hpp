@@ -1,9 +1,10 @@
 // The inputs of a run: their copies in its folder (case, files of sampled external forces, fit of
 // the drag), so that the folder alone repeats the run, and the comments of a trajectory that say
-// from which inputs it was made, by which `run` decides whether it is up to date. Numbers are in
-// the units of the case. The other files of pipeline/ call it. A change must keep that a copy never
-// replaces a file of the user, and that the comments identify everything that alters a trajectory.
-// A file that cannot be read is an Error(kBadInput), except in is_simulated().
+// from which inputs it was made, by which `run` decides whether it is up to date. Nothing is
+// computed here but hashes (SHA-256, in hexadecimal digits). The other files of pipeline/ call it.
+// A change must keep that a copy never replaces a file of the user, and that the comments identify
+// everything that alters a trajectory. A file that cannot be read or written is an
+// Error(kBadInput), except in is_simulated().
 #pragma once
 
 #include <string>
@@ -36,12 +37,14 @@ void write_copies(const results::RunFolder& run, const case_file::Case& c,
 
 /// The comment lines "# key: value" that identify the inputs of a trajectory: hashes of the case,
 /// of the fit (the text `fit_text`) and of the force files, the choice of the drag outside the
-/// fit's interval, the revision of the models and the version of Viscontact.
+/// fit's interval, the revision of the models and the version of Viscontact. Without force files
+/// there is no key `force`; without a formula below or above the interval there is no key for it.
 CsvComments identity_of_trajectory(const case_file::Case& c, const std::string& fit_text,
                                    const lubrication::OutsideInterval& outside);
 
-/// True if the folder has a trajectory of the model whose comments are those of `identity`; false
-/// if the trajectory cannot be read.
+/// True if the folder has a trajectory of the model with all comments of `identity`, and with no
+/// comment on the drag outside the fit's interval that `identity` lacks; other comments may differ.
+/// False if there is no trajectory or if it cannot be read. No Error is thrown.
 bool is_simulated(const results::RunFolder& run, const std::string& model,
                   const CsvComments& identity);
 

@@ -2,7 +2,8 @@
 // trajectories and the record of failed models into a run's folder. Lengths, masses and times are
 // in the units of the case. The commands `run`, `simulate` and `sweep`, and python/, call it. A
 // change must keep that trajectories are written after the copies of the inputs and
-// uncertainty.json, because `run` takes a trajectory as the sign that those are written.
+// uncertainty.json, because `run` takes a trajectory as the sign that those are written. Functions
+// that make or write outputs throw Error(kWrongUsage) if the variable SOURCE_DATE_EPOCH is no time.
 #pragma once
 
 #include <filesystem>
@@ -25,11 +26,11 @@ struct FitFile {
   std::string text;            ///< content of the file
 };
 
-/// The case file and the files of sampled external forces that its motion reads.
+/// The case file, and after it the files of sampled external forces that its motion reads.
 std::vector<std::filesystem::path> files_of_motion(const case_file::Case& c);
 
-/// Names of the models to run: `asked` or, if this is empty, those that the case names or, if the
-/// case names none, reduced_model::default_models().
+/// Names of the models to run, at least one: `asked` or, if this is empty, those that the case
+/// names or, if the case names none, reduced_model::default_models(). The names are not checked.
 std::vector<std::string> models_to_run(const case_file::Case& c,
                                        std::vector<std::string> asked = {});
 
@@ -37,18 +38,20 @@ std::vector<std::string> models_to_run(const case_file::Case& c,
 struct Simulated {
   std::string fit_text;   ///< text of the fit file
   CsvComments made_from;  ///< comments that identify case, fit and version (run_inputs.hpp)
-  std::vector<reduced_model::Trajectory> trajectories;  ///< of the models that did not fail
-  std::vector<results::FailedModel> failed;             ///< models without a trajectory
+  std::vector<reduced_model::Trajectory> trajectories;  ///< of models that did not fail, >= 1
+  std::vector<results::FailedModel> failed;  ///< models without a trajectory; may be empty
   /// Effect of the fit's errors on the motion without inertia (reduced_model/fit_uncertainty.hpp),
   /// as JSON; empty if the fit is exact or the effect cannot be computed.
   std::string uncertainty;
 };
 
-/// Runs the models (see models_to_run) and writes no file. `outside` is the drag outside the fit's
-/// interval. A model that fails, because it leaves that interval or does not converge, does not
-/// stop the others. Throws Error(kBadInput), which names the case or the fit, if the fit cannot be
-/// scaled to the case (case_file::fit_for), or if a parameter of a model is wrong. Throws the error
-/// of the first model if all models fail, and Error(kInterrupted) if `stop` requests a stop.
+/// Runs the models (see models_to_run), in this order, and writes no file. `outside` is the drag
+/// outside the fit's interval. A model that fails, because it leaves that interval or does not
+/// converge, does not stop the others. Throws Error(kBadInput), which names the case or the fit, if
+/// the case has no [motion], if the text of the fit is not one, if its resistance is not positive,
+/// if it cannot be scaled to the case (case_file::fit_for), if a model is unknown or if a parameter
+/// of a model is wrong. Throws the error of the first model if all models fail, and
+/// Error(kInterrupted) if `stop` requests a stop.
 Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
                         const std::vector<std::string>& models,
                         const lubrication::OutsideInterval& outside, const StopToken& stop);

@@ -24,8 +24,8 @@ struct Share {
 /// The options of a command that submits an array job.
 struct ArrayRequest {
   std::filesystem::path output;      ///< path of the command's output: a table or a folder
-  std::optional<std::size_t> tasks;  ///< size of the array; nothing: one task a row, at most 1000
-  std::optional<int> jobs;           ///< rows that a task computes at once; nothing: 1
+  std::optional<std::size_t> tasks;  ///< size of the array, >= 1; nothing: see task_count()
+  std::optional<int> jobs;           ///< rows that a task computes at once, >= 1; nothing: 1
   std::string options;               ///< further words for sbatch, quoted as in a shell; or empty
   StopToken stop{};                  ///< a stop ends the wait for Slurm (kInterrupted)
 };
@@ -40,27 +40,29 @@ struct ArrayJob {
   /// cases do not change them.
   std::vector<std::pair<std::string, std::string>> copies;
   std::vector<std::string> options;  ///< further arguments of the command, each one word
-  std::size_t count = 1;             ///< number of tasks
-  std::vector<std::size_t> tasks;    ///< numbers of the tasks that have rows to compute
+  std::size_t count = 1;             ///< number of tasks, >= 1
+  std::vector<std::size_t> tasks;    ///< increasing numbers, < count, of tasks with rows to compute
 };
 
-/// The number of tasks: that of the request or, if it names none, one for each of `rows`, at most
-/// 1000.
+/// The number of tasks: that of the request (not checked) or, if it names none, one for each of
+/// `rows`, at most 1000, because Slurm allows task numbers up to 1000 by default; 0 if `rows` is 0.
 std::size_t task_count(const ArrayRequest& request, std::size_t rows);
 
-/// The folder OUTPUT.slurm, which has copies of the submitted cases, the script of a task and the
-/// logs of the tasks.
+/// The folder OUTPUT.slurm, as an absolute path, which has copies of the submitted cases, the
+/// script of a task and the logs of the tasks.
 std::filesystem::path slurm_folder(const std::filesystem::path& output);
 
-/// Throws Error(kBadInput) if Slurm has a job for this output that is not over, and
-/// Error(kExternalProgram) if Slurm cannot be asked. Must be called before the missing rows are
-/// listed, because a job that is not over can still compute some of them.
+/// Throws Error(kBadInput) if Slurm has a job for this output that is not over,
+/// Error(kExternalProgram) if Slurm cannot be asked, and Error(kInterrupted) if `request.stop`
+/// requests a stop. Must be called before the missing rows are listed, because a job that is not
+/// over can still compute some of them.
 void refuse_second_job(const ArrayJob& job, const ArrayRequest& request);
 
 /// Writes the folder slurm_folder(), submits the job and prints its number to standard output. If
 /// `job.tasks` is empty, nothing is written, submitted or printed there. Throws
-/// Error(kExternalProgram) with the message of Slurm if Slurm is missing or refuses the job, and
-/// Error(kBadInput) if a file cannot be written.
+/// Error(kExternalProgram) with the message of Slurm if Slurm is missing or refuses the job,
+/// Error(kBadInput) if a file cannot be written, Error(kWrongUsage) if a quotation mark in
+/// `request.options` is not closed, and Error(kInterrupted) if `request.stop` requests a stop.
 void submit(const ArrayJob& job, const ArrayRequest& request);
 
 }  // namespace viscontact::pipeline

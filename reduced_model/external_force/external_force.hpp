@@ -12,25 +12,25 @@
 
 namespace viscontact::reduced_model {
 
-/// True if two times > 0 [T] differ by rounding errors only, as 0.1 + 0.2 and 0.3 do. CVODE cannot
-/// integrate over so short an interval.
+/// True if two times > 0 [T] differ by rounding errors only, by at most four relative machine
+/// epsilons, as 0.1 + 0.2 and 0.3 do. CVODE cannot integrate over so short an interval.
 inline bool are_one_time(double a, double b) {
   return std::abs(a - b) <=
          4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
 }
 
 /// f_ext(t) for t >= 0: a sum of piecewise polynomials and sinusoids. Means and impulses are closed
-/// forms, not quadrature.
+/// forms, not quadrature. Times are not checked, and only the functions that say so throw.
 class ExternalForce {
  public:
   /// A polynomial on an interval of time. The first piece begins at 0, each other one where the
   /// piece before it ends. With the time tau since this beginning, f_ext = value + higher[0] tau +
   /// higher[1] tau^2 + ...
   struct Piece {
-    double until = 0;  ///< end of the piece [T], > its beginning; the last piece has no end
+    double until = 0;  ///< end of the piece [T], > its beginning; the last piece goes on beyond
     /// Force at tau = 0 along the outward normal [M L/T^2]; < 0 towards the wall.
     double value = 0;
-    std::vector<double> higher{};  ///< coefficients [M L/T^3], [M L/T^4], ...
+    std::vector<double> higher{};  ///< [M L/T^3], [M L/T^4], ...; empty: constant
   };
 
   /// The force amplitude * sin(angular_frequency t + phase).
@@ -40,26 +40,26 @@ class ExternalForce {
     double phase = 0;              ///< [radians]
   };
 
-  /// The `until` of the pieces must increase and be > 0; that of the last piece is not used. Throws
-  /// Error(kBadInput) otherwise, or if there is no piece.
+  /// The `until` of the pieces must increase and be > 0. Throws Error(kBadInput) otherwise, or if
+  /// there is no piece. The last `until` is checked but not used.
   explicit ExternalForce(const std::vector<Piece>& pieces);
 
   /// The force of one sinusoid. Throws Error(kBadInput) if its angular frequency is not > 0.
   static ExternalForce sinusoidal(const Sinusoid& sinusoid);
 
-  /// Adds another force.
+  /// Adds another force. Pieces as short as rounding errors (are_one_time()) are left out.
   ExternalForce& operator+=(const ExternalForce& other);
 
-  /// The same force stretched in time: f_ext(t/factor), factor > 0.
+  /// The same force stretched in time: f_ext(t/factor), factor > 0 (not checked).
   ExternalForce stretched(double factor) const;
 
-  /// f_ext(t) [M L/T^2]; at a jump, the value after it.
+  /// f_ext(t) [M L/T^2], t >= 0; at a jump, the value after it.
   double value(double time) const;
 
-  /// d f_ext/dt [M L/T^3]; at a jump or kink, the slope after it.
+  /// d f_ext/dt [M L/T^3]; t >= 0; at a jump or kink, the slope after it.
   double slope(double time) const;
 
-  /// int_0^t f_ext [M L/T].
+  /// int_0^t f_ext, for t >= 0 [M L/T].
   double impulse(double time) const;
 
   /// int_0^t of impulse(), for t >= 0 [M L].
@@ -72,10 +72,12 @@ class ExternalForce {
   /// are_one_time() is false for any two of them.
   std::vector<double> jumps() const;
 
-  /// The times in (0, end) at which f_ext changes its sign, by a jump or through 0, in increasing
-  /// order. In a piece without sinusoids all of them are found. In other pieces two of them can be
-  /// missed if they are closer to each other than 1/32 of the shortest period. Throws
-  /// Error(kNotConverged) if `end` is beyond about 3e4 of these periods.
+  /// The times [T] in (0, end), end > 0, at which f_ext changes its sign, by a jump or through 0,
+  /// in increasing order; none if there are no changes. In a piece without sinusoids all of them
+  /// are found, except that a change where f_ext is exactly 0 at the beginning of a piece, or where
+  /// its slope is 0 too, is reported too late, at the next extremum or at the end of the piece. In
+  /// other pieces two of them can be missed if they are closer to each other than 1/32 of the
+  /// shortest period. Throws Error(kNotConverged) if `end` is beyond about 3e4 of these periods.
   std::vector<double> sign_changes(double end) const;
 
  private:
@@ -99,10 +101,10 @@ class ExternalForce {
 /// constant.
 class ForceWalk {
  public:
-  /// The walk begins at time 0. `force` must outlive the object.
+  /// The walk begins at time 0. `force` must outlive the object. Times are not checked.
   explicit ForceWalk(const ExternalForce& force) : force_(force) { enter(0); }
 
-  /// The force at `time` [T], >= 0 [M L/T^2].
+  /// The force [M L/T^2] at `time` [T], >= 0.
   double value(double time) {
     go_to(time);
     return constant_ ? level_ : force_.value(time);
@@ -125,10 +127,11 @@ class ForceWalk {
   bool constant_ = false;
 };
 
-/// Reads a sampled force from a CSV file with the columns time, force. The force is linear between
-/// the rows; two rows of the same time make a jump. Throws Error(kBadInput) with file and line if
-/// the first time is not 0, if times decrease, if a time is in more than two rows, or if the last
-/// time is less than `end` > 0.
+/// Reads a sampled force from a CSV file with the columns time, force. The columns are in [T] and
+/// [M L/T^2]. The force is linear between the rows; two rows of the same time make a jump. Throws
+/// Error(kBadInput), with file and line, if a value is missing or not a finite number, the first
+/// time is not 0, times decrease, or a time is in more than two rows, and with the file, if it
+/// cannot be read or its last time is less than `end` [T], > 0.
 ExternalForce read_external_force(const std::filesystem::path& path, double end);
 
 }  // namespace viscontact::reduced_model

@@ -1,7 +1,8 @@
-// Polynomials c0 + c1 tau + c2 tau^2 + ..., given by their coefficients, at least one; numbers have
-// any dimension. External forces (external_force.cpp) and the states of CVODE within a step
-// (inertial.cpp) are such polynomials. Nothing is thrown. A change must keep the order of
-// operations, on which the last digits of trajectories depend.
+// Polynomials c0 + c1 tau + c2 tau^2 + ..., given by their coefficients c0, c1, ... in this order,
+// at least one (not checked). With tau in any unit U and values in any unit V, c_k is in V/U^k.
+// External forces (external_force.cpp) and the states of CVODE within a step (inertial.cpp) are
+// such polynomials. Nothing is thrown. A change must keep the order of operations, on which the
+// last digits of trajectories depend.
 #pragma once
 
 #include <algorithm>
@@ -23,28 +24,28 @@ double horner(std::span<const double> coefficients, double tau, std::size_t firs
   return sum;
 }
 
-/// Value of the polynomial at tau.
+/// Value of the polynomial at tau [V].
 inline double value(std::span<const double> coefficients, double tau) {
   return horner(coefficients, tau, 0, [](double c, double) { return c; });
 }
 
-/// Value of the derivative at tau.
+/// Value of the derivative at tau [V/U].
 inline double slope(std::span<const double> coefficients, double tau) {
   return horner(coefficients, tau, 1, [](double c, double k) { return k * c; });
 }
 
-/// int_0^tau of the polynomial.
+/// int_0^tau of the polynomial [V U].
 inline double integral(std::span<const double> coefficients, double tau) {
   return horner(coefficients, tau, 0, [](double c, double k) { return c / (k + 1); }) * tau;
 }
 
-/// int_0^tau int_0^s of the polynomial.
+/// int_0^tau int_0^s of the polynomial [V U^2].
 inline double double_integral(std::span<const double> coefficients, double tau) {
   return horner(coefficients, tau, 0, [](double c, double k) { return c / ((k + 1) * (k + 2)); }) *
          tau * tau;
 }
 
-/// Mean of the polynomial over [a, b], 0 <= a < b. The quotient (b^{k+1} - a^{k+1})/(b - a) is
+/// Mean of the polynomial over [a, b], 0 <= a < b [V]. The quotient (b^{k+1} - a^{k+1})/(b - a) is
 /// computed as a sum of products, so that a short interval loses no digits.
 inline double mean(std::span<const double> coefficients, double a, double b) {
   double mean = 0;
@@ -58,7 +59,7 @@ inline double mean(std::span<const double> coefficients, double a, double b) {
   return mean;
 }
 
-/// The same polynomial about another point: p(tau + shift) in powers of tau.
+/// The same polynomial about another point: p(tau + shift) in powers of tau, of the same degree.
 inline std::vector<double> shifted(std::vector<double> coefficients, double shift) {
   if (shift == 0) return coefficients;
   for (std::size_t i = 0; i + 1 < coefficients.size(); ++i)  // repeated Horner scheme
@@ -67,8 +68,9 @@ inline std::vector<double> shifted(std::vector<double> coefficients, double shif
   return coefficients;
 }
 
-/// The points in (0, length) at which the derivative of the polynomial is 0. The polynomial is
-/// monotone between two neighbours of them.
+/// The points [U] in (0, length), in increasing order, at which the derivative changes its sign,
+/// and some of those at which it only touches 0. The polynomial is monotone between two neighbours
+/// of them. None for a constant or linear polynomial.
 inline std::vector<double> turning_points(const std::vector<double>& coefficients, double length) {
   if (coefficients.size() < 3) return {};
   std::vector<double> derivative;

@@ -15,16 +15,17 @@
 
 namespace viscontact::reduced_model {
 
-/// A stiff system y' = f(t, y) with its Jacobian. Each function may throw an Error for a state in
-/// which it is not defined.
+/// A stiff system y' = f(t, y) with its Jacobian; y, f and the tolerances have `dimension`
+/// components. Each function may throw an Error, and nothing else, where it is not defined.
 struct StiffSystem {
   int dimension = 0;  ///< number of components of y, > 0
   /// Computes f(t, y).
   std::function<void(double time, std::span<const double> y, std::span<double> derivative)>
       derivative;
-  /// Computes the Jacobian, stored by columns: entry (i, j) = d f_i/d y_j.
+  /// Computes the Jacobian, dimension x dimension, stored by columns: entry (i, j) = d f_i/d y_j.
   std::function<void(double time, std::span<const double> y, std::span<double> jacobian)> jacobian;
-  /// Computes the error that is allowed in a step, for each component of y, > 0.
+  /// Computes the error that is allowed in a step, for each component of y, in its dimension, > 0;
+  /// `time` is that at which the step begins.
   std::function<void(double time, std::span<const double> y, std::span<double> allowed)> tolerance;
   /// The key of the case file that sets the tolerance, for messages.
   std::string tolerance_key = "inertial.relative_tolerance";
@@ -32,11 +33,12 @@ struct StiffSystem {
 
 /// Backward differences (BDF) of variable order and step, with Newton's method and dense linear
 /// algebra. If the system throws an Error, CVODE tries a smaller step; if the Error persists,
-/// step() throws it. All functions throw Error(kNotConverged) if SUNDIALS reports an error.
+/// step() throws it. All functions that call SUNDIALS throw Error(kNotConverged) if it reports an
+/// error. Lengths of spans and indices of components are not checked.
 class Cvode {
  public:
   /// Starts at time 0 from `state`, which has system.dimension components. restart() must be called
-  /// before step().
+  /// before step(). Throws std::bad_alloc if the memory does not suffice.
   Cvode(StiffSystem system, std::span<const double> state);
   Cvode(const Cvode&) = delete;
   Cvode& operator=(const Cvode&) = delete;
@@ -46,8 +48,8 @@ class Cvode {
   void set_state(std::span<const double> state);
 
   /// Starts again at `time` from the present state. The integrator does not evaluate the system
-  /// beyond `stop_time`, where it may change. `first_step` > 0 is the step to try first [T], for
-  /// cases in which CVODE's own choice is much too short; 0 leaves the choice to CVODE.
+  /// beyond `stop_time` > `time`, where it may change. `first_step` > 0 is the step to try first
+  /// [T], for cases in which CVODE's own choice is much too short; 0 leaves the choice to CVODE.
   void restart(double time, double stop_time, double first_step = 0);
 
   /// Makes one step of a length that CVODE chooses, at most to the stop time. Throws
@@ -55,19 +57,19 @@ class Cvode {
   /// Error of the system.
   void step();
 
-  /// Component `i` of the state at a time within the last step, from the polynomial by which CVODE
-  /// interpolates.
+  /// Component `i`, from 0, of the state at a time [T] within the last step, from the polynomial by
+  /// which CVODE interpolates. At another time CVODE reports an error.
   double at(double time, std::size_t i = 0) const;
 
-  /// The 2 to 6 coefficients of that polynomial for component `i`, in powers of (t - time()). If
-  /// the state is needed at many times, they are cheaper than calls of at().
+  /// The 2 to 6 coefficients of that polynomial for component `i`, in powers of (t - time()), the
+  /// constant first. If the state is needed at many times, they are cheaper than calls of at().
   std::vector<double> expansion(std::size_t i = 0) const;
 
   /// Time that the integration has reached [T].
   double time() const { return time_; }
   /// The state y at time(). The span is valid until the next call of a function that changes it.
   std::span<const double> state() const;
-  long steps() const;  ///< number of steps since construction
+  long steps() const;  ///< number of steps since construction, >= 0
 
  private:
   struct Sundials;  // the objects of SUNDIALS, and the functions that it calls

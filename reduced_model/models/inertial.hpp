@@ -13,7 +13,7 @@
 
 namespace viscontact::reduced_model {
 
-/// Relative tolerance of the gap [1].
+/// Relative tolerance of the gap [1], 1e-13 to 1e-2.
 inline constexpr ModelParameter kRelativeTolerance = {
     "inertial.relative_tolerance",
     "relative tolerance of the gap in inertial",
@@ -41,8 +41,8 @@ inline constexpr std::array kInertialParameters = {kReferenceTimeStep, kRelative
 /// to the smallest gap of that fall at once.
 ///
 /// Throws Error(kNotConverged) if CVODE gives up, Error(kBadInput) if the motion leaves the
-/// interval of the fit or has too many rows, and Error(kInterrupted) if `motion.stop` requests a
-/// stop.
+/// interval of the fit, has more than 1e8 rows or has no value of a parameter, and
+/// Error(kInterrupted) if `motion.stop` requests a stop.
 Trajectory simulate_inertial(const Motion& motion, const lubrication::LubricationForce& force);
 
 /// The parameters of simulate_inertial_rough().
@@ -59,7 +59,8 @@ inline constexpr std::array kInertialRoughParameters = {kReferenceTimeStep, kRel
 /// without external force, before and after the impact; the latter is 0 if the film stops the
 /// sphere before it gets there.
 ///
-/// Throws the errors of simulate_inertial() and of check_start_outside_roughness().
+/// Throws the errors of simulate_inertial() and of check_start_outside_roughness(), and with
+/// roughness Error(kNotConverged) if f_ext has too many periods (ExternalForce::sign_changes()).
 Trajectory simulate_inertial_rough(const Motion& motion,
                                    const lubrication::LubricationForce& force);
 

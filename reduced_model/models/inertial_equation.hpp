@@ -29,7 +29,9 @@ struct InertialInstant {
 };
 
 /// Equation (S) and what follows from a solution of it. Motion and force must outlive the object.
-/// Every function of a gap throws Error(kBadInput) if the gap is outside the interval of the force.
+/// Every function of a gap but state_of() throws Error(kBadInput) if the gap is outside the
+/// interval of the force, as does the constructor for the initial gap. Times [T] are in [0,
+/// end_time], which is not checked.
 class InertialEquation {
  public:
   /// The equation for the sphere of `motion` under the drag `force`; `relative_tolerance` > 0 is
@@ -37,7 +39,7 @@ class InertialEquation {
   InertialEquation(const Motion& motion, const lubrication::LubricationForce& force,
                    double relative_tolerance);
 
-  double gap_of(double s) const;      ///< q = r e^s [L]
+  double gap_of(double s) const;      ///< q = r e^s [L], for s [1]
   double state_of(double gap) const;  ///< s = ln(q/r), for q > 0 [1]
   double momentum(double t) const;    ///< P(t) [M L/T]
   /// Adds an impulse [M L/T] to P: that of an impact, or that of solids which carried the force.
@@ -58,19 +60,21 @@ class InertialEquation {
   InertialInstant instant(double t, double gap, double force_time) const;
 
   /// The first step [T] that CVODE should try after a restart at time t and gap q; 0 leaves the
-  /// choice to CVODE. It is positive if the damping time m/R is below the rounding of t, so that
+  /// choice to CVODE. It is positive if the damping time m/R is below kTimeResolution t, so that
   /// the velocity follows a jump of f_ext at once.
   double first_step(double t, double gap) const;
 
-  /// The state s near that of `gap` [L] in which drag and force at time t are balanced. It obeys
-  /// (I) exactly.
+  /// The state s [1] near that of `gap` [L] in which drag and force at time t are balanced. It
+  /// obeys (I) exactly. Throws the errors of LubricationForce::gap_of_impulse() if no gap does.
   double balanced_state(double t, double gap) const;
 
-  /// True if the rest of a fall takes less time than the rounding of t. `film` [L] is then set to
-  /// the gap Gamma^{-1}(P(t)), at which the velocity is 0 by (I).
+  /// True if the rest of a fall, and the damping time m/R at its end, are below kTimeResolution t.
+  /// `film` [L] is then set to the gap Gamma^{-1}(P(t)), at which the velocity is 0 by (I); if the
+  /// result is false, `film` has no meaning. Throws the errors of
+  /// LubricationForce::gap_of_impulse() if there is no such gap.
   bool lands_at_once(double t, const InertialInstant& now, double& film) const;
 
-  /// The smallest ratio of a step to the time t that CVODE can resolve.
+  /// The smallest ratio of a step to the time t that CVODE can resolve, far above rounding.
   static constexpr double kTimeResolution = 1e-12;
 
  private:

@@ -65,7 +65,7 @@ std::string usual_reference();
 /// names, otherwise the first.
 std::string reference_of(const std::vector<std::string>& names);
 
-/// The parameters of all models, each once, in the order of the models.
+/// The parameters of all models, each key once, in the order of the models.
 std::vector<ModelParameter> model_parameters();
 
 /// The sections of a case that contain model_parameters() and the roughness, each once, in the
@@ -84,12 +84,13 @@ inline constexpr std::string_view kSmoothSuffix = "_smooth";
 struct ModelChoice {
   /// Name of the model with its suffixes.
   std::string name;
-  const Model* model = nullptr;  ///< the model without its suffixes
+  const Model* model = nullptr;  ///< without suffixes; never null in a result of known_model()
   bool exact_drag = false;       ///< true: the exact drag in place of the fit (kExactDragSuffix)
   bool smooth = false;           ///< true: smooth surfaces, whatever the roughness (kSmoothSuffix)
 };
 
-/// The model with this name, which may have suffixes; nothing if there is none.
+/// The model with this name, which may have suffixes; nothing if there is none, or if _smooth
+/// follows the name of a model without contact.
 std::optional<ModelChoice> known_model(std::string_view name);
 
 /// As known_model(), but throws Error(kBadInput), which lists the names, if there is no such model.
@@ -100,31 +101,33 @@ ModelChoice find_model(std::string_view name);
 /// that belong neither to [fluid], [sphere] and the roughness nor to a parameter of a model.
 bool depends_on(const ModelChoice& choice, std::string_view key);
 
-/// The drag for the model: `force`, or the exact drag of the same viscosity and radius.
+/// The drag for the model: a copy of `force`, or the exact drag of the same viscosity and radius.
 lubrication::LubricationForce drag_of(const ModelChoice& choice,
                                       const lubrication::LubricationForce& force);
 
 /// The motion for the model: `motion`, without roughness if the choice is smooth.
 Motion motion_of(const ModelChoice& choice, const Motion& motion);
 
-/// The contact model that the choice, which must be of a contact model, makes of motion_of(choice,
-/// motion) and `force`. `force` must outlive the result, which refers to it.
+/// The contact model that the choice, which must be of a contact model (not checked), makes of
+/// motion_of(choice, motion) and `force`. `force` must outlive the result, which refers to it.
+/// Throws the Error(kBadInput) of a model that refuses them.
 ContactModel contact_model_of(const ModelChoice& choice, const Motion& motion,
                               const lubrication::LubricationForce& force);
 
 /// The description of the model and of its suffixes, a line for legends.
 std::string description_of(const ModelChoice& choice);
 
-/// Throws the Error(kBadInput) that simulate() would throw for a time step that is too short, for a
-/// motion that the model refuses (Model::check) or, if the model is a contact model, for a gap, a
-/// roughness or a fit that it refuses, but does not run the model. Of `force`, only its interval and
-/// its coefficient k are used.
+/// Throws the Error(kBadInput) that simulate() would throw for a time step that is missing or makes
+/// more than 1e8 steps, for a motion that the model refuses (Model::check) or, if the model is a
+/// contact model, for a gap, a roughness or a fit that it refuses, but does not run the model. Of
+/// `force`, only its interval and its coefficient k are used.
 void check_model(const ModelChoice& choice, const Motion& motion,
                  const lubrication::LubricationForce& force);
 
 /// Runs a model and fills in its name, its budget and the computing time. The messages of all
 /// Errors begin with the name of the model. Throws the errors of the model, Error(kNotConverged) if
-/// a number of the motion is not finite, and Error(kInterrupted) if `motion.stop` requests a stop.
+/// a number of the motion is not finite or times do not increase, and Error(kInterrupted) if
+/// `motion.stop` requests a stop.
 Trajectory simulate(const ModelChoice& choice, const Motion& motion,
                     const lubrication::LubricationForce& force);
 

@@ -2,8 +2,8 @@
 // explicit Euler (physics.md (4.3)), and `reference_exact`, the solution without a time step by the
 // first integral (4.2). q is the gap, q0 the initial one, u the velocity, F_lub the lubrication
 // force, R the resistance, Gamma its primitive, f_ext the external force. Lengths, masses and times
-// are in any consistent units. models.cpp lists the models. A change of results must raise
-// kModelsRevision.
+// are in any consistent units. models.cpp lists the models. Both throw Error(kBadInput) if the
+// motion has no value of reference.time_step. A change of results must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/lubrication/lubrication_force.hpp"
@@ -18,10 +18,10 @@ namespace viscontact::reduced_model {
 ///     q^{n+1} = q^n + h u^n,
 ///
 /// where f^n is the mean of the external force over step n and h = reference.time_step. The scheme
-/// is of first order in h. Under a push to the wall its film is thinner than the exact one. Throws
-/// Error(kNotConverged) if a step goes through the wall, Error(kBadInput) if the motion leaves the
-/// fit's interval or has more than 1e8 steps, and Error(kInterrupted) if `motion.stop` requests a
-/// stop.
+/// is of first order in h. There is a row for the start and for each step. Under a push to the wall
+/// its film is thinner than the exact one. Throws Error(kNotConverged) if a step goes through the
+/// wall, Error(kBadInput) if the motion leaves the fit's interval or has more than 1e8 steps, and
+/// Error(kInterrupted) if `motion.stop` requests a stop.
 Trajectory simulate_reference(const Motion& motion, const lubrication::LubricationForce& force);
 
 /// Without inertia, R(q) dq/dt = f_ext integrates to
@@ -30,7 +30,8 @@ Trajectory simulate_reference(const Motion& motion, const lubrication::Lubricati
 ///
 /// which is solved for q at the time of each row: the multiples of reference.time_step, and the
 /// jumps of f_ext. The velocity is u = f_ext/R(q). Throws Error(kBadInput) if the motion leaves the
-/// fit's interval or has too many rows, and Error(kInterrupted) if `motion.stop` requests a stop.
+/// fit's interval or has more than 1e8 of these multiples, and Error(kInterrupted) if `motion.stop`
+/// requests a stop.
 Trajectory simulate_reference_exact(const Motion& motion,
                                     const lubrication::LubricationForce& force);
 

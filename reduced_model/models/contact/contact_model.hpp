@@ -36,36 +36,38 @@ struct ContactModel {
   double solid_resistance = 0;
   /// The resolved drag; nothing if only the external force acts outside contact.
   std::optional<ResolvedDrag> drag{};
-  /// Thickness [L] that the film has at a value of gamma [M L/T]; empty if there is no film.
+  /// Film thickness [L], >= 0, at a value of gamma [M L/T], < 0; empty if there is no film.
   std::function<double(double gamma)> film_thickness{};
   /// The function film_thickness as a formula, for the head of trajectory files; may be empty.
   std::string film_law{};
   /// Coefficient e_d of restitution of the solids [1], 0 to 1; run_contact_model sets it.
   double restitution = 0;
   /// True: a step computes velocity and gamma in its middle (leapfrog), so that the error of the
-  /// gap is of second order in the step. Allowed only without resolved drag.
+  /// gap is of second order in the step. Allowed only without resolved drag (not checked).
   bool is_staggered = false;
 };
 
 /// Makes the steps of contact_step.hpp from the start of the motion to its end, and those of
 /// rebound.hpp if there is a restitution and the sphere flies into contact.
 ///
-/// The forces in a row of the trajectory are means over the step before it; its lubrication force
-/// is that of film and resolved drag together. The beginning and the end of contact, and the time
-/// at which the solids touch, are found within a step as if the force were constant in it; their
-/// error has the order of the scheme. The velocity at which the solids touch is what the film
-/// leaves of an impact or, if a load closes the film, the load over `solid_resistance`. The lowest
-/// gamma, and thus the smallest film, includes the values at the times at which the force changes
-/// its sign. If the model is staggered, a row has the velocity and gamma that half a step of the
-/// force gives from the middle of the step to the time of the row.
+/// The trajectory has a row for the start and one for each step. The forces in a row are means over
+/// the step before it; its lubrication force is that of film and resolved drag together. The
+/// beginning and the end of contact, and the time at which the solids touch, are found within a
+/// step as if the force were constant in it; their error has the order of the scheme. The velocity
+/// at which the solids touch is what the film leaves of an impact or, if a load closes the film,
+/// the load over `solid_resistance`. The lowest gamma, and thus the smallest film, includes the
+/// values at the times at which the force changes its sign. If the model is staggered, a row has
+/// the velocity and gamma that half a step of the force gives from the middle of the step to the
+/// time of the row.
 ///
-/// Throws Error(kBadInput) if the motion has more than 1e8 steps, Error(kInterrupted) if
-/// `motion.stop` requests a stop, and the errors of the drag.
+/// motion.initial_gap must be >= model.contact_gap (not checked). Throws Error(kBadInput) if the
+/// motion has more than 1e8 steps or no value of viscous_contact.time_step, Error(kInterrupted) if
+/// `motion.stop` requests a stop, and the errors of the functions of `model`.
 Trajectory run_contact_model(const Motion& motion, ContactModel model);
 
 /// A function that makes a contact model for a motion and a force.
 using MakeContactModel = ContactModel (*)(const Motion&, const lubrication::LubricationForce&);
-/// Makes the contact model for `motion` and `force`, and runs it as above.
+/// Makes the contact model for `motion` and `force`, and runs it. Throws the errors of both steps.
 inline Trajectory run_contact_model(MakeContactModel make, const Motion& motion,
                                     const lubrication::LubricationForce& force) {
   return run_contact_model(motion, make(motion, force));

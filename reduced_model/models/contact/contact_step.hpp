@@ -4,8 +4,8 @@
 // it back before the sphere is released. Gamma_res(D) is the primitive of the resistance that the
 // model resolves, so that its difference is the impulse of the drag. The index n marks values at
 // the end of step n. Lengths, masses and times are in any consistent units. All contact models with
-// a time step, and rolling/, use it. Nothing is checked or thrown. A change must keep m u +
-// Gamma_res(D) + gamma - int f dt constant to round-off as long as no solid carries load.
+// a time step, and rolling/, use it. Nothing is checked; only the drag throws Errors. A change must
+// keep m u + Gamma_res(D) + gamma - int f dt constant to round-off while no solid is loaded.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct ContactStep {
   ContactState state;
   /// From the film: gamma^n - gamma^{n+1}; < 0 while the film pulls the sphere to the wall.
   double film = 0;
-  double drag = 0;   ///< from the resolved drag
+  double drag = 0;   ///< from the resolved drag; 0 without one
   double solid = 0;  ///< from the solid contact, >= 0
 };
 
@@ -48,17 +48,17 @@ struct NoDrag {
   /// False: there is no resolved drag.
   static constexpr bool kResolved = false;
   /// The velocity v [L/T] with m v + Gamma_res(D + h v) - Gamma_res(D) = momentum [M L/T], where D
-  /// + h v >= 0. The second argument is D.
+  /// + h v >= 0. The second argument is D [L], >= 0.
   static double velocity(const ContactSetting& setting, double, double momentum) {
     return momentum * setting.per_mass;
   }
-  /// Gamma_res(to) - Gamma_res(from) [M L/T].
+  /// Gamma_res(to) - Gamma_res(from) [M L/T], for two values `from`, `to` of D [L].
   static double impulse(double, double) { return 0; }
 };
 
 /// One step of viscous contact (Maury 2007, "A gluey particle model"; Lefebvre 2009, "Numerical
-/// simulation of gluey particles"). `push` = h f^n is the impulse of the external force in the
-/// step, lambda the force of the contact on the sphere, and Gamma_res is 0 without resolved drag:
+/// simulation of gluey particles"). `push` = h f^n is the impulse of the external force in the step
+/// [M L/T], lambda the force of the contact on the sphere, and Gamma_res is 0 without drag:
 ///
 ///     m (u^{n+1} - u^n) = h f^n - (Gamma_res(D^{n+1}) - Gamma_res(D^n)) + h lambda,
 ///     D^{n+1} = D^n + h u^{n+1},   gamma^{n+1} = gamma^n - h lambda,

@@ -2,8 +2,9 @@
 // for contact_model.cpp and viscous_contact_exact.cpp. m is the mass, u the velocity, gamma minus
 // the impulse that the film has absorbed, gamma_min its value at which the solids touch, D the gap
 // less that at contact, h the step; u+ and gamma+ are values after an impact. Lengths, masses and
-// times are in any consistent units. Nothing is thrown. A change must keep that an impact takes
-// place at its time within a step; otherwise heights of rebounds do not converge as h tends to 0.
+// times are in any consistent units. Nothing is checked, and only errors of the drag are thrown. A
+// change must keep that an impact takes place at its time within a step; otherwise heights of
+// rebounds do not converge as h tends to 0.
 #pragma once
 
 #include <algorithm>
@@ -22,9 +23,9 @@ namespace viscontact::reduced_model {
 struct Impact {
   double momentum = 0;       ///< after the impact, m u+ >= 0; 0: the film keeps the sphere
   double gamma = 0;          ///< after the impact, <= 0; 0 if the sphere leaves the film
-  double lowest_gamma = 0;   ///< lowest value of gamma in the impact
+  double lowest_gamma = 0;   ///< lowest value of gamma in the impact, <= 0
   double solid_impulse = 0;  ///< impulse that the solids took up in the compression, s >= 0
-  /// Impulse that the solids gave back: e_d s, or less if the sphere stays.
+  /// Impulse that the solids gave back, >= 0: e_d s, or less if the sphere stays.
   double restitution = 0;
 };
 
@@ -54,9 +55,9 @@ inline Impact impact_through_film(double momentum, double gamma_min, double rest
 }
 
 /// Adds the impulses and works of an impact with the velocity `velocity` < 0 [L/T] of a sphere of
-/// mass `mass` to the budget. The work of each impulse is the impulse times half of `velocity` in
-/// the compression, and times half the velocity after the impact in the restitution, so that film
-/// and solids share the energy as they share the impulse.
+/// mass `mass` [M] > 0 to the budget. The work of each impulse is the impulse times half of
+/// `velocity` in the compression, and times half the velocity after the impact in the restitution,
+/// so that film and solids share the energy as they share the impulse.
 inline void add_impact(MomentumEnergyBudget& budget, double mass, double velocity,
                        const Impact& impact) {
   const double leaving = impact.momentum / mass;
@@ -70,10 +71,10 @@ inline void add_impact(MomentumEnergyBudget& budget, double mass, double velocit
 /// A step with impacts, and what happened in it.
 struct ReboundStep {
   ContactState state;             ///< state at the end of the step
-  std::vector<Rebound> rebounds;  ///< impacts on the solids; times are from the step's beginning
+  std::vector<Rebound> rebounds;  ///< impacts on the solids, times from the step's begin
   /// Impulses and works in the step, without the impulse of the external force.
   MomentumEnergyBudget budget;
-  double lowest_gamma = 0;   ///< lowest gamma in the step [M L/T]
+  double lowest_gamma = 0;   ///< lowest gamma in the step [M L/T], <= 0
   double first_impact = -1;  ///< time of the first impact from the step's beginning [T]; < 0: none
   double last_impact = -1;   ///< the same of the last impact [T]; < 0: none
 };
@@ -97,8 +98,8 @@ inline double time_of_fall(double gap, double velocity, double acceleration, dou
 }
 
 /// Makes the impact of a sphere with the velocity `velocity` < 0 [L/T] at the time `time` [T] of a
-/// step and records it. `acceleration` [L/T^2] is that by the external force. Returns the velocity
-/// u+ after it; 0 if the sphere stays.
+/// step and records it. `acceleration` [L/T^2] is that by the external force, `restitution` = e_d 0
+/// to 1. Returns the velocity u+ >= 0 [L/T] after it; 0 if the sphere stays.
 inline double strike(ReboundStep& step, double time, double velocity, double acceleration,
                      const ContactSetting& setting, double restitution) {
   // Fraction of the step; a shorter flight counts as rest, so that bounces end.

@@ -3,8 +3,8 @@
 // contact for comparison. q is the gap, u the velocity, m the mass, f_ext the external force,
 // lambda the force of the contact on the sphere, gamma minus the impulse that the film of fluid has
 // absorbed, k the coefficient of 1/q in the resistance R(q); - and + mark values before and after
-// an impact. Lengths, masses and times are in any consistent units. models.cpp lists the models. A
-// change of results must raise kModelsRevision.
+// an impact. Lengths, masses and times are in any consistent units. models.cpp lists the models.
+// The functions make a model and run nothing. A change of results must raise kModelsRevision.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
@@ -21,11 +21,11 @@ namespace viscontact::reduced_model {
 ///
 /// Only f_ext acts before contact. The scheme is that of contact_step.hpp with the step h =
 /// viscous_contact.time_step, in which f_ext acts by its mean f^n over the step. With the initial
-/// gap q0, the first integral k ln q = k ln q0 + gamma gives the thickness q0 exp(gamma/k) of the
-/// film that the model does not resolve. The solids touch when this thickness is the height r1 + r2
-/// of the roughness of both surfaces: gamma >= gamma_min = k ln((r1 + r2)/q0) (Maury 2007 and
-/// Lefebvre 2008, who take the radius for q0). Throws Error(kBadInput) if the fit's resistance has
-/// no positive coefficient k of 1/q.
+/// gap q0 [L], the first integral k ln q = k ln q0 + gamma gives the thickness q0 exp(gamma/k) of
+/// the film that the model does not resolve. The solids touch when this thickness is the height r1
+/// + r2 of the roughness of both surfaces (never if it is 0): gamma >= gamma_min = k ln((r1 +
+/// r2)/q0), or 0 if r1 + r2 > q0 (Maury 2007 and Lefebvre 2008, who take the radius for q0). Throws
+/// Error(kBadInput) if the fit's resistance has no positive coefficient k of 1/q.
 ContactModel viscous_contact(const Motion& motion, const lubrication::LubricationForce& force);
 
 /// The same model with leapfrog steps h: u^n and gamma^n are the values at the time t^n - h/2, so

@@ -24,8 +24,8 @@ namespace viscontact::reduced_model {
 /// missed (ExternalForce::sign_changes()). The rows are at the multiples of
 /// viscous_contact.time_step, at the jumps of the force, and at the events, where a row has the
 /// state after the event. Throws Error(kBadInput) if the fit's resistance has no positive
-/// coefficient k of 1/q, Error(kNotConverged) if f_ext has too many periods (sign_changes()), and
-/// Error(kInterrupted) if `motion.stop` requests a stop.
+/// coefficient k of 1/q or if there would be more than 1e8 multiples, Error(kNotConverged) if f_ext
+/// has too many periods (sign_changes()), and Error(kInterrupted) if `motion.stop` requests a stop.
 Trajectory simulate_viscous_contact_exact(const Motion& motion,
                                           const lubrication::LubricationForce& force);
 

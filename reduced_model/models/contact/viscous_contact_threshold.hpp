@@ -12,7 +12,7 @@
 
 namespace viscontact::reduced_model {
 
-/// Gap q_c [L] at which the model makes contact.
+/// Gap q_c [L], > 0, at which the model makes contact.
 inline constexpr ModelParameter kThresholdGap = {
     "viscous_contact.threshold_gap",
     "threshold gap",
@@ -32,7 +32,8 @@ inline constexpr std::array kThresholdParameters = {kContactTimeStep, kThreshold
 /// that in every step m u + Gamma(q) + gamma is the impulse of the external force plus a constant,
 /// and the film of a sphere at rest is exact for every step length. `force` must outlive the model.
 /// Throws Error(kBadInput) unless r1 + r2 < q_c < initial gap, or if q_c or the roughness is
-/// outside the fit's interval.
+/// outside the fit's interval. A run throws it if the sphere goes above this interval or the film
+/// thickness below, and Error(kNotConverged) if this thickness is too small for a double.
 ContactModel viscous_contact_threshold(const Motion& motion,
                                        const lubrication::LubricationForce& force);
 
