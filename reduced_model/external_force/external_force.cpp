@@ -252,6 +252,8 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
         add_extremum_of(bisect_first_true(stops[n - 1], stops[n],
                                           [&](double t) { return (value_at(t) > 0) == rises; }),
                         after);
+      } else if (before == 0) {
+        add_extremum_of(stops[n - 1], after);
       }
       add_extremum_of(stops[n], after);
     }

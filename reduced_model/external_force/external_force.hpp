@@ -74,10 +74,8 @@ class ExternalForce {
 
   /// The times [T] in (0, end), end > 0, at which f_ext changes its sign, by a jump or through 0,
   /// in increasing order; none if there are no changes. In a piece without sinusoids all of them
-  /// are found, except that a change where f_ext is exactly 0 at the beginning of a piece, or where
-  /// its slope is 0 too, is reported too late, at the next extremum or at the end of the piece. In
-  /// other pieces two of them can be missed if they are closer to each other than 1/32 of the
-  /// shortest period. Throws Error(kNotConverged) if `end` is beyond about 3e4 of these periods.
+  /// are found. In other pieces two of them can be missed if they are closer to each other than 1/32
+  /// of the shortest period. Throws Error(kNotConverged) if `end` is beyond about 3e4 of these periods.
   std::vector<double> sign_changes(double end) const;
 
  private:

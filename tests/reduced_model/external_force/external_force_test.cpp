@@ -150,6 +150,10 @@ TEST(ExternalForceSum, ChangesItsSignByJumpsAndThroughZero) {
   EXPECT_THAT(ExternalForce({{1, -1, {2}}, {2, -1}, {3, 0}, {4, -2}, {5, 3}}).sign_changes(5),
               ElementsAre(DoubleEq(0.5), 1, 4));
   EXPECT_THAT(ExternalForce({{1, -1}, {2, 0}, {3, -1}}).sign_changes(3), IsEmpty());
+  // 0 at the beginning of a piece, and at an extremum inside one
+  EXPECT_THAT(ExternalForce({{1, 1, {-1}}, {2, 0, {-1}}}).sign_changes(2), ElementsAre(1));
+  EXPECT_THAT(ExternalForce({{1, 0, {1, -1}}, {2, 0, {-1}}}).sign_changes(2), ElementsAre(1));
+  EXPECT_THAT(ExternalForce({{2, 1, {-2, 1}}}).sign_changes(2), IsEmpty());
 }
 
 TEST(ExternalForceSum, IsDrawnOutInTime) {
