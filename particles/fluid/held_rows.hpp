@@ -54,7 +54,7 @@ class HeldMotion {
   /// `is_stiff`, which has one for each row. The change is that by forces along the rows at the end
   /// of the step, with the mobility `mobility` >= 0 of each component of each particle [T/M,
   /// T/(M L^2)]. Returns these forces; they are 0 in rows of which no unit accelerates. If rows
-  /// contradict each other, they hold in the mean of squares.
+  /// contradict each other, they hold as nearly as possible (least squares).
   std::vector<double> hold_at_end(std::span<const double> velocities,
                                   std::span<const double> mobility,
                                   const std::vector<char>& is_stiff,

@@ -1,7 +1,7 @@
 // The equation of motion of a step in a fluid: forces, inertia and given motions, docs/physics.md
 // (6.1) and (6.5). Lengths, masses and times are in any consistent units; in the plane masses and
-// forces are per unit length. fluid_simulation.cpp and fluid_links.cpp use it; nothing is checked
-// or thrown. A change must keep the second order in time away from contact.
+// forces are per unit length. fluid_simulation.cpp and fluid_links.cpp use it; nothing is checked,
+// and only given_in_step() throws. A change must keep the second order in time away from contact.
 #pragma once
 
 #include <array>

@@ -30,7 +30,7 @@ struct State;
 /// the beads over their place in `beads`.
 struct Membrane {
   /// Numbers of the particles that are its beads, counter-clockwise around the area inside; at
-  /// least kLeastBeads in a fluid, 3 without one.
+  /// least kLeastBeads in a fluid, 4 without one (the reader of a case checks it).
   std::vector<std::int32_t> beads;
   /// kappa of the bending energy (kappa/2) integral of curvature^2 ds [M L^3/T^2], in a fluid per
   /// length [M L^2/T^2]; > 0 in a fluid, >= 0 without one.

@@ -1,9 +1,10 @@
 // The closed curve through the particles (beads) of a membrane in a fluid, docs/physics.md (8.2)
 // and (8.3): its lengths, its area, and its bending energy with the first and second derivatives;
-// and the measures of a closed line. Lengths are in any unit. Nothing is checked or thrown: beads
-// at one place give NaN. The sources of this folder and freefem_flow/membranes/ use it. No header
-// that users of the library include may include it, because they need no Eigen. A change must keep
-// that derivatives are exact, because Newton's method in membrane_motion.cpp uses them.
+// and the measures of a closed line. Lengths are in any unit. Nothing is checked or thrown;
+// derivatives of a curve with a speed of 0 are NaN or infinite. The sources of this folder and
+// freefem_flow/membranes/ use it. No header that users of the library include may include it,
+// because they need no Eigen. A change must keep that derivatives are exact, because Newton's
+// method in membrane_motion.cpp uses them.
 #pragma once
 
 #include <Eigen/Core>
