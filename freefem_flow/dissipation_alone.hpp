@@ -20,7 +20,7 @@ namespace viscontact::freefem_flow {
 ///   speeds that do not depend on time: plane Couette flow.
 ///
 /// It is 0 otherwise, if a pressure gradient drives fluid along a period, if the walls are at rest,
-/// and in a linear flow that is a rotation. Velocities of single sides need a box (not checked).
+/// and in a linear flow that is a rotation.
 double dissipation_alone(const particles::Fluid& fluid, const particles::Domain& domain);
 
 }  // namespace viscontact::freefem_flow
