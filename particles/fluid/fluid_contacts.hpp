@@ -156,7 +156,7 @@ class ContactProblem {
         velocities_(conditions.free_velocities.begin(), conditions.free_velocities.end()) {}
 
   /// Adds a contact, whose `impulse` is a first guess. The mobility must move at least one of its
-  /// particles.
+  /// particles (not checked).
   void add(const Contact<2>& contact) { contacts_.push_back(contact); }
 
   /// Finds the impulses and the `w` of all contacts. Further contacts may be added afterwards; the
@@ -172,9 +172,10 @@ class ContactProblem {
   /// Velocities of the particles with the impulses found [L/T, 1/T]; before solve() those without
   /// contact.
   const std::vector<double>& velocities() const { return velocities_; }
-  /// Sums of the contact forces p/h on each particle [M L/T^2].
+  /// Sums of the contact forces p/h, and of their torques, on each particle [M L/T^2, M L^2/T^2].
   std::vector<double> loads() const;
-  /// Number of products with the mobility and of iterations with the assembled W.
+  /// Number of products with the mobility and of iterations with the assembled W, in all calls of
+  /// solve().
   int iterations() const { return iterations_; }
   /// True if the last solution was rough.
   bool is_rough() const { return is_rough_; }
@@ -237,7 +238,7 @@ struct ContactFrictionInFluid {
               const MotionLayout& layout) const {
     return displacement + h * slip_rate(of, velocities, layout);
   }
-  /// Adds a force of friction, and its torques, to the forces of all particles [M L/T^2].
+  /// Adds a force of friction [M L/T^2], and its torques, to the forces of all particles.
   void add_force(const Contact<2>& of, double force, std::span<double> forces,
                  const MotionLayout& layout) const {
     for (std::size_t d = 0; d < 2; ++d) {
@@ -263,11 +264,11 @@ struct StepContacts {
   /// The friction of the contacts whose solids may touch, that is with a finite capacity, in the
   /// order of `contacts`; empty without friction.
   std::vector<ContactFrictionInFluid> frictions;
-  std::vector<double> loads;       ///< sums of contact forces on each particle [M L/T^2]
-  std::vector<double> velocities;  ///< with the contact forces [L/T, 1/T]
+  std::vector<double> loads;       ///< forces and torques of contacts and friction on particles
+  std::vector<double> velocities;  ///< with these forces [L/T, 1/T]
   int iterations = 0;     ///< products with the mobility, and iterations of a dense problem, >= 0
   bool is_solved = true;  ///< ContactProblem::solve() reached the tolerances
-  double reach = 0;       ///< all pairs with a gap below it are listed [L]
+  double reach = 0;       ///< all pairs with a distance of surfaces below it are listed [L], > 0
 };
 
 /// Solves for `step.contacts`, whose impulses are first guesses, in rounds: after each one the
