@@ -54,8 +54,7 @@ class EdgeLengths {
   /// with the distances from the two nearest surfaces, of which one may be a wall.
   double in_fluid(const Point& x) const;
 
-  /// The length of an edge on the smallest particle, > 0, for meshes whose edges are all equally
-  /// long; at most a sixth of size_of() times `coarsening`, which it is without particles.
+  /// The length > 0 of an edge on the smallest particle, for meshes with edges of equal length.
   double uniform() const { return longest_; }
 
   /// Outlines of all particles, in their order.

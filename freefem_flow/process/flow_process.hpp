@@ -54,9 +54,8 @@ struct SolverLimits {
 /// but the finite numbers that the protocol asks for. They throw Error(kNotConverged) if a number
 /// for the solver is not finite, and Error(kInterrupted) if a stop is requested. After an
 /// Error(kExternalProgram) or Error(kInterrupted) every request throws Error(kExternalProgram).
-/// Sizes of arrays are asserted. saved_flow() and load_flow() throw Error(kWrongUsage) if no
-/// temporary folder can be made, and the errors of reading and writing a file in it,
-/// Error(kBadInput).
+/// Sizes of arrays are asserted. saved_flow() and load_flow() throw Error(kWrongUsage) without a
+/// temporary folder, and Error(kBadInput) if a file in it cannot be read or written.
 class FlowProcess : public particles::FluidSolver {
  public:
   /// Starts the solver and waits until it is ready. `dimension`: 2 for discs in the plane, 1 for
@@ -64,8 +63,7 @@ class FlowProcess : public particles::FluidSolver {
   /// if `domain` does not fit the dimension or the velocities of the boundary,
   /// Error(kExternalProgram) if the solver cannot be run or is not ready in time,
   /// Error(kInterrupted) if a stop is requested, and Error(kWrongUsage) if the fluid has inertia
-  /// and no temporary folder can be made. `make_boundary` must not be empty if the solver asks for
-  /// boundaries.
+  /// and no temporary folder can be made. `make_boundary` must not be empty.
   FlowProcess(const particles::Fluid& fluid, const particles::Domain& domain,
               std::span<const double> radii, int dimension, SolverCommand command,
               MeshBoundaryMaker make_boundary, const SolverLimits& limits = {});

@@ -65,8 +65,7 @@ inline double fastest(std::span<const double> velocities, const MotionLayout& la
   return largest;
 }
 
-/// Adds a contact force [M L/T^2], > 0 if it pushes, to the forces and torques on all particles
-/// [M L/T^2, M L^2/T^2].
+/// Adds a contact force [M L/T^2], > 0 if it pushes, to the forces and torques on all particles.
 inline void add_contact_force(const Contact<2>& contact, double force, std::span<double> forces,
                               const MotionLayout& layout) {
   for (std::size_t d = 0; d < layout.directions(); ++d) {
@@ -174,8 +173,7 @@ class ContactProblem {
   const std::vector<double>& velocities() const { return velocities_; }
   /// Sums of the contact forces p/h, and of their torques, on each particle [M L/T^2, M L^2/T^2].
   std::vector<double> loads() const;
-  /// Number of products with the mobility and of iterations with the assembled W, in all calls of
-  /// solve().
+  /// Number of products with the mobility and iterations with the assembled W in all solve().
   int iterations() const { return iterations_; }
   /// True if the last solution was rough.
   bool is_rough() const { return is_rough_; }
@@ -278,8 +276,7 @@ struct StepContacts {
 void solve_listed(StepContacts& step, const Mobility& mobility,
                   const ContactConditions& conditions);
 
-/// The largest distance [L], >= 0, of surfaces that can come to contact in a step with these
-/// velocities.
+/// The largest distance [L] of surfaces that can come to contact in a step with these velocities.
 double reach_of(const State& state, const Fluid& fluid, std::span<const double> velocities,
                 const ContactConditions& conditions);
 

@@ -139,15 +139,16 @@ class FluidSolver {
   /// both meshes.
   virtual FlowField flow() = 0;
 
-  // A fluid with inertia remembers flows. For other fluids these three functions do nothing.
+  // A fluid with inertia remembers flows. For other fluids these three functions must not be called
+  // (not checked); those of this class do nothing.
 
   /// Keeps the flow of the last velocities(forces, true), or a fluid at rest if `at_rest`, as that
   /// at the time of the placement, from which the next placement continues. `motions` are those of
   /// the particles, which Coupling::kSplitting may make different from the velocities in the flow.
   virtual void keep_flow(bool at_rest, std::span<const double> motions);
-  /// The flows that were kept and still matter, for load_flow(); empty without inertia.
+  /// The flows that were kept and still matter, for load_flow(), in a form of the solver's own.
   virtual std::string saved_flow();
-  /// Continues from the flows that saved_flow() of another object returned.
+  /// Continues from the flows that saved_flow() of another object for the same case returned.
   virtual void load_flow(const std::string& flow);
 
   /// Number of unknowns on the mesh of the last placement; 0 if the solver does not say.
