@@ -20,10 +20,10 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
                     std::span<const double> radii, int dimension);
 
 /// The velocities of all walls at the time of `step`, one line for each wall in the order of the
-/// opening: the eight numbers A0 AX AY B0 BX BY P Q of docs/fluid-solver.md. With s from 0 to 1
-/// along the wall the velocity is (A0 + AX x + AY y + 4 P s (1 - s), B0 + BX x + BY y + 4 Q s (1 -
-/// s)): A0, B0, P and Q in [L/T], the others in [1/T]; all are 0 of an open side. Throws nothing if
-/// opening() accepted the arguments.
+/// opening: the eight numbers A0 AX AY B0 BX BY P Q of docs/fluid-solver.md. With q = 4 s (1 - s),
+/// where s goes from 0 to 1 along the side of a box, the velocity is (A0 + AX x + AY y + P q, B0 +
+/// BX x + BY y + Q q): A0, B0, P and Q in [L/T], the others in [1/T]; all are 0 of an open side.
+/// Throws nothing if opening() accepted the arguments.
 std::string walls_at(const particles::Fluid& fluid, const particles::Domain& domain,
                      const particles::FlowStep& step);
 

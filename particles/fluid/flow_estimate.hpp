@@ -44,7 +44,7 @@ struct FlowEstimate {
 /// forces of links; empty: there are none. `forces` may contain contact forces, whose own errors
 /// are not in the estimates; they have motion_components() numbers for each particle [M L/T^2,
 /// M L^2/T^2]
-///. Without a penalty or a second mesh its part of the errors is 0. Throws the errors of
+///. If there is no penalty, or no second mesh, the part of the errors that it would cause is 0. Throws the errors of
 /// FluidSolver, such as Error(kInterrupted) if a stop is requested.
 FlowEstimate estimate_flow(FluidSolver& solver, std::span<const double> forces,
                            const Particles& particles, const Fluid& fluid,

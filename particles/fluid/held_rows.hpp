@@ -28,9 +28,9 @@ namespace viscontact::particles {
 /// without mass, because FluidSimulation extrapolates the change of velocities by their turning.
 class HeldMotion {
  public:
-  /// `links` and `particles` must outlive this object. `times.kick` is not used; `times.h` > 0.
-  /// `link_times` is StepEquation::link_times(), one time [T] for each particle, < 0 if it does not
-  /// accelerate; empty: no particle accelerates.
+  /// `links` and `particles` must outlive this object. `times.kick` is not used; `times.h` > 0 is
+  /// the length of the step [T]. `link_times` is StepEquation::link_times(), one time [T] for each
+  /// particle, < 0 if it does not accelerate; empty: no particle accelerates.
   HeldMotion(const Links& links, const Particles& particles, const LinkTimes& times,
              std::span<const double> link_times = {});
 

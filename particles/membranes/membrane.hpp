@@ -138,7 +138,8 @@ double largest_area(std::span<const double> lengths);
 /// each bead is taken at its image that is nearest to the corner before it.
 std::vector<double> corners_of(const Membrane& membrane, const Particles& particles);
 
-// In the following, a closed polygon is given by two numbers for each corner [L].
+// In the following, a closed polygon is given by two numbers for each corner [L]; there are at
+// least three corners (not checked).
 
 /// True if a point [L] is inside a polygon. Points on its sides may count as either.
 bool is_inside(const std::array<double, 2>& x, std::span<const double> polygon);
