@@ -43,9 +43,9 @@ struct FlowEstimate {
 /// `further` is called after each flow and returns more results that depend on it, such as the
 /// forces of links; empty: there are none. `forces` may contain contact forces, whose own errors
 /// are not in the estimates; they have motion_components() numbers for each particle [M L/T^2,
-/// M L^2/T^2]
-///. If there is no penalty, or no second mesh, the part of the errors that it would cause is 0. Throws the errors of
-/// FluidSolver, such as Error(kInterrupted) if a stop is requested.
+/// M L^2/T^2]. If there is no penalty, or no second mesh, the part of the errors that it would
+/// cause is 0. Throws the errors of FluidSolver, such as Error(kInterrupted) if a stop is
+/// requested.
 FlowEstimate estimate_flow(FluidSolver& solver, std::span<const double> forces,
                            const Particles& particles, const Fluid& fluid,
                            const std::function<std::vector<double>()>& further = {});

@@ -58,8 +58,7 @@ struct FluidParticles {
   /// are free.
   std::map<std::int32_t, std::array<double, 3>> driven;
   /// Mass or moment of inertia over the time step of each component of each particle, >= 0 [M/T,
-  /// M L^2/T]
-  ///, in a fluid without inertia, added to the resistance; empty: the particles have no
+  /// M L^2/T], in a fluid without inertia, added to the resistance; empty: the particles have no
   /// inertia.
   std::span<const double> inertia;
   FlowStep flow_step{};  ///< in a fluid with inertia
