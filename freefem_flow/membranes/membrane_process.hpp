@@ -17,9 +17,9 @@ namespace viscontact::freefem_flow {
 /// feel no torque, and rigid discs, free or driven. `limits` are those of FlowProcess. `unit` > 0
 /// is the unit of length of the arguments in that of the case; only messages use it. Throws
 /// Error(kExternalProgram) if FreeFEM cannot be run or is not ready in time, Error(kInterrupted) if
-/// a stop is requested, and Error(kBadInput) if there are more than kMostMembranes membranes or the
-/// domain is none of these in the plane (opening()). The result is never null; its functions throw
-/// as FluidSolver says.
+/// a stop is requested, and Error(kBadInput) if there are more than kMostMembranes membranes or no
+/// domain in the plane (opening()); a period along y is not checked. The result is never null; its
+/// functions throw as FluidSolver says.
 ///
 /// The mesh has `edges_per_particle` edges on each membrane, but at least two thirds as many as any
 /// membrane has beads. In a box that is periodic along x the mesh ends at a straight line that no

@@ -39,7 +39,7 @@ struct SolverLimits {
   StopToken stop{};
   /// A mesh of at most this many unknowns is refined to estimate the error. The refined mesh has
   /// four times as many unknowns, at most 400000, which take 2 GB. If the mesh has more unknowns,
-  /// the error is estimated from a coarser mesh.
+  /// the error is estimated from a coarser mesh; 0: always, if the solver asks for boundaries.
   std::size_t most_unknowns_to_refine = 100'000;
   /// The longest time until the solver is ready, > 0. It is shorter than `answer`, so that a
   /// command that is no solver fails soon; FreeFEM needs a second on a busy machine.

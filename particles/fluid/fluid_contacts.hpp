@@ -346,7 +346,7 @@ void solve_with_friction(StepContacts& step, double mu_s, const Mobility& mobili
 
 /// The power [M L^2/T^3] that friction turns into heat in the step, >= 0 up to the tolerances:
 /// minus the sum over all contacts of force times velocity of slip, for the velocities with which
-/// the particles move.
+/// the particles move; 0 without friction.
 double heat_of_friction(const StepContacts& step, std::span<const double> velocities,
                         const ContactConditions& conditions);
 
