@@ -61,7 +61,8 @@ struct FluidBlow {
   /// solids rebound the least impulse with which they give back their share, and for all contacts
   /// the impulse itself if the blow was weakened so that it adds no energy.
   std::vector<Contact<2>> contacts;
-  /// For each contact what its film takes up [M L/T]: gamma before the step minus gamma after it.
+  /// For each contact the impulse from which its film takes up what it can [M L/T]: the whole
+  /// impulse, but gamma before the step minus gamma after it where solids rebound.
   std::vector<double> absorbed;
   std::vector<double> loads;       ///< contact forces, impulses over `kick`, on each particle
   std::vector<double> velocities;  ///< after the blow
