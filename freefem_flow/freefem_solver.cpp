@@ -1,7 +1,8 @@
 // The commands of fluid solvers, and the units in which FreeFEM computes (freefem_solver.hpp).
 // Numbers are in the units of the case if nothing else is said; L, M and T are the dimensions of
-// length, mass and time. A solver that does not start is an Error(kExternalProgram). A change must
-// keep units that are powers of 2, because their scaling has no rounding error.
+// length, mass and time. A solver that does not start is an Error(kExternalProgram), a particle too
+// small for its mesh an Error(kBadInput), a gap too narrow for it an Error(kNotConverged). A change
+// must keep units that are powers of 2, because their scaling has no rounding error.
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 
 #include <fmt/format.h>

@@ -16,20 +16,23 @@ namespace viscontact::freefem_flow {
 /// or in the one above it: discs.edp (`dimension` 2, the plane) or spheres.edp (1, the axis of a
 /// cylinder), or with a fixed mesh discs_on_fixed_mesh.edp or spheres_on_fixed_mesh.edp. The
 /// environment variable VISCONTACT_FREEFEM, if set, names the FreeFEM to run. Throws
-/// Error(kExternalProgram) if there is no such script.
+/// Error(kExternalProgram) if there is no such script; whether the program exists is not checked.
 SolverCommand solver_command(const particles::Fluid& fluid, int dimension);
 
 /// The limits of any fluid solver: if the environment variable VISCONTACT_FREEFEM_TIME_LIMIT is
 /// set, it is the limit in seconds of an answer and of the time until the solver is ready. Throws
-/// Error(kWrongUsage) if it is not a whole number from 1 to 10 million.
+/// Error(kWrongUsage) if it is not a whole number from 1 to 10 million. If `stop` requests a stop,
+/// requests to the solver throw Error(kInterrupted).
 SolverLimits solver_limits(const StopToken& stop = {});
 
-/// Starts the solver of `fluid` in `domain` around particles with `radii` [L], > 0, and waits until
-/// it is ready. With membranes it is FreeFEM with membranes.edp (membranes/membrane_process.hpp).
-/// FreeFEM computes in units of its own, but arguments and results of the returned object are in
-/// the units of the case; a solver of the user's own gets the units of the case. Throws the errors
-/// of FlowProcess, of start_membrane_solver() and of the functions above, and Error(kBadInput) if
-/// the domain is so large that FreeFEM makes no mesh around the smallest particle.
+/// Starts the solver of `fluid` in `domain` around particles with `radii` [L], > 0, one for each,
+/// in `dimension` 2 (the plane) or 1 (the axis of a cylinder), and waits until it is ready; never
+/// null. With membranes it is FreeFEM with membranes.edp (membranes/membrane_process.hpp). FreeFEM
+/// computes in units of its own, but arguments and results of the returned object are in the units
+/// of the case; a solver of the user's own gets the units of the case. Throws the errors of
+/// FlowProcess, of start_membrane_solver() and of the functions above, and Error(kBadInput) if the
+/// domain is so large that FreeFEM makes no mesh around the smallest particle. With FreeFEM place()
+/// of the object throws Error(kNotConverged) if a gap is too narrow for an edge.
 std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Fluid& fluid,
                                                            const particles::Domain& domain,
                                                            std::span<const double> radii,

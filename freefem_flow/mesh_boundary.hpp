@@ -33,7 +33,7 @@ struct MeshBoundary {
   std::vector<std::array<double, 2>> points;  ///< (x, y), or (distance from the axis, z) [L]
   std::vector<Curve> curves;                  ///< they may share points
 
-  /// Adds the curve through these points, at least two, and the points.
+  /// Adds the curve through these points, at least two (not checked), and the points.
   void add(const std::vector<std::array<double, 2>>& more, int label) {
     curves.push_back({static_cast<int>(points.size()), static_cast<int>(more.size()) - 1, label});
     points.insert(points.end(), more.begin(), more.end());
@@ -47,7 +47,8 @@ struct MeshBoundary {
 /// and a box with periodic sides ends on lines between particles, because these sides would cut
 /// particles (boundary/periodic_cells.hpp). All gaps must be > 0, but discs of one body may overlap
 /// with kRigid. Throws Error(kNotConverged) if a gap is too narrow for an edge, or if discs of one
-/// body overlap across a periodic side, and std::bad_variant_access if there is no domain.
+/// body overlap across a periodic side, and std::bad_variant_access if there is no domain. Other
+/// arguments are not checked.
 MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
                            const particles::FluidParticles& bodies, double coarsening = 1);
 

@@ -1,7 +1,7 @@
 // The lengths of edges of the mesh (edge_lengths.hpp), from distances to particles and walls.
-// Lengths are in the unit of the arguments. Only check_edge_length() throws. The constants are
-// chosen by the table of errors in bench/README.md ("Particles in a fluid"), which must be measured
-// again after a change, because it changes all meshes.
+// Lengths are in the unit of the arguments. Only check_edge_length() throws, and, without a domain,
+// size_of(). The constants are chosen by the table of errors in bench/README.md ("Particles in a
+// fluid"), which must be measured again after a change, because it changes all meshes.
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // How long the edges of the mesh are at a point of its boundary, and how a curve is cut into such
-// edges. Lengths have the unit of the arguments. mesh_boundary.cpp and periodic_cells.hpp use it;
-// membranes/membrane_boundary.cpp uses the functions that cut. A change of a length changes all
+// edges. Lengths have the unit of the arguments. Functions throw only what they say; numbers of
+// particles and ranges of arguments are not checked. mesh_boundary.cpp and periodic_cells.hpp use
+// it; membranes/membrane_boundary.cpp uses the functions that cut. A change of a length changes all
 // meshes, and the errors of velocities in bench/README.md must be measured again.
 #pragma once
 
@@ -22,8 +23,8 @@ namespace viscontact::freefem_flow {
 /// The coordinates of a point [L]: x and y in the plane, r and z in a cylinder.
 using Point = std::array<double, 2>;
 
-/// The smallest extent [L] of a disc (its diameter), a box (its shorter side) or a cylinder. Throws
-/// std::bad_variant_access if there is no domain.
+/// The smallest extent [L], > 0, of a disc (its diameter), a box (its shorter side) or a cylinder.
+/// Throws std::bad_variant_access if there is no domain.
 double size_of(const particles::Domain& domain);
 
 /// Lengths [L] of the edges on surfaces of particles, walls, the axis of a cylinder and periodic
@@ -32,16 +33,18 @@ double size_of(const particles::Domain& domain);
 class EdgeLengths {
  public:
   /// `fluid` gives the number of edges on the smallest particle; all lengths are multiplied by
-  /// `coarsening` > 0. Throws as size_of().
+  /// `coarsening` > 0. `bodies.particles` must not be null; there may be no particles. Throws as
+  /// size_of().
   EdgeLengths(const particles::Fluid& fluid, const particles::Domain& domain,
               const particles::FluidParticles& bodies, double coarsening = 1);
 
-  /// At a point on the surface of particle k: the length of an edge on the smallest particle, or
-  /// less if another surface is near.
+  /// At a point on the surface of particle k (from 0, must exist): the length of an edge on the
+  /// smallest particle, or less if another surface is near.
   double on_particle(std::size_t k, const Point& x) const;
 
-  /// The same at the point outlines()[k].at(t), for an outline of any shape. On an ellipse or plate
-  /// it is also at most 2 pi/edges_per_particle times the radius of curvature at the point.
+  /// The same at the point outlines()[k].at(t), for an outline of any shape; t is its parameter
+  /// [rad]. On an ellipse or plate it is also at most 2 pi/edges_per_particle times the radius of
+  /// curvature at the point.
   double on_outline(std::size_t k, double t) const;
 
   /// At a point on a wall: the length increases with the distance from the nearest particle.
@@ -51,7 +54,7 @@ class EdgeLengths {
   /// with the distances from the two nearest surfaces, of which one may be a wall.
   double in_fluid(const Point& x) const;
 
-  /// The length of an edge on the smallest particle, for meshes whose edges are all equally long.
+  /// The length > 0 of an edge on the smallest particle, for meshes with edges of equal length.
   double uniform() const { return longest_; }
 
   /// Outlines of all particles, in their order.
@@ -78,14 +81,15 @@ class EdgeLengths {
 };
 
 /// Throws Error(kNotConverged) if an edge of the length `edge` [L] is not longer than 1e-7 times
-/// the curve of the length `length` [L] that it lies on, because FreeFEM takes its two ends for one
-/// point.
+/// the curve of the length `length` [L], > 0, that it lies on, or if it is NaN, because FreeFEM
+/// takes its two ends for one point.
 void check_edge_length(double edge, double length);
 
 /// Cuts a curve of the length `length` [L], > 0, into at least `least` edges and returns their
-/// ends, as distances along the curve from 0 to `length`. `edge_length(s)` [L], > 0, is the wanted
-/// length at the distance s. All edges are shorter than wanted by one common factor, so that a
-/// whole number of them fits. Throws as check_edge_length() if a wanted length is too short.
+/// ends, increasing distances [L] along the curve from 0 to `length`; one more than edges.
+/// `edge_length(s)` [L], > 0, is the wanted length at the distance s. All edges are shorter than
+/// wanted by one common factor, so that a whole number of them fits. Throws as check_edge_length()
+/// if a wanted length is too short.
 template <class EdgeLength>
 std::vector<double> cut_curve(double length, std::size_t least, const EdgeLength& edge_length) {
   // cost[i] approximates the integral of 1/edge_length from 0 to place[i], which is the number of
@@ -120,8 +124,9 @@ std::vector<double> cut_curve(double length, std::size_t least, const EdgeLength
   return ends;
 }
 
-/// The points that cut the line from `from` to `to` into edges, with its ends. `edge_length(x)`
-/// [L], > 0, is the wanted length at the point x. Throws as cut_curve().
+/// The points that cut the line from `from` to `to`, which must differ, into edges, with its ends:
+/// at least two. `edge_length(x)` [L], > 0, is the wanted length at the point x. Throws as
+/// cut_curve().
 template <class EdgeLength>
 std::vector<Point> cut_line(const Point& from, const Point& to, const EdgeLength& edge_length) {
   const double length = std::hypot(to[0] - from[0], to[1] - from[1]);

@@ -33,7 +33,7 @@ struct CellEdge {
 /// are joined.
 ///
 /// `circles`: the particles, at least one, with centres in the box. Of an ellipse or plate only the
-/// circle around it is used. The circles must not overlap.
+/// circle around it is used. The circles must not overlap. None of this is checked.
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
                                      std::span<const particles::Outline> circles);
 

@@ -18,21 +18,21 @@ inline constexpr int kFirstMembraneLabel = 20;
 /// The largest number of membranes: their labels must be below those of particles.
 inline constexpr int kMostMembranes = kFirstParticleLabel - kFirstMembraneLabel;
 
-/// The places of the nodes of each membrane, (x, y) [L] in a row: the ends and the middles of its
-/// edges in turn, beginning with an end, counter-clockwise.
+/// The places of the nodes of each membrane, a matrix with 2 edges rows and two columns, (x, y)
+/// [L]: the ends and the middles of its edges in turn, beginning with an end, counter-clockwise.
 using NodesOfMembranes = std::vector<Eigen::MatrixXd>;
 
 /// The curves inside the domain.
 struct InnerCurves {
   NodesOfMembranes membranes{};             ///< nodes of all membranes
   std::vector<particles::Outline> discs{};  ///< rigid discs
-  int edges = 24;                           ///< on each membrane, > 0
-  int edges_of_disc = 24;                   ///< least number on each disc, > 0
+  int edges = 24;          ///< on each membrane, > 0; half the rows of each of `membranes`
+  int edges_of_disc = 24;  ///< least number on each disc, > 0
 };
 
 /// Throws Error(kNotConverged) if a node of a membrane is outside the domain or inside a disc, or
-/// if a disc is not inside the domain. The message multiplies lengths by `unit`, the unit of
-/// `curves` in that of the case.
+/// if a disc is not inside the domain; a place that is NaN counts as outside. The message
+/// multiplies lengths by `unit`, the unit of `curves` in that of the case.
 void check_places(const particles::Domain& domain, const InnerCurves& curves, double unit);
 
 /// If the box is periodic along x: the distance [L] from its left side to the middle of the widest

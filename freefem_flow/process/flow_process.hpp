@@ -20,13 +20,14 @@ namespace viscontact::freefem_flow {
 
 class SolverDialogue;
 
-/// Asks a solver for the velocity and pressure of its last solution, and reads the answer. Throws
-/// the errors of SolverDialogue.
+/// Asks a solver for the velocity and pressure of its last solution, and reads the answer: for each
+/// node x, y [L], velocity [L/T] and pressure [M/(L T^2)], and for each triangle its nodes, numbers
+/// from 0. Throws the errors of SolverDialogue, also if a number of a node is out of range.
 particles::FlowField read_flow(SolverDialogue& solver);
 
 /// Makes the boundary of the mesh around particles, with edges that are about `coarsening` >= 1
 /// times as long as `edges_per_particle` of the fluid gives. It is called only for solvers that ask
-/// for a boundary.
+/// for a boundary. What it throws, place() throws.
 using MeshBoundaryMaker =
     std::function<MeshBoundary(const particles::FluidParticles&, double coarsening)>;
 
@@ -38,7 +39,7 @@ struct SolverLimits {
   StopToken stop{};
   /// A mesh of at most this many unknowns is refined to estimate the error. The refined mesh has
   /// four times as many unknowns, at most 400000, which take 2 GB. If the mesh has more unknowns,
-  /// the error is estimated from a coarser mesh.
+  /// the error is estimated from a coarser mesh; 0: always, if the solver asks for boundaries.
   std::size_t most_unknowns_to_refine = 100'000;
   /// The longest time until the solver is ready, > 0. It is shorter than `answer`, so that a
   /// command that is no solver fails soon; FreeFEM needs a second on a busy machine.
@@ -51,14 +52,18 @@ struct SolverLimits {
 /// class throw Error(kExternalProgram), which names the solver, the request and the solver's last
 /// lines, if the solver ends, does not answer in time, reports an error, or answers with anything
 /// but the finite numbers that the protocol asks for. They throw Error(kNotConverged) if a number
-/// for the solver is not finite. After an Error(kExternalProgram) every request throws another one.
+/// for the solver is not finite, and Error(kInterrupted) if a stop is requested. After an
+/// Error(kExternalProgram) or Error(kInterrupted) every request throws Error(kExternalProgram).
+/// Sizes of arrays are asserted. saved_flow() and load_flow() throw Error(kWrongUsage) without a
+/// temporary folder, and Error(kBadInput) if a file in it cannot be read or written.
 class FlowProcess : public particles::FluidSolver {
  public:
   /// Starts the solver and waits until it is ready. `dimension`: 2 for discs in the plane, 1 for
   /// spheres on the axis of a cylinder. `radii`: of all particles [L], > 0. Throws Error(kBadInput)
   /// if `domain` does not fit the dimension or the velocities of the boundary,
-  /// Error(kExternalProgram) if the solver cannot be run or is not ready in time, and
-  /// Error(kWrongUsage) if the fluid has inertia and no temporary folder can be made.
+  /// Error(kExternalProgram) if the solver cannot be run or is not ready in time,
+  /// Error(kInterrupted) if a stop is requested, and Error(kWrongUsage) if the fluid has inertia
+  /// and no temporary folder can be made. `make_boundary` must not be empty.
   FlowProcess(const particles::Fluid& fluid, const particles::Domain& domain,
               std::span<const double> radii, int dimension, SolverCommand command,
               MeshBoundaryMaker make_boundary, const SolverLimits& limits = {});

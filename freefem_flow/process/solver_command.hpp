@@ -12,16 +12,16 @@ namespace viscontact::freefem_flow {
 
 /// The command of a fluid solver, and how this solver behaves.
 struct SolverCommand {
-  /// The program, which is looked up on PATH, and then its arguments.
+  /// The program, which is looked up on PATH, and then its arguments; at least the program.
   std::vector<std::string> arguments;
   std::vector<std::string> environment{};  ///< "NAME=value" each, for the solver only
   std::string folder{};                    ///< working folder; empty: that of this process
   // The ends of messages, which say what a user can do; may be empty.
   std::string remedy_if_missing{},  ///< if the program cannot be run
       remedy_if_silent{};           ///< if the program does not answer in time
-  /// After a system of more unknowns than this the solver would give other rounding errors. It is
-  /// then replaced by a new process before the next placement, so that a run that is continued
-  /// after an interrupt gives the same bits as one without interrupt.
+  /// After a system of more unknowns than this (any number; the default: never) the solver would
+  /// give other rounding errors. It is then replaced by a new process before the next placement, so
+  /// that a run that is continued after an interrupt gives the same bits as one without interrupt.
   std::size_t most_unknowns_reproduced = std::numeric_limits<std::size_t>::max();
   /// Whether lines of other text before the answer to a placement are skipped. If not, they are an
   /// error.

@@ -22,12 +22,13 @@ namespace viscontact::freefem_flow {
 
 /// The dialogue with one process. All functions that read or write throw Error(kExternalProgram) if
 /// the solver ends, answers wrongly or too late, and Error(kInterrupted) if a stop is requested.
-/// The process is then ended, and ask() throws Error(kExternalProgram).
+/// The process is then ended, and ask() throws Error(kExternalProgram); the other functions must
+/// not be called then (not checked).
 class SolverDialogue {
  public:
   /// Starts the solver. `first_limit` > 0 is the time limit of the answer to the first request,
-  /// `time_limit` > 0 that of each other answer. Throws Error(kExternalProgram) if the program
-  /// cannot be run.
+  /// `time_limit` > 0 that of each other answer, from the request on. Throws
+  /// Error(kExternalProgram) if the program cannot be run. `stop` may be empty.
   SolverDialogue(const SolverCommand& command, std::chrono::milliseconds time_limit,
                  std::chrono::milliseconds first_limit, const StopToken& stop);
   SolverDialogue(const SolverDialogue&) = delete;
@@ -47,9 +48,9 @@ class SolverDialogue {
   std::string word();
   double number();            ///< a finite number
   double number_from_zero();  ///< a finite number >= 0
-  /// The next `count` words of the answer, as finite numbers.
+  /// The next `count` >= 0 words of the answer, as finite numbers, in their order.
   std::vector<double> numbers(std::size_t count);
-  /// A whole number from 0 to `largest`.
+  /// A whole number from 0 to `largest` >= 0; anything else is an error.
   std::int64_t whole_number(std::int64_t largest);
 
   /// The largest resident memory of the solver so far [kB]; 0 after an error.
@@ -79,8 +80,9 @@ class SolverDialogue {
   ChildProcess::Clock::time_point asked_at_{};
 };
 
-/// Appends numbers to a request, with a space before each. Throws Error(kNotConverged) if one of
-/// them is not finite; the message calls it `what`, for example "a force".
+/// Appends numbers to a request, with a space before each, in digits that read back to the same
+/// double. Throws Error(kNotConverged) if one of them is not finite; the message calls it `what`,
+/// for example "a force".
 void append(std::string& text, std::span<const double> values, const char* what);
 
 /// The boundary of a mesh as a part of a request: the numbers of points and curves, the points, and

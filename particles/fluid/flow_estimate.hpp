@@ -17,20 +17,22 @@ namespace viscontact::particles {
 
 /// A flow that is extrapolated from two meshes, with estimates of its errors.
 struct FlowEstimate {
-  std::vector<double> velocities;  ///< of all particles, extrapolated [L/T, 1/T]
-  FlowQuantities quantities;       ///< dissipation, apparent viscosity, forces are extrapolated
+  /// Extrapolated, motion_components() numbers for each particle [L/T, 1/T].
+  std::vector<double> velocities;
+  FlowQuantities quantities;  ///< dissipation, apparent viscosity, forces are extrapolated
   /// Errors of the velocities, with angular velocities multiplied by the radius. They are relative
   /// to the largest velocity or, if it is larger, to the largest entry of the gradient of a linear
-  /// flow (LinearFlow) times the largest radius.
+  /// flow (LinearFlow) times the largest radius [1]; 0 if both are 0.
   RelativeErrors of_velocities;
   /// Errors of the forces of the fluid, with torques divided by the radius, relative to the largest
-  /// of these forces.
+  /// of these forces [1]; 0 if all are 0.
   RelativeErrors of_forces;
   /// Errors >= 0 of `quantities.fluid_forces`, as many numbers [M L/T^2, M L^2/T^2]. In the plane
   /// both components of the force on a particle get the same error, and its torque this error times
   /// the radius.
   std::vector<double> force_errors;
-  /// Errors >= 0 of the results of `further` on the mesh of the placement, in their units.
+  /// Errors >= 0 of the results of `further` on the mesh of the placement, as many and in their
+  /// units; empty without `further`.
   std::vector<double> further_errors;
 };
 
@@ -40,7 +42,10 @@ struct FlowEstimate {
 ///
 /// `further` is called after each flow and returns more results that depend on it, such as the
 /// forces of links; empty: there are none. `forces` may contain contact forces, whose own errors
-/// are not in the estimates. Throws the errors of FluidSolver.
+/// are not in the estimates; they have motion_components() numbers for each particle [M L/T^2,
+/// M L^2/T^2]. If there is no penalty, or no second mesh, the part of the errors that it would
+/// cause is 0. Throws the errors of FluidSolver, such as Error(kInterrupted) if a stop is
+/// requested.
 FlowEstimate estimate_flow(FluidSolver& solver, std::span<const double> forces,
                            const Particles& particles, const Fluid& fluid,
                            const std::function<std::vector<double>()>& further = {});

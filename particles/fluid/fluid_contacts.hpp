@@ -4,8 +4,10 @@
 // contacts are D - D_c here, with the distance D of the surfaces. gamma <= 0 is minus the impulse
 // that the film of a contact has absorbed, and gamma_min the gamma at which the solids touch.
 // Lengths, masses and times are in any consistent units; masses and impulses of discs are per
-// length. The other sources of this folder and particles/membranes/ use it. Errors are those of the
-// mobility. A change must keep that the film carries no friction.
+// length. Arrays of velocities, forces and loads have MotionLayout::components numbers for each
+// particle [L/T, 1/T; M L/T^2, M L^2/T^2]. The other sources of this folder and
+// particles/membranes/ use it. Sizes and ranges of arguments are not checked; functions throw only
+// what they say. A change must keep that the film carries no friction.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +53,7 @@ inline double gap_after(const Contact<2>& contact, const double* velocities, dou
 }
 
 /// The largest speed of a particle [L/T], without its turning, which changes no gap; NaN if one is
-/// not a number.
+/// not a number, 0 without particles.
 inline double fastest(std::span<const double> velocities, const MotionLayout& layout) {
   double largest = 0;
   for (std::size_t k = 0; k < velocities.size(); k += layout.components) {
@@ -76,6 +78,8 @@ inline void add_contact_force(const Contact<2>& contact, double force, std::span
 
 /// The velocities [L/T, 1/T] that forces and torques [M L/T^2, M L^2/T^2] add to those of all
 /// particles. It is linear and positive semidefinite, and symmetric except in a fluid with inertia.
+/// If it asks a fluid solver, it throws the errors of FluidSolver, also Error(kInterrupted) if a
+/// stop is requested.
 using Mobility = std::function<std::vector<double>(std::span<const double> forces)>;
 
 /// The step without contact, and how exact its contacts must be.
@@ -89,12 +93,12 @@ struct ContactConditions {
   /// it causes.
   double velocity_error = 0;
   /// Impulse of a force in the step over h times the force; 1 but in a fluid with inertia, where it
-  /// is the length of the step before over h (BlowStep::kick).
+  /// is the length of the step before over h (BlowStep::kick) [1], > 0.
   double share_of_impulse = 1;
   /// If a unit force of a contact changes the velocity of its gap, or of its slip, by no more than
-  /// this [T/M], hinges hold the gap or slip, which then takes no part; 0: hinges hold none.
+  /// this [T/M], >= 0, hinges hold the gap or slip, which then takes no part; 0: hinges hold none.
   double least_w = 0;
-  double least_reach = 0;  ///< pairs are listed up to this gap at least [L]
+  double least_reach = 0;  ///< pairs are listed up to this gap at least [L], >= 0
   /// Whether the mobility is symmetric. In a fluid with inertia it is not, because moving fluid
   /// carries the effect of a contact to those downstream.
   bool is_symmetric = true;
@@ -103,7 +107,8 @@ struct ContactConditions {
   bool keeps_solution = false;
 };
 
-/// Error [L] of a gap after the step by rounding errors of positions and by errors of velocities.
+/// Error [L], > 0, of a gap after the step by rounding errors of positions and by errors of
+/// velocities; NaN if a velocity without contact is.
 inline double rounding_error_of_gaps(const ContactConditions& conditions) {
   constexpr double kOfPositions = 1e-14;  // in mean radii: some 50 units in the last place
   return kOfPositions * conditions.mean_radius +
@@ -119,12 +124,13 @@ inline constexpr double kHeld = -1;
 ///
 /// Returns the impulses at work in each contact [M L/T]. For a particle this is the largest of the
 /// impulses of its contacts and of those that alone would keep their gaps from changing; for a
-/// contact it is the smaller value of its two particles.
+/// contact it is the smaller value of its two particles. One number for each contact, >= 0.
 std::vector<double> set_allowed(std::span<Contact<2>> contacts,
                                 const ContactConditions& conditions);
 
 /// Measures the residuals of contacts, for their impulses and the velocities that the particles
-/// have with these. Sets Contact::allowed.
+/// have with these. Sets Contact::allowed. StepResiduals::impulse_errors has one number for each
+/// contact, 0 if it takes no part; StepResiduals::converged says whether all are allowed.
 StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const double> velocities,
                                 const ContactConditions& conditions);
 
@@ -149,22 +155,25 @@ class ContactProblem {
         velocities_(conditions.free_velocities.begin(), conditions.free_velocities.end()) {}
 
   /// Adds a contact, whose `impulse` is a first guess. The mobility must move at least one of its
-  /// particles.
+  /// particles (not checked).
   void add(const Contact<2>& contact) { contacts_.push_back(contact); }
 
   /// Finds the impulses and the `w` of all contacts. Further contacts may be added afterwards; the
   /// next solution begins with the impulses found. A solution that `is_rough` has wider tolerances
   /// and saves products: it serves to see which other contacts take part. Returns whether the
-  /// residuals of all contacts are within the tolerances. Throws what the mobility throws.
+  /// residuals of all contacts are within the tolerances; false if they are not after
+  /// SolverSettings::max_iterations or a fixed number of rounds. Without contacts true. Throws what
+  /// the mobility throws.
   [[nodiscard]] bool solve(bool is_rough);
 
   /// All contacts, in the order in which they were added, with the impulses of the last solve().
   const std::vector<Contact<2>>& contacts() const { return contacts_; }
-  /// Velocities of the particles with the impulses found [L/T, 1/T].
+  /// Velocities of the particles with the impulses found [L/T, 1/T]; before solve() those without
+  /// contact.
   const std::vector<double>& velocities() const { return velocities_; }
-  /// Sums of the contact forces p/h on each particle [M L/T^2].
+  /// Sums of the contact forces p/h, and of their torques, on each particle [M L/T^2, M L^2/T^2].
   std::vector<double> loads() const;
-  /// Number of products with the mobility and of iterations with the assembled W.
+  /// Number of products with the mobility and iterations with the assembled W in all solve().
   int iterations() const { return iterations_; }
   /// True if the last solution was rough.
   bool is_rough() const { return is_rough_; }
@@ -195,13 +204,14 @@ struct ContactFrictionInFluid {
   /// Slip of the step if no particle moved [L]: the displacement along the tangent of the periodic
   /// image that touches, relative to the second particle, or minus that of the obstacle.
   double displacement = 0;
-  /// gamma - gamma_min >= 0: the impulse that the film takes up before the solids touch [M L/T].
+  /// gamma - gamma_min >= 0: the impulse that the film takes up before the solids touch [M L/T];
+  /// infinite if they never touch.
   double capacity = 0;
   /// Impulse of friction on the second particle along the tangent [M L/T]: a guess, then the
   /// solution.
   double impulse = 0;
-  /// Change of the slip per impulse of friction [T/M]; 0 if it is not known yet, or if a hinge
-  /// holds the place at which the friction acts.
+  /// Change of the slip per impulse of friction [T/M], >= 0; 0 if it is not known yet, or if a
+  /// hinge holds the place at which the friction acts.
   double w = 0;
   /// If the solids slide in the solution, the sign of `impulse`, 1 or -1; if they stick, or do not
   /// touch, 0.
@@ -226,7 +236,7 @@ struct ContactFrictionInFluid {
               const MotionLayout& layout) const {
     return displacement + h * slip_rate(of, velocities, layout);
   }
-  /// Adds a force of friction, and its torques, to the forces of all particles [M L/T^2].
+  /// Adds a force of friction [M L/T^2], and its torques, to the forces of all particles.
   void add_force(const Contact<2>& of, double force, std::span<double> forces,
                  const MotionLayout& layout) const {
     for (std::size_t d = 0; d < 2; ++d) {
@@ -236,7 +246,7 @@ struct ContactFrictionInFluid {
     forces[layout.at(of.second, 2)] += levers[1] * force;
     if (of.first >= 0) forces[layout.at(of.first, 2)] += levers[0] * force;
   }
-  /// Part of the normal impulse that the solids carry, p_s of (5.7) [M L/T].
+  /// Part of the normal impulse that the solids carry, p_s of (5.7) [M L/T], >= 0.
   double carried(const Contact<2>& of) const { return FrictionLaw::carried(of.impulse, capacity); }
 };
 
@@ -252,17 +262,17 @@ struct StepContacts {
   /// The friction of the contacts whose solids may touch, that is with a finite capacity, in the
   /// order of `contacts`; empty without friction.
   std::vector<ContactFrictionInFluid> frictions;
-  std::vector<double> loads;       ///< sums of contact forces on each particle [M L/T^2]
-  std::vector<double> velocities;  ///< with the contact forces [L/T, 1/T]
-  int iterations = 0;     ///< products with the mobility, and iterations of a dense problem
+  std::vector<double> loads;       ///< forces and torques of contacts and friction on particles
+  std::vector<double> velocities;  ///< with these forces [L/T, 1/T]
+  int iterations = 0;     ///< products with the mobility, and iterations of a dense problem, >= 0
   bool is_solved = true;  ///< ContactProblem::solve() reached the tolerances
-  double reach = 0;       ///< all pairs with a gap below it are listed [L]
+  double reach = 0;       ///< all pairs with a distance of surfaces below it are listed [L], > 0
 };
 
 /// Solves for `step.contacts`, whose impulses are first guesses, in rounds: after each one the
 /// contacts join whose gaps the others have closed. Sets the impulses and w of the contacts, and
-/// the loads, velocities and `is_solved` of the step; adds to its iterations. Throws what the
-/// mobility throws.
+/// the loads, velocities and `is_solved` of the step, which is false if residuals are larger than
+/// allowed; adds to its iterations. Throws what the mobility throws.
 void solve_listed(StepContacts& step, const Mobility& mobility,
                   const ContactConditions& conditions);
 
@@ -270,12 +280,14 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
 double reach_of(const State& state, const Fluid& fluid, std::span<const double> velocities,
                 const ContactConditions& conditions);
 
-/// The radii of both surfaces of a pair at its contact: radii_of() with the round ends of plates.
+/// The radii [L] of both surfaces of a pair at its contact: radii_of() with the round ends of
+/// plates. `obstacles` are obstacles_of(setting).
 PairRadii radii_in_fluid(const Fluid& fluid, const Pair& pair, const Particles& particles,
                          std::span<const Plane> obstacles);
 
 /// The stops of hinges as contacts. The gap of a stop is the angle that is left to it times the
-/// radius of the particle that the hinge holds [L].
+/// radius of the particle that the hinge holds [L]. One contact for each stop of each hinge; empty
+/// without stops.
 std::vector<Contact<2>> contacts_of_stops(const Links& links, const Particles& particles);
 
 /// Adds the torques [M L^2/T^2] of the stops of hinges to `link_forces`, which has the order of
@@ -289,10 +301,11 @@ void add_torques_of_stops(const Links& links, const Particles& particles,
 /// the list is extended until no other gap can close. `state` is that before the step, `obstacles`
 /// are at their places at the end of the step. The finite rotation of plates is taken into account
 /// up to a quarter of the tolerance of gaps. Pairs for which `is_left_out` is true are no contacts.
-/// `friction` is null if there is none.
+/// `friction` is null if there is none; with it the coefficient of its setting is used.
 ///
-/// Throws what `mobility` throws, and Error(kNotConverged) if two plates turn so far that they
-/// overlap at a place that was no contact of theirs.
+/// If the tolerances are not reached, StepContacts::is_solved is false. Throws what `mobility`
+/// throws, and Error(kNotConverged) if two plates turn so far that they overlap at a place that was
+/// no contact of theirs.
 StepContacts solve_contacts(const State& state, const Fluid& fluid, const Links& links,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,
@@ -305,7 +318,7 @@ struct FrictionOfStep {
   std::span<const Plane> obstacles;  ///< obstacles_of(setting)
   const PairMemories& memories;      ///< State::memories, with the friction of the step before
   double begin = 0;                  ///< time at which the step begins [T]
-  double end = 0;                    ///< time at which it ends [T]
+  double end = 0;                    ///< time at which it ends [T], > begin
 };
 
 /// Where friction acts on the particles of a contact.
@@ -333,7 +346,7 @@ void solve_with_friction(StepContacts& step, double mu_s, const Mobility& mobili
 
 /// The power [M L^2/T^3] that friction turns into heat in the step, >= 0 up to the tolerances:
 /// minus the sum over all contacts of force times velocity of slip, for the velocities with which
-/// the particles move.
+/// the particles move; 0 without friction.
 double heat_of_friction(const StepContacts& step, std::span<const double> velocities,
                         const ContactConditions& conditions);
 

@@ -30,8 +30,8 @@ struct StepContacts;
 /// Estimates of the errors of the forces of one step, each >= 0 [M L/T^2, M L^2/T^2]; both members
 /// are empty if there are no estimates.
 struct ForceErrors {
-  std::vector<double> of_fluid;  ///< of FluidSimulation::fluid_forces()
-  std::vector<double> of_links;  ///< of State::link_forces
+  std::vector<double> of_fluid;  ///< of FluidSimulation::fluid_forces(), as many numbers
+  std::vector<double> of_links;  ///< of State::link_forces, as many; empty without links
 };
 
 /// Rigid particles in a fluid. Each step asks the fluid solver for the velocities that the
@@ -66,23 +66,27 @@ struct ForceErrors {
 /// impulses of the first step: they would otherwise absorb them twice.
 class FluidSimulation {
  public:
-  /// `setting.fluid` must have a value. `state` is that of a restart file, or one of which only the
-  /// particles are set. Throws Error(kBadInput) if the fluid has inertia and a state after steps
-  /// has no flow, and the errors of FluidSolver::load_flow().
+  /// `setting.fluid` must have a value, and `solver` not be null; both are not checked. `state` is
+  /// that of a restart file, or one of which only the particles are set. Throws Error(kBadInput) if
+  /// the fluid has inertia and a state after steps has no flow, and the errors of
+  /// FluidSolver::load_flow().
   FluidSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
 
-  /// Computes one step of length Setting::time_step, or less if `end` [T] is nearer. In the first
-  /// step of a simulation and in the one that reaches `end` it estimates the errors of velocities
-  /// and forces, without inertia of the fluid. Throws the errors of FluidSolver, and
-  /// Error(kNotConverged) if an overlap of more than the mean radius is left, if links do not hold,
-  /// if an ellipse or plate touches where it must not, or if a particle moves too far for the
-  /// precision of a double. The state is then that before the step.
+  /// Computes one step of length Setting::time_step, or less if `end` [T] is nearer; none, and
+  /// returns a report without contacts, if the state has reached `end`. In the first step of a
+  /// simulation and in the one that reaches `end` it estimates the errors of velocities and forces,
+  /// without inertia of the fluid. Throws the errors of FluidSolver, also Error(kInterrupted) if a
+  /// stop is requested, and Error(kNotConverged) if an overlap of more than the mean radius is
+  /// left, if links are off by more than that or contradict each other, if an ellipse or plate
+  /// touches where it must not, or if a particle moves too far for the precision of a double. The
+  /// state is then that before the step. A smaller residual that is not allowed throws nothing:
+  /// StepReport::converged is then false.
   StepReport step(double end);
 
   /// Forces of the caller on the particles [M L/T^2], which the caller may change between steps, in
-  /// the order of Particles::velocities. Those of driven particles have no effect.
+  /// the order and number of Particles::velocities. Those of driven particles have no effect.
   std::span<double> added_forces() { return added_forces_for(state_.particles, setting_); }
-  /// The same for torques [M L^2/T^2]; empty if particles do not turn.
+  /// The same for torques, one for each particle [M L^2/T^2]; empty if particles do not turn.
   std::span<double> added_torques() { return added_torques_for(state_.particles, setting_); }
 
   const State& state() const { return state_; }  ///< after the last step
@@ -91,8 +95,8 @@ class FluidSimulation {
   State state_to_save();
   const Setting& setting() const { return setting_; }  ///< with the added forces and torques
 
-  /// The flow of the last step, around the places of the particles at its beginning. Throws the
-  /// errors of FluidSolver.
+  /// The flow of the last step, around the places of the particles at its beginning; there must
+  /// have been a step (not checked). Throws the errors of FluidSolver.
   FlowField flow() { return solver_->flow(); }
 
   /// The flow around the particles where they are now. It solves the problem of the next step,
@@ -103,7 +107,7 @@ class FluidSimulation {
   /// motion_components() numbers each; empty before the first step.
   const std::vector<double>& fluid_forces() const { return quantities_.fluid_forces; }
 
-  /// The contacts in which solids rebounded in the last step.
+  /// The contacts in which solids rebounded in the last step; empty without restitution.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
 
   /// The errors of the forces of the last step; empty if they were not estimated there.

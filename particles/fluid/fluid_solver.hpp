@@ -23,7 +23,7 @@
 namespace viscontact::particles {
 
 /// Number of components of the motion of a particle: 3 in the plane (velocity along x and y,
-/// angular velocity), 1 on the axis of a cylinder (velocity along z).
+/// angular velocity), 1 on the axis of a cylinder (velocity along z, `dimension` 1).
 constexpr std::size_t motion_components(int dimension) { return dimension == 1 ? 1 : 3; }
 
 /// The order of the components of velocities or forces of all particles in an array.
@@ -52,12 +52,14 @@ struct FlowStep {
 /// The particles at one time, as the fluid sees them.
 struct FluidParticles {
   const Particles* particles = nullptr;  ///< not null when place() is called
-  std::span<const double> angles;        ///< of each particle [rad]; empty on an axis
+  std::span<const double> angles;        ///< one for each particle [rad]; not used on an axis
   /// Motions [L/T, 1/T] of particles that are driven, whose motion is given and not changed by
-  /// forces, by the number of the particle; the others are free.
+  /// forces, by the number of the particle; on an axis only the first number is used. The others
+  /// are free.
   std::map<std::int32_t, std::array<double, 3>> driven;
-  /// Mass or moment of inertia over the time step of each component of each particle [M/T, M L^2/T]
-  /// in a fluid without inertia, added to the resistance; empty: the particles have no inertia.
+  /// Mass or moment of inertia over the time step of each component of each particle, >= 0 [M/T,
+  /// M L^2/T], in a fluid without inertia, added to the resistance; empty: the particles have no
+  /// inertia.
   std::span<const double> inertia;
   FlowStep flow_step{};  ///< in a fluid with inertia
 };
@@ -69,10 +71,11 @@ struct FlowQuantities {
   /// Dissipation over that of the fluid alone with the same walls [1]; 0 if the walls are at rest,
   /// or if the dissipation of the fluid alone is not known.
   double apparent_viscosity = 0;
-  /// Forces and torques of the fluid on all particles [M L/T^2, M L^2/T^2].
+  /// Forces and torques of the fluid on all particles [M L/T^2, M L^2/T^2], motion_components()
+  /// numbers each.
   std::vector<double> fluid_forces;
   // In a fluid with inertia:
-  double kinetic_energy = 0;  ///< of the fluid [M L^2/T^2]
+  double kinetic_energy = 0;  ///< of the fluid [M L^2/T^2], >= 0
   /// Largest way of the fluid in a step relative to the mesh, over the size of a triangle [1].
   double courant_number = 0;
   /// Flow [L^2/T] and mean pressure [M/(L T^2)] of each of Fluid::probes.
@@ -94,14 +97,17 @@ using viscontact::FlowField;
 /// A fluid with rigid particles. All arrays have motion_components() numbers for each particle:
 /// velocities in [L/T, 1/T], forces and torques in [M L/T^2, M L^2/T^2].
 ///
-/// Each function throws Error(kExternalProgram) with the last lines of the solver if the solver
-/// ends or answers with anything but numbers, and Error(kInterrupted) if a stop was requested.
+/// Each function that asks the solver throws Error(kExternalProgram) with the last lines of the
+/// solver if the solver ends, is late or answers with anything but finite numbers,
+/// Error(kInterrupted) if a stop was requested, and Error(kNotConverged) if an argument is not
+/// finite. That place() was called and that arrays have their sizes is not checked, but by asserts.
 class FluidSolver {
  public:
   virtual ~FluidSolver() = default;
 
   /// Takes new places of the particles. The matrix of the flow is made and factorised here, once a
-  /// step.
+  /// step. Also throws Error(kNotConverged) if no mesh fits, because a gap is too narrow or
+  /// particles overlap.
   virtual void place(const FluidParticles& bodies) = 0;
 
   /// The velocities of all particles under `forces` (forces and torques). With `driving`, walls and
@@ -110,11 +116,12 @@ class FluidSolver {
   virtual std::vector<double> velocities(std::span<const double> forces, bool driving) = 0;
 
   /// velocities(force, false) for a unit force or torque on each of the `components` components of
-  /// all particles in turn: a matrix with one row for each force [T/M, T/(M L), T/(M L^2)],
-  /// symmetric without inertia of the fluid.
+  /// all particles in turn: a matrix with one row of `components` numbers for each force, row after
+  /// row [T/M, T/(M L), T/(M L^2)], symmetric without inertia of the fluid. `components` is the
+  /// number of those of all particles (not checked).
   virtual std::vector<double> mobility(std::size_t components);
 
-  /// Quantities of the last velocities(forces, true).
+  /// Quantities of the last velocities(forces, true), which there must have been.
   virtual FlowQuantities quantities() = 0;
 
   /// Takes the particles of the last placement with another penalty (Fluid::penalty). Until the
@@ -131,15 +138,16 @@ class FluidSolver {
   /// both meshes.
   virtual FlowField flow() = 0;
 
-  // A fluid with inertia remembers flows. For other fluids these three functions do nothing.
+  // A fluid with inertia remembers flows. For other fluids these three functions must not be called
+  // (not checked); those of this class do nothing.
 
   /// Keeps the flow of the last velocities(forces, true), or a fluid at rest if `at_rest`, as that
   /// at the time of the placement, from which the next placement continues. `motions` are those of
   /// the particles, which Coupling::kSplitting may make different from the velocities in the flow.
   virtual void keep_flow(bool at_rest, std::span<const double> motions);
-  /// The flows that were kept and still matter, for load_flow(); empty without inertia.
+  /// The flows that were kept and still matter, for load_flow(), in a form of the solver's own.
   virtual std::string saved_flow();
-  /// Continues from the flows that saved_flow() of another object returned.
+  /// Continues from the flows that saved_flow() of another object for the same case returned.
   virtual void load_flow(const std::string& flow);
 
   /// Number of unknowns on the mesh of the last placement; 0 if the solver does not say.
@@ -165,7 +173,7 @@ inline void FluidSolver::load_flow(const std::string& /*flow*/) {}
 
 /// Starts a solver of the fluid in `domain` around particles with `radii` [L], > 0, and waits until
 /// it is ready. `dimension`: 2 for discs in the plane, 1 for spheres on the axis of a cylinder.
-/// freefem_flow::start_fluid_solver is such a function.
+/// freefem_flow::start_fluid_solver is such a function, and says which errors it throws.
 using StartFluidSolver = std::function<std::unique_ptr<FluidSolver>(
     const Fluid& fluid, const Domain& domain, std::span<const double> radii, int dimension,
     const StopToken& stop)>;

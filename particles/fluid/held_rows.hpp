@@ -1,9 +1,10 @@
 // The conditions that rigid bodies and links (hinges, arms and springs) put on the velocities of
 // particles in a fluid, and how bodies move, docs/physics.md (6.7). Each condition is a row of
 // held_solver.hpp. A unit is a rigid body, or a particle without a body. Velocities of all
-// particles have motion_components() numbers each [L/T, 1/T]; forces of rows are in [M L/T^2,
-// M L^2/T^2]. fluid_simulation.cpp, fluid_links.cpp and fluid_acceptance.cpp use it; nothing is
-// checked or thrown. A change must keep the order of the rows, bodies first, and bodies rigid.
+// particles have motion_components() numbers each [L/T, 1/T]; forces of rows are one for each of
+// rows() [M L/T^2, M L^2/T^2]. fluid_simulation.cpp, fluid_links.cpp and fluid_acceptance.cpp use
+// it; nothing is checked or thrown. A change must keep the order of the rows, bodies first, and
+// bodies rigid.
 #pragma once
 
 #include <cstddef>
@@ -27,19 +28,22 @@ namespace viscontact::particles {
 /// without mass, because FluidSimulation extrapolates the change of velocities by their turning.
 class HeldMotion {
  public:
-  /// `links` and `particles` must outlive this object. `times.kick` is not used. `link_times` is
-  /// StepEquation::link_times(); empty: no particle accelerates.
+  /// `links` and `particles` must outlive this object. `times.kick` is not used; `times.h` > 0 is
+  /// the length of the step [T]. `link_times` is StepEquation::link_times(), one time [T] for each
+  /// particle, < 0 if it does not accelerate; empty: no particle accelerates.
   HeldMotion(const Links& links, const Particles& particles, const LinkTimes& times,
              std::span<const double> link_times = {});
 
-  /// First the rows that make bodies rigid, then those of the links.
+  /// First the rows that make bodies rigid, motion_components() for each member but the first, then
+  /// those of the links; empty without both.
   std::vector<HeldRow> rows() const;
 
   /// By how much the sums of the rows must change, so that hinges and arms hold after a step with
-  /// these velocities, in which bodies turn by finite angles [L/T, 1/T]; 0 for the other rows. For
-  /// a spring of which an end accelerates it is minus the error of the equation at
-  /// HeldRow::stiffness over theta h stiffness, with the force among `row_forces`, the finite
-  /// change of the extension, and the theta among `thetas` (HeldSolver::thetas()).
+  /// these velocities, in which bodies turn by finite angles, one number for each row [L/T, 1/T]; 0
+  /// for rows of bodies and of other links. For a spring of which an end accelerates it is minus
+  /// the error of the equation at HeldRow::stiffness over theta h stiffness, with the force among
+  /// `row_forces`, the finite change of the extension, and the theta among `thetas`
+  /// (HeldSolver::thetas()).
   std::vector<double> missing(std::span<const double> velocities,
                               std::span<const double> row_forces,
                               std::span<const double> thetas) const;
@@ -47,41 +51,44 @@ class HeldMotion {
   /// Changes the velocities `at_end` at the end of the step, in which particles moved with
   /// `velocities`, until bodies are rigid and hinges and arms hold for them. The extension of a
   /// spring grows with its mean rate in the step if its row has a number other than 0 in
-  /// `is_stiff`. The change is that by forces along the rows at the end of the step, with the
-  /// mobility `mobility` of each component [T/M, T/(M L^2)]. Returns these forces; they are 0 in
-  /// rows of which no unit accelerates.
+  /// `is_stiff`, which has one for each row. The change is that by forces along the rows at the end
+  /// of the step, with the mobility `mobility` >= 0 of each component of each particle [T/M,
+  /// T/(M L^2)]. Returns these forces; they are 0 in rows of which no unit accelerates. If rows
+  /// contradict each other, they hold as nearly as possible (least squares).
   std::vector<double> hold_at_end(std::span<const double> velocities,
                                   std::span<const double> mobility,
                                   const std::vector<char>& is_stiff,
                                   std::span<double> at_end) const;
 
   /// Replaces the velocities of members of bodies by their displacements in the step, divided by
-  /// its length.
+  /// its length [L/T, 1/T].
   std::vector<double> with_finite_turns(std::span<const double> velocities) const;
 
   /// Replaces the velocities of the members of each body by those of one rigid motion, the mean of
   /// their `velocities`, at their present places.
   void make_rigid(std::span<double> velocities) const;
 
-  /// `of_fluid` are forces of the particles on the fluid. If a body turns in the step with
-  /// `velocities`, their torque about its centre changes. For bodies that accelerate, minus this
-  /// change is added to the torque in `forces` on the first member.
+  /// `of_fluid` are forces of the particles on the fluid, which have the shape of velocities, as
+  /// `forces` [M L/T^2, M L^2/T^2]. If a body turns in the step with `velocities`, their torque
+  /// about its centre changes. For bodies that accelerate, minus this change is added to the torque
+  /// in `forces` on the first member.
   void keep_torques(std::span<const double> velocities, std::span<const double> of_fluid,
                     std::span<double> forces) const;
 
-  /// Velocity [L/T] of the centre of a body and its angular velocity [1/T]: means over its members
-  /// by mass, or equal ones without mass. In a sheared periodic cell the velocities are those of
-  /// the images of the members that are at their places in the body.
+  /// Velocity [L/T] of the centre of a body, given by its number, and its angular velocity [1/T]:
+  /// means over its members by mass, or equal ones without mass. In a sheared periodic cell the
+  /// velocities are those of the images of the members that are at their places in the body.
   UnitMotion motion_of_body(std::size_t body, std::span<const double> velocities) const;
 
-  /// Rate [L/T] at which the length of arm `k` grows with these velocities, in the direction that
-  /// the arm has in its row.
+  /// Rate [L/T] at which the length of arm `k` (from 0, must exist) grows with these velocities, in
+  /// the direction that the arm has in its row.
   double rate_of_arm(std::size_t k, std::span<const double> velocities) const;
   /// The same in the direction that the arm has after the step with the velocities `moved`.
   double rate_of_arm_at_end(std::size_t k, std::span<const double> moved,
                             std::span<const double> velocities) const;
 
-  /// The forces of the links in the order of State::link_forces, from those of the rows.
+  /// The forces of the links in the order of State::link_forces, Links::force_count() numbers, from
+  /// those of the rows; empty without links.
   std::vector<double> link_forces(std::span<const double> row_forces) const;
 
  private:

@@ -1,7 +1,9 @@
 // A fluid whose particles are held by rigid bodies, hinges, springs and arms, docs/physics.md
-// (6.7). Lengths, masses and times are in any consistent units: velocities in [L/T, 1/T], forces
-// in [M L/T^2, M L^2/T^2]. fluid_simulation.cpp, fluid_links.cpp and held_rows.hpp use it. A change
-// must keep that redundant rows are no error, but rows that contradict each other are.
+// (6.7). Lengths, masses and times are in any consistent units. Velocities [L/T, 1/T] and forces
+// [M L/T^2, M L^2/T^2] of particles have motion_components() numbers each; numbers of rows are one
+// for each row of hold(), empty without rows. Sizes are not checked. fluid_simulation.cpp,
+// fluid_links.cpp and held_rows.hpp use it. A change must keep that redundant rows are no error,
+// but rows that contradict each other are.
 #pragma once
 
 #include <Eigen/QR>
@@ -28,7 +30,7 @@ struct HeldRow {
   /// [L/T].
   double image_rate = 0;
   double stiffness = 0;  ///< of a spring [M/T^2, M L^2/T^2], > 0; 0: the row is no spring
-  double extension = 0;  ///< of a spring at the beginning of the step [L, rad]
+  double extension = 0;  ///< of a spring at the beginning of the step [L, rad]; else not used
   /// Whether a particle of the row accelerates: it has a mass and no given motion.
   bool accelerates = false;
   std::string name{};  ///< in messages
@@ -60,11 +62,12 @@ struct HeldRow {
 /// which leaves a mobility for the springs.
 class HeldSolver : public FluidSolver {
  public:
-  /// `relative_error` > 0 is that of the velocities of `solver`; `has_inertia` says whether its
-  /// fluid has inertia.
+  /// `relative_error` > 0 [1] is that of the velocities of `solver`, which must not be null;
+  /// `has_inertia` says whether its fluid has inertia.
   HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error, bool has_inertia);
 
-  /// Sets the rows that hold from the next placement on, in steps of length h > 0 [T].
+  /// Sets the rows that hold from the next placement on, in steps of length h > 0 [T]; without rows
+  /// the particles are not held. place() must follow before any other function.
   void hold(std::vector<HeldRow> rows, double h);
 
   void place(const FluidParticles& bodies) override;
@@ -84,7 +87,7 @@ class HeldSolver : public FluidSolver {
   double peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }
 
   /// velocities(forces, false), but with the force 0 of all springs. The rows without stiffness
-  /// have the sum 0.
+  /// have the sum 0. Throws the errors of the fluid solver.
   std::vector<double> velocities_without_springs(std::span<const double> forces);
 
   /// Changes `velocities` by forces along the rows that change the sum of each row without
@@ -106,11 +109,12 @@ class HeldSolver : public FluidSolver {
   /// accelerates or the fluid has inertia, z^2 > 1: the step does not resolve its motion.
   bool is_stiff(std::size_t r) const { return theta(static_cast<Eigen::Index>(r)) > 2.0 / 3; }
 
-  /// The forces of the rows in the last velocities(forces, true).
+  /// The forces of the rows in the last velocities(forces, true) [M L/T^2, M L^2/T^2]; empty
+  /// before.
   const std::vector<double>& row_forces() const { return row_forces_; }
 
   /// The forces and torques on all particles by the springs and by the rows with a particle that
-  /// accelerates, in the last velocities(forces, true).
+  /// accelerates, in the last velocities(forces, true) [M L/T^2, M L^2/T^2]; empty without rows.
   std::vector<double> forces_of_step() const;
 
   /// Changes `velocities` by forces along the rows until the rows without stiffness hold. The fluid

@@ -1,8 +1,8 @@
 // Computes the terms of the equation of motion of a step in a fluid (step_equation.hpp): forces,
 // inertia, given motions and theta, with which the velocities in the step are theta times those at
 // its end plus 1 - theta times those at its beginning. A component is a direction or the rotation
-// of a particle. Units are those of the arguments; nothing is checked or thrown. A change must keep
-// the second order in time away from contact.
+// of a particle. Units are those of the arguments; nothing is checked. A change must keep the
+// second order in time away from contact.
 #include "viscontact/particles/fluid/step_equation.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // The equation of motion of a step in a fluid: forces, inertia and given motions, docs/physics.md
 // (6.1) and (6.5). Lengths, masses and times are in any consistent units; in the plane masses and
-// forces are per unit length. fluid_simulation.cpp and fluid_links.cpp use it; nothing is checked
-// or thrown. A change must keep the second order in time away from contact.
+// forces are per unit length. fluid_simulation.cpp and fluid_links.cpp use it; nothing is checked,
+// and only given_in_step() throws. A change must keep the second order in time away from contact.
 #pragma once
 
 #include <array>
@@ -41,14 +41,15 @@ inline constexpr double kLargestRatioOfSteps = 2;
 /// together then have the whole impulse, wherever a force jumps.
 class StepEquation {
  public:
-  /// The step of length h > 0 [T] ends at the time `next`; `state` is that before the step. Both
-  /// references must outlive the object. Particles that had a contact in the step before are in
-  /// contact.
+  /// The step of length h > 0 [T] ends at the time `next` [T]; `setting` has a fluid, and `state`
+  /// is that before the step. Both references must outlive the object. Particles that had a contact
+  /// in the step before are in contact.
   StepEquation(const Setting& setting, const State& state, double h, double next);
 
-  // Arrays have motion_components() numbers for each particle.
+  // Arrays have motion_components() numbers for each particle, if nothing else is said.
 
-  /// The particles for FluidSolver::place(), with M/(theta h).
+  /// The particles for FluidSolver::place(), with M/(theta h); its spans refer to this object and
+  /// to the state.
   FluidParticles bodies() const;
 
   /// f + M/(theta h) u^n [M L/T^2, M L^2/T^2]. If a rigid body accelerates and its velocity does
@@ -57,7 +58,7 @@ class StepEquation {
 
   /// f [M L/T^2, M L^2/T^2].
   const std::vector<double>& forces() const { return forces_; }
-  /// M/(theta h) [M/T, M L^2/T]; 0 without inertia.
+  /// M/(theta h) >= 0 [M/T, M L^2/T]; 0 without inertia, and in a fluid with inertia.
   const std::vector<double>& inertia() const { return inertia_; }
 
   /// u^{n+1} [L/T, 1/T] of particles that move with `motions` in the step. For components without
@@ -77,7 +78,8 @@ class StepEquation {
   /// For each particle the time [T] from the beginning of the step at which its links act, if it
   /// accelerates, that is if it has a mass, its own or a share of that of its body, and no given
   /// motion; else -1. The time is h/2 - (2 theta - 1) (1 - theta) h, but 0 in the first step and if
-  /// the velocity of the particle may jump. Empty if no particle accelerates.
+  /// the velocity of the particle may jump. Empty if no particle accelerates, and in a fluid with
+  /// inertia.
   const std::vector<double>& link_times() const { return link_times_; }
 
   /// In a fluid with inertia: the differences by which the fluid solver approximates rates, with
@@ -85,7 +87,7 @@ class StepEquation {
   /// may jump. Zeros without inertia.
   FlowStep flow_step() const;
 
-  /// The mass or moment of inertia over the length of the step [M/T, M L^2/T], with which
+  /// The mass or moment of inertia over the length of the step, >= 0 [M/T, M L^2/T], with which
   /// Coupling::kSplitting projects velocities; in a fluid without inertia inertia().
   std::vector<double> inertia_of_projection() const;
 
@@ -98,7 +100,9 @@ class StepEquation {
   /// shorter than half of this one, because its change says little.
   double share_of_change() const;
 
-  /// The mean [L/T, 1/T] over the step of the given motion of a driven particle.
+  /// The mean over the step of the given motion of a driven particle: x, y [L/T] and angular
+  /// velocity [1/T]; on an axis only the first number, along z. Throws std::out_of_range for
+  /// another particle.
   std::array<double, 3> given_in_step(std::int32_t driven) const;
 
   /// u^n of all components [L/T, 1/T]; of driven particles their given motions.
@@ -112,8 +116,9 @@ class StepEquation {
   /// link to a particle whose given velocity jumps.
   bool is_in_contact(std::int32_t k) const { return in_contact_[index_of(k)] != 0; }
 
-  /// Puts the particles of contacts with an impulse in contact. Returns true if this changed an
-  /// inertia, or the order of the step of a fluid with inertia: the step must be solved again.
+  /// Puts the particles of contacts with an impulse in contact, but driven ones. Returns true if
+  /// this changed an inertia, or the order of the step of a fluid with inertia: the step must be
+  /// solved again.
   bool put_in_contact(std::span<const Contact<2>> contacts);
 
   /// True if a particle is in contact.

@@ -3,9 +3,10 @@
 // can bend, but the length of each of its parts and (by default) the area inside are kept. In a
 // fluid the line is a smooth curve through the centres of the beads, without a fluid a polygon
 // (docs/physics.md, section 8). Lengths, masses and times are in the units of the case file; in a
-// fluid masses and forces are per length of the third dimension. Only check_shapes() throws. case/,
-// io/, links/, run/, fluid.hpp and freefem_flow/ use this file. A change must keep the columns of
-// membranes.csv, and the places where beads begin, because the results of cases depend on them.
+// fluid masses and forces are per length of the third dimension. Only check_shapes() throws, and
+// numbers of particles and sizes of arrays are not checked. case/, io/, links/, run/, fluid.hpp and
+// freefem_flow/ use this file. A change must keep the columns of membranes.csv, and the places
+// where beads begin, because the results of cases depend on them.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +29,8 @@ struct State;
 /// A membrane of a case. In a fluid its curve is the trigonometric interpolation of the centres of
 /// the beads over their place in `beads`.
 struct Membrane {
-  /// Numbers of the particles that are its beads, counter-clockwise around the area inside.
+  /// Numbers of the particles that are its beads, counter-clockwise around the area inside; at
+  /// least kLeastBeads in a fluid, 4 without one (the reader of a case checks it).
   std::vector<std::int32_t> beads;
   /// kappa of the bending energy (kappa/2) integral of curvature^2 ds [M L^3/T^2], in a fluid per
   /// length [M L^2/T^2]; > 0 in a fluid, >= 0 without one.
@@ -48,14 +50,14 @@ struct Membrane {
 
   /// True if the membrane resists bending.
   bool resists_bending() const { return bending_rigidity > 0 || bending_viscosity > 0; }
-  /// Takes the particles `first` to `first` + `count` - 1 as its beads.
+  /// Takes the particles `first` >= 0 to `first` + `count` - 1 as its beads; `count` >= 0.
   void set_beads(std::int32_t first, std::int32_t count) {
     beads.resize(static_cast<std::size_t>(count));
     std::iota(beads.begin(), beads.end(), first);
   }
   /// Number of its beads.
   std::int32_t count() const { return static_cast<std::int32_t>(beads.size()); }
-  /// Number of the particle that is bead k, where k is any whole number, taken modulo count().
+  /// Number of the particle that is bead k, where k is any whole number, taken modulo count() > 0.
   std::int32_t bead(std::int32_t k) const {
     return beads[static_cast<std::size_t>(((k % count()) + count()) % count())];
   }
@@ -69,7 +71,8 @@ struct Membrane {
 /// of the reduced area 4 pi area/perimeter^2 = 0.9.
 inline constexpr std::int32_t kLeastBeads = 12;
 
-/// The membranes of a case, in a fluid or without one.
+/// The membranes of a case, in a fluid or without one; empty if it has none. It refers to
+/// `setting`.
 const std::vector<Membrane>& membranes_of(const Setting& setting);
 
 /// What membranes.csv says of a membrane at one time.
@@ -77,11 +80,11 @@ struct MembraneMeasures {
   double x = 0,               ///< x of the centre of the area inside [L]
       y = 0;                  ///< y of this centre [L]
   double inclination = 0;     ///< angle of the long axis of the area to x, in (-pi/2, pi/2] [rad]
-  double area = 0;            ///< area inside [L^2]
-  double perimeter = 0;       ///< length of the closed line [L]
-  double membrane_speed = 0;  ///< mean speed of the beads relative to their mean velocity [L/T]
+  double area = 0;            ///< area inside [L^2], > 0 if beads go around counter-clockwise
+  double perimeter = 0;       ///< length of the closed line [L], > 0
+  double membrane_speed = 0;  ///< mean speed of beads relative to their mean velocity [L/T], >= 0
   /// How often per time the membrane runs around the area inside, relative to the long axis of this
-  /// area [1/T]; > 0 if counter-clockwise.
+  /// area [1/T]; > 0 if counter-clockwise; 0 if membrane_speed is 0.
   double tank_treading_frequency = 0;
 };
 
@@ -90,15 +93,17 @@ struct MembraneMeasures {
 MembraneMeasures measure(const Membrane& membrane, const Particles& particles);
 
 /// Throws Error(kBadInput) if membranes of a state from a restart file have other perimeters, kept
-/// areas or distances than those of the case, by more than 1e-6 of them.
+/// areas or distances than those of the case, by more than 1e-6 of perimeter and area or of the
+/// mean distance.
 void check_shapes(std::span<const Membrane> membranes, const Particles& particles);
 
-/// Sets Particles::neighbours, the two beads next to each bead, for membranes without a fluid.
+/// Sets Particles::neighbours, the two beads next to each bead, for membranes without a fluid: a
+/// pair for each particle, {-1, -1} for one that is no bead; without membranes it becomes empty.
 void join_neighbours(std::span<const Membrane> membranes, Particles& particles);
 
 /// The rows of membranes.csv of all membranes of a state, one line each: time, number of the
-/// membrane from 0, and the MembraneMeasures. `force_errors` is not used; other tables of links,
-/// which are written by functions of the same type, need it.
+/// membrane from 0, and the MembraneMeasures; empty without membranes. `force_errors` is not used;
+/// other tables of links, which are written by functions of the same type, need it.
 std::string membrane_rows(const Setting& setting, const State& state,
                           std::span<const double> force_errors);
 /// The names of the columns of membranes.csv after time and id.
@@ -120,20 +125,23 @@ void shape_polygon(Membrane& membrane, const Particles& particles);
 
 /// Sets perimeter and area of a membrane in a fluid to those of the curve through its particles,
 /// reverses the order of its beads if it is clockwise, and moves them to equal distances along the
-/// curve. Returns the largest component of a displacement [L]; infinity if no such places exist.
+/// curve. Returns the largest component of a displacement [L], >= 0; infinity if no such places are
+/// found, and then no bead is moved.
 double shape_curve(Membrane& membrane, Particles& particles);
 
 /// The largest area of a polygon whose sides have these lengths [L^2]: that of the polygon whose
-/// corners are on a circle. Each length [L] must be > 0 and less than the sum of the others.
+/// corners are on a circle. There are at least 3 lengths, and each length [L] must be > 0 and less
+/// than the sum of the others (not checked).
 double largest_area(std::span<const double> lengths);
 
 /// The corners of the polygon through the beads, two numbers for each [L]. In a periodic domain
 /// each bead is taken at its image that is nearest to the corner before it.
 std::vector<double> corners_of(const Membrane& membrane, const Particles& particles);
 
-// In the following, a closed polygon is given by two numbers for each corner [L].
+// In the following, a closed polygon is given by two numbers for each corner [L]; there are at
+// least three corners (not checked).
 
-/// True if a point is inside a polygon.
+/// True if a point [L] is inside a polygon. Points on its sides may count as either.
 bool is_inside(const std::array<double, 2>& x, std::span<const double> polygon);
 /// True if a side of one polygon crosses a side of the other.
 bool do_cross(std::span<const double> first, std::span<const double> second);

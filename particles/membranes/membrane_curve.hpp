@@ -1,9 +1,10 @@
 // The closed curve through the particles (beads) of a membrane in a fluid, docs/physics.md (8.2)
 // and (8.3): its lengths, its area, and its bending energy with the first and second derivatives;
-// and the measures of a closed line. Lengths are in any unit. Nothing is checked or thrown. The
-// sources of this folder and freefem_flow/membranes/ use it. No header that users of the library
-// include may include it, because they need no Eigen. A change must keep that derivatives are
-// exact, because Newton's method in membrane_motion.cpp uses them.
+// and the measures of a closed line. Lengths are in any unit. Nothing is checked or thrown;
+// derivatives of a curve with a speed of 0 are NaN or infinite. The sources of this folder and
+// freefem_flow/membranes/ use it. No header that users of the library include may include it,
+// because they need no Eigen. A change must keep that derivatives are exact, because Newton's
+// method in membrane_motion.cpp uses them.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,9 +18,9 @@ namespace viscontact::particles {
 inline constexpr double kTwoPi = 2 * std::numbers::pi;  ///< range of the parameter of a curve
 
 /// The trigonometric polynomial of least degree that is 1 at the angle 0 and 0 at the other angles
-/// 2 pi k/beads, or its derivative of order `derivative` (0 to 2), at the angle `theta` [rad]. The
-/// interpolation of the values f_k at the angles 2 pi k/beads is the sum of f_k cardinal(beads,
-/// theta - 2 pi k/beads, 0).
+/// 2 pi k/beads, or its derivative of order `derivative` (0 to 2; others give 0), at the angle
+/// `theta` [rad], without dimension; `beads` > 0. The interpolation of the values f_k at the angles
+/// 2 pi k/beads is the sum of f_k cardinal(beads, theta - 2 pi k/beads, 0).
 double cardinal(int beads, double theta, int derivative);
 
 /// Curves through N beads. The parameter of a curve is s in [0, 2 pi), and bead k is at s = 2 pi
@@ -31,9 +32,10 @@ class MembraneCurve {
 
   int beads() const { return n_; }  ///< N
 
-  /// The speeds |dx/ds| at the parameters halfway between beads, N numbers [L]. A curve of the
-  /// perimeter P that keeps them at P/(2 pi) does not stretch. They are not taken at the beads,
-  /// because a displacement that changes its sign from bead to bead has the derivative 0 there.
+  /// The speeds |dx/ds| >= 0 at the parameters halfway between beads, N numbers [L]; number k is
+  /// that after bead k. A curve of the perimeter P that keeps them at P/(2 pi) does not stretch.
+  /// They are not taken at the beads, because a displacement that changes its sign from bead to
+  /// bead has the derivative 0 there.
   Eigen::VectorXd speeds(const Eigen::VectorXd& positions) const;
   /// Derivatives of the speeds with respect to the positions [1]: N rows, 2 N columns.
   Eigen::MatrixXd speed_rows(const Eigen::VectorXd& positions) const;
@@ -41,7 +43,7 @@ class MembraneCurve {
   /// with 2 N rows [1/L, times the unit of `factors`].
   Eigen::MatrixXd speeds_hessian(const Eigen::VectorXd& positions,
                                  const Eigen::VectorXd& factors) const;
-  /// Perimeter [L], the mean of the speeds times 2 pi.
+  /// Perimeter [L], >= 0: the mean of the speeds times 2 pi.
   double perimeter(const Eigen::VectorXd& positions) const;
 
   /// Area inside [L^2], > 0 if the beads go around counter-clockwise.
@@ -49,14 +51,15 @@ class MembraneCurve {
   /// Derivatives of the area with respect to the positions, 2 N numbers [L].
   Eigen::VectorXd area_row(const Eigen::VectorXd& positions) const;
 
-  /// Second derivatives of the area [1], a symmetric matrix that does not depend on the positions.
+  /// Second derivatives of the area [1], a symmetric matrix with 2 N rows that does not depend on
+  /// the positions.
   Eigen::MatrixXd area_hessian() const;
 
-  /// Integral of curvature^2/2 along the curve [1/L], computed from the values at the beads.
+  /// Integral of curvature^2/2 along the curve [1/L], >= 0, computed from the values at the beads.
   double bending_energy(const Eigen::VectorXd& positions) const;
   /// Derivatives of bending_energy(), 2 N numbers [1/L^2].
   Eigen::VectorXd bending_gradient(const Eigen::VectorXd& positions) const;
-  /// Second derivatives of bending_energy(), a symmetric matrix [1/L^3].
+  /// Second derivatives of bending_energy(), a symmetric matrix with 2 N rows [1/L^3].
   Eigen::MatrixXd bending_hessian(const Eigen::VectorXd& positions) const;
 
   /// First derivatives of x and y with respect to s at the beads [L]: N rows, 2 columns.
@@ -71,7 +74,7 @@ class MembraneCurve {
 
 /// Moves the positions as little as possible until all speeds are `perimeter`/(2 pi) [L] and the
 /// area is `area` [L^2], to rounding errors. Returns false if Newton's method finds no such
-/// positions; `positions` are then undefined.
+/// positions in 50 rounds; `positions`, 2 N numbers, are then undefined.
 bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, double area,
                               Eigen::VectorXd& positions);
 
@@ -85,7 +88,7 @@ struct AreaMoments {
   /// The direction of the long axis, in (-pi/2, pi/2] [rad].
   double inclination() const;
   /// Changes moments about another point (x, y) to those about the centre. `area` [L^2] is the area
-  /// inside; mx and my are its first moments about the point [L^3].
+  /// inside, which must not be 0; mx and my are its first moments about the point [L^3].
   void move_to_centre(double area, double mx, double my);
 };
 
@@ -100,7 +103,8 @@ struct MeasuredLine {
 };
 
 /// Measures a membrane by its line. `positions` [L] and `velocities` [L/T] of the beads have 2 N
-/// numbers; if `velocities` is empty, the speed and the frequency are 0.
+/// numbers, x of all beads and then y; if `velocities` is empty or uniform, the speed and the
+/// frequency are 0.
 MembraneMeasures measure(const MeasuredLine& line, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities);
 /// The same for the curve of a membrane in a fluid.

@@ -1,11 +1,12 @@
 // The motion of membranes in a Stokes flow, docs/physics.md (8.4) to (8.6). A membrane is a closed
 // curve through particles, its beads. The fluid is represented by the velocities of the beads as a
 // linear function of the forces on them (FluidAnswer). Lengths, masses and times are in any
-// consistent units; M stands for a mass per length of the third dimension. An array of all beads
-// has x of the beads of the first membrane, of the second one and so on, and then all y in the same
-// order: 2 beads() numbers. membrane_simulation.cpp and membrane.cpp use it. Only sources of this
-// folder and tests may include this header, because users of the library need no Eigen. A change
-// must keep lengths and areas exact after each step.
+// consistent units; M stands for a mass per length of the third dimension. Only step() throws;
+// sizes and numbers of membranes are not checked. An array of all beads has x of the beads of the
+// first membrane, of the second one and so on, and then all y in the same order: 2 beads() numbers.
+// membrane_simulation.cpp and membrane.cpp use it. Only sources of this folder and tests may
+// include this header, because users of the library need no Eigen. A change must keep lengths and
+// areas exact after each step.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,8 +21,8 @@ namespace viscontact::particles {
 
 /// How the fluid moves the beads at given places: with the velocities `flow` + `mobility` * forces.
 struct FluidAnswer {
-  Eigen::VectorXd flow;      ///< velocities without forces on the beads [L/T]
-  Eigen::MatrixXd mobility;  ///< velocities per force [T/M], symmetric
+  Eigen::VectorXd flow;      ///< velocities without forces on the beads, 2 beads() [L/T]
+  Eigen::MatrixXd mobility;  ///< velocities per force [T/M], symmetric, 2 beads() rows
 };
 
 /// The forces of the membranes on the fluid at the beads, and the velocities of the beads. The
@@ -36,7 +37,8 @@ struct MembraneMotion {
   Eigen::VectorXd flow_forces;  ///< `forces` minus those of the pressure, 2 beads() [M L/T^2]
 };
 
-/// How the result of step() changes under small loads: 2 beads() rows, a column for each load.
+/// How the result of step() changes under small loads: 2 beads() rows, a column for each column of
+/// `moves` (Membranes::response).
 struct LoadResponse {
   Eigen::MatrixXd positions;  ///< changes of the positions z [L]
   Eigen::MatrixXd forces;     ///< changes of P f, without the loads themselves [M L/T^2]
@@ -45,7 +47,7 @@ struct LoadResponse {
 /// All membranes of a case in a fluid.
 class Membranes {
  public:
-  /// The membranes must outlive this object.
+  /// The membranes, those of a fluid, must outlive this object.
   explicit Membranes(std::span<const Membrane> membranes);
 
   Eigen::Index beads() const { return first_.back(); }  ///< number of beads of all membranes
@@ -56,13 +58,14 @@ class Membranes {
   Eigen::VectorXd places(std::span<const double> positions, const PeriodicCell& cell,
                          const Eigen::VectorXd* near = nullptr) const;
 
-  /// An array of all beads from the first two of the `components` numbers of each particle.
+  /// An array of all beads from the first two of the `components` >= 2 numbers of each particle.
   Eigen::VectorXd from_particles(std::span<const double> numbers, std::size_t components) const;
-  /// The inverse of from_particles(): writes the array `all` into `numbers`.
+  /// The inverse of from_particles(): writes the array `all` into `numbers`, whose size it does not
+  /// change.
   void to_particles(const Eigen::VectorXd& all, std::size_t components,
                     std::vector<double>& numbers) const;
 
-  /// The numbers of membrane `m` in an array of all beads: x of its beads and then y.
+  /// The numbers of membrane `m`, from 0, in an array of all beads: x of its beads and then y.
   Eigen::VectorXd of(std::size_t m, const Eigen::VectorXd& all) const;
   /// The inverse of of(): writes the numbers of membrane `m` into the array `all`.
   void put(std::size_t m, const Eigen::VectorXd& own, Eigen::VectorXd& all) const;
@@ -84,14 +87,16 @@ class Membranes {
   /// inner product of a and P f is 0 for each membrane. At the end z is changed by the smallest
   /// displacements with which lengths and areas are exact. `from` [L] and `time` > 0 [T] belong to
   /// the time scheme of the caller, `loads` are further forces on the beads [M L/T^2], and
-  /// `positions` is a first guess of z, and z afterwards [L]. Throws Error(kNotConverged) if
-  /// Newton's method fails.
+  /// `positions` is a first guess of z, and z afterwards [L]; all have 2 beads() numbers. Throws
+  /// Error(kNotConverged) if Newton's method fails, also with 12 halvings of the step, or if no
+  /// places near z have exact lengths and areas; `positions` are then undefined.
   MembraneMotion step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                       const Eigen::VectorXd& loads, Eigen::VectorXd& positions) const;
 
-  /// The linear response of step() to small loads. `moves` [L] has a column for each load with the
-  /// displacements that the load alone would cause; the response also contains the bending forces
-  /// and tensions that oppose them. `motion` is what step() returned with these `positions`.
+  /// The linear response of step(), whose arguments are the same, to small loads. `moves` [L] has a
+  /// column for each load with the displacements that the load alone would cause; the response also
+  /// contains the bending forces and tensions that oppose them. `motion` is what step() returned
+  /// with these `positions`.
   LoadResponse response(double time, const FluidAnswer& answer, const MembraneMotion& motion,
                         const Eigen::VectorXd& positions, const Eigen::MatrixXd& moves) const;
 

@@ -29,31 +29,36 @@ namespace viscontact::particles {
 /// other particles in a fluid do; the forces of the contacts are added to P f.
 class MembraneSimulation {
  public:
-  /// `setting.fluid` has membranes. The particles of `state` that are no beads are discs without
-  /// mass, with forces or a given motion. `state` is what read_restart returned, or a state of
-  /// which only the particles are set. For the latter the fluid solver computes the velocities at
-  /// the start, and its errors are thrown. Throws Error(kBadInput) if membranes of a restart file
-  /// have another shape than those of the case (check_shapes()).
+  /// `setting.fluid` has membranes, and `solver` is not null (not checked). The particles of
+  /// `state` that are no beads are discs without mass, with forces or a given motion. `state` is
+  /// what read_restart returned, or a state of which only the particles are set. For the latter the
+  /// fluid solver computes the velocities at the start, and its errors are thrown. Throws
+  /// Error(kBadInput) if membranes of a restart file have another shape than those of the case
+  /// (check_shapes()).
   MembraneSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
   ~MembraneSimulation();
 
   /// Computes one step of the length Setting::time_step, which ends at `end` [T] if that is earlier
-  /// (StepGrid::next). Throws Error(kNotConverged) if membranes or contacts do not converge, and
-  /// the errors of FluidSolver. The state is then that before the step.
+  /// (StepGrid::next). Does nothing if the state has reached `end`. Throws Error(kNotConverged) if
+  /// the membranes' equations are not solved or a contact leaves an overlap of more than the mean
+  /// radius (a smaller residual only makes StepReport::converged false), and the errors of
+  /// FluidSolver, also Error(kInterrupted) if a stop is requested. The state is then that before
+  /// the step.
   StepReport step(double end);
 
   const State& state() const;  ///< after the last step
 
   /// The flow with the membranes and discs at their places before the last step; there must have
-  /// been a step. Throws the errors of FluidSolver.
+  /// been a step (asserted). Throws the errors of FluidSolver.
   FlowField flow();
   /// The flow with the membranes and discs at their present places. Throws as flow() does.
   FlowField flow_at_present();
 
-  /// Forces of the fluid on all particles in the last step: x, y [M L/T^2], torque [M L^2/T^2].
+  /// Forces of the fluid on all particles in the last step, for each one x, y [M L/T^2] and torque
+  /// [M L^2/T^2]; before the first step those at the start.
   std::vector<double> fluid_forces() const;
 
-  std::size_t unknowns() const;  ///< number of unknowns on the last mesh
+  std::size_t unknowns() const;  ///< number of unknowns on the last mesh; 0: not known
   /// The largest resident memory of the solver so far [MiB].
   double solver_peak_memory_mebibytes() const;
 
