@@ -30,7 +30,8 @@ enum class CaseKind {
   kSwimmer     ///< has the section [swimmer]; read_swimmer_case()
 };
 
-/// The kind of a case. Throws Error(kBadInput) if the file cannot be read or is not valid TOML.
+/// The kind of a case by its sections, in the order kParticles, kSwimmer, kRolling; kSphere if it
+/// has none of these. Throws Error(kBadInput) if the file cannot be read or is not valid TOML.
 CaseKind kind_of_case(const std::filesystem::path& path);
 
 /// How the drag is fitted, or what replaces tabulation and fit.
@@ -51,14 +52,15 @@ struct PublishedGap {
 
 /// What a case file says, checked.
 struct Case {
-  std::string title;                ///< for the report; may be empty
-  Units units{};                    ///< words for pages and axes; may be empty
-  double viscosity = 0;             ///< mu [M/(L T)], > 0
-  double radius = 0;                ///< r [L], > 0
-  double density = 0;               ///< rho_p of the sphere [M/L^3]; 0: the case gives its mass
-  double fluid_density = 0;         ///< rho_f [M/L^3], >= 0; 0: no buoyancy
-  std::optional<double> gravity{};  ///< [L/T^2], < 0 towards the wall; its force is in `motion`
-  std::string text;                 ///< content of the file
+  std::string title;         ///< for the report; the key is required, the text may be empty
+  Units units{};             ///< words for pages and axes; may be empty
+  double viscosity = 0;      ///< mu [M/(L T)], > 0
+  double radius = 0;         ///< r [L], > 0
+  double density = 0;        ///< rho_p of the sphere [M/L^3]; 0: the case gives its mass
+  double fluid_density = 0;  ///< rho_f [M/L^3], >= 0; 0: no buoyancy
+  /// [L/T^2], < 0 towards the wall; its force is in `motion`; nothing: not given.
+  std::optional<double> gravity{};
+  std::string text;  ///< content of the file
   // Each of these parts exists only if the file has its section. A command that needs a part calls
   // a required_... function below.
   std::optional<freefem_axi::Tabulation> tabulation;  ///< section [tabulation]
@@ -74,7 +76,7 @@ struct Case {
 };
 
 /// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
-/// value and what is allowed.
+/// value and what is allowed; also if the file, or a file of the external force, cannot be read.
 Case read_case(const std::filesystem::path& path);
 
 /// The case of one sphere whose root table is `root` (case_template.hpp). Errors as read_case().
@@ -86,12 +88,13 @@ template <>
 std::vector<std::string_view> sections_with_defaults<Case>();
 
 /// The fit, scaled to radius and viscosity of the case (lubrication/scaling.hpp). `file`, from
-/// which it was read, is named in messages. Throws Error(kBadInput) if the fit was made for another
-/// radius and, divided by the radius, lengths of its geometry or container differ from those of the
-/// case's tabulation.
+/// which it was read, is named in messages. Throws Error(kBadInput) if the fit has an unknown term,
+/// or was made for another radius and, divided by the radius, lengths of its geometry or container
+/// differ from those of the case's tabulation. Without a tabulation they are not compared.
 lubrication::Fit fit_for(const Case& c, lubrication::Fit fit, const std::filesystem::path& file);
 
-/// What docs/case-file.md says about the keys of each section, in the order of the page.
+/// What docs/case-file.md says about the keys of each section, in the order of the page. This does
+/// not throw.
 std::vector<KeyTable> tables_of_sphere_case();
 
 /// The tabulation of a case. Throws Error(kBadInput), which names the missing section, if there is

@@ -28,19 +28,21 @@ struct SweepRequest {
   std::string x;                    ///< key of the horizontal axis of the plot; may be empty
   std::string y;                    ///< key of the vertical axis of a map; empty: lines over x
   std::vector<std::string> plot;    ///< columns to draw; empty: the default of the command
-  std::uint64_t samples = 0;        ///< number of random samples; 0: the whole grid
+  std::uint64_t samples = 0;        ///< number of random samples, <= 1e12; 0: the whole grid
   /// Number of random arrangements of particles at each point; 0: that of the case.
   std::uint64_t draws = 0;
 };
 
-/// Declares the keys of [sweep] that choose the points and the picture.
+/// Declares the keys of [sweep] that choose the points and the picture: samples, x, y and plot.
+/// Throws Error(kBadInput) with the line for a wrong value; whether keys and columns exist is not
+/// checked here.
 void points_and_plot_keys(Keys& keys, SweepRequest& sweep);
 
 /// Reads the key `units` of the root table, if it is there. Throws Error(kBadInput) with the line
 /// if a word is missing, empty or longer than 20 bytes, or has a character that pages or gnuplot
 /// would read as a command.
 void read_units(const TomlSection& root, Units& units);
-/// What docs/case-file.md says about that key.
+/// What docs/case-file.md says about that key. This does not throw.
 KeyTable table_of_units();
 
 /// The case whose root table is `root`. `text` is the content of the file at `path`. Throws
@@ -89,14 +91,14 @@ class CaseTemplate {
   const std::string& text() const { return file_.text; }       ///< content of the file
 
   /// The case with these numbers at these keys, such as "fluid.viscosity" or
-  /// "motion.external_force[0].value". Throws the errors of case_of_root(), and Error(kBadInput)
-  /// for a key that the case cannot have.
+  /// "motion.external_force[0].value"; of two numbers at one key the later one counts. Throws the
+  /// errors of case_of_root(), and Error(kBadInput) for a key that the case cannot have.
   CaseType with(std::span<const std::pair<std::string, double>> numbers) const {
     return case_of_root<CaseType>(root_with(numbers), file_.text, path_);
   }
 
-  /// The root table of the case with these numbers. Throws Error(kBadInput) for a key that the case
-  /// cannot have.
+  /// The root table of the case with these numbers. Throws Error(kBadInput) for a key whose table
+  /// is missing or whose value is no number; further checks are those of case_of_root().
   TomlSection root_with(std::span<const std::pair<std::string, double>> numbers) const {
     return file_.root.with_numbers(numbers);
   }

@@ -11,8 +11,9 @@
 //     describe_keys("[solver]", solver_keys);
 //
 // The readers of cases in case_file/, particles/, rolling/ and swimmer/ use it. Values have the
-// units of the case. After a change of a declaration the tables of docs/case-file.md must be made
-// again; the test CaseFilePage makes them and says where.
+// units of the case. Reading throws Error(kBadInput) with file, line and key; describing throws
+// nothing. After a change of a declaration the tables of docs/case-file.md must be made again; the
+// test CaseFilePage makes them and says where.
 #pragma once
 
 #include <algorithm>
@@ -32,8 +33,9 @@
 
 namespace viscontact::case_file {
 
-/// Calls `check`, with which another part of the program tests the value of `key`. If it throws an
-/// Error, throws one that also names the key and its line in the case file.
+/// Calls `check`, with which another part of the program tests the value of `key`, and returns what
+/// it returns. If it throws an Error of any kind, throws an Error(kBadInput) that also names the
+/// key and its line in the case file.
 template <class Check>
 auto at_key(const TomlSection& section, std::string_view key, const Check& check)
     -> decltype(auto) {
@@ -93,7 +95,7 @@ class Keys {
   explicit Keys(KeyTable& table) : table_(&table) {}                 ///< for describing: adds rows
 
   bool reads() const { return section_ != nullptr; }        ///< true: reads; false: describes
-  const TomlSection& section() const { return *section_; }  ///< only if reads()
+  const TomlSection& section() const { return *section_; }  ///< only if reads() (not checked)
   /// True if it reads and the section has the key.
   bool has(std::string_view key) const { return reads() && section_->has(key); }
 
@@ -122,7 +124,7 @@ class Keys {
   KeyTable* table_ = nullptr;
 };
 
-/// Reads a section by its declaration. All its other keys are errors.
+/// Reads a section by its declaration. All its other keys are errors, Error(kBadInput).
 template <class Declaration, class... Places>
 void read_keys(const TomlSection& section, const Declaration& declaration, Places&&... places) {
   Keys keys(section);
@@ -167,8 +169,9 @@ KeyValue custom(std::string_view words, Read read, Places&... places) {
           [words] { return std::string(words); }};
 }
 
-/// A number that is `allowed`. `place` is a double, a whole number, or a std::optional<double>,
-/// which shows no default in the tables.
+/// A finite number that is `allowed`. `place` is a double, a whole number (`allowed` must then
+/// refuse fractions and what the type does not hold), or a std::optional<double>, which shows no
+/// default in the tables. `allowed` must outlive the value.
 template <class Place>
 KeyValue number(Place& place, const Allowed& allowed) {
   return {[&](const TomlSection& section, std::string_view key) {
@@ -182,7 +185,7 @@ KeyValue number(Place& place, const Allowed& allowed) {
           }};
 }
 
-/// A whole number in [least, most].
+/// A whole number in [least, most], written without a decimal point.
 template <class Place>
 KeyValue count(Place& place, int least, int most) {
   return {[&place, least, most](const TomlSection& section, std::string_view key) {
@@ -192,7 +195,7 @@ KeyValue count(Place& place, int least, int most) {
           [&place] { return fmt::format("{}", place); }};
 }
 
-/// A text.
+/// A text, which may be empty.
 KeyValue text(std::string& place);
 /// A list of at least one text.
 KeyValue texts(std::vector<std::string>& place);

@@ -26,19 +26,19 @@ namespace viscontact::case_file {
 class TomlSection {
  public:
   /// The root table of a TOML text. `file` is its name in messages. Throws Error(kBadInput) with
-  /// the line if the text is not valid TOML, and if a key or the name of a section has more than 16
-  /// parts joined by dots.
+  /// the line if the text is not valid TOML, nests more than 256 arrays or tables, or if a key or
+  /// the name of a section has more than 16 parts joined by dots.
   static TomlSection parse(const std::string& text, const std::string& file);
 
   /// A copy of this root table with other numbers, each at a path such as
   /// "motion.external_force[0].value". Only the last key of a path need not exist yet. A number
   /// without a fraction is stored as an integer, unless it replaces a decimal number. Throws
-  /// Error(kBadInput) if another part of a path does not exist, or if the path leads to a value
-  /// that is no number.
+  /// Error(kBadInput), without a line, if another part of a path does not exist, or if the path
+  /// leads to a value that is no number. The numbers are not checked; the reader of the case does.
   TomlSection with_numbers(std::span<const std::pair<std::string, double>> numbers) const;
 
-  /// A copy of this root table with other texts, each at a path. Throws Error(kBadInput) if there
-  /// is no text at a path.
+  /// A copy of this root table with other texts, each at a path as above. Throws Error(kBadInput),
+  /// without a line, if there is no text at a path.
   TomlSection with_texts(std::span<const std::pair<std::string, std::string>> texts) const;
 
   /// This root table as TOML, without the comments of the file and with its keys in alphabetical
@@ -61,9 +61,9 @@ class TomlSection {
   bool truth(std::string_view key) const;                      ///< true or false
   /// An array of `count` values, each true or false.
   std::vector<bool> truths(std::string_view key, std::size_t count) const;
-  /// An array of at least one number.
+  /// An array of at least one number, each finite and `allowed`.
   std::vector<double> numbers(std::string_view key, const Allowed& allowed) const;
-  /// An array of at least one array, each of `columns` numbers.
+  /// An array of at least one array, each of `columns` numbers, all finite and `allowed`.
   std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns,
                                         const Allowed& allowed) const;
   std::vector<std::string> texts(std::string_view key) const;  ///< an array of at least one text
@@ -75,9 +75,10 @@ class TomlSection {
   /// for.
   void finish() const;
 
-  int line() const;                      ///< line of this table in the file, from 1
+  // Lines are counted from 1; they are 0 in a copy by with_numbers() or with_texts().
+  int line() const;                      ///< line of this table in the file
   int line(std::string_view key) const;  ///< line of a key, or that of the table without it
-  std::string shown(std::string_view key) const;  ///< the value of an existing key, for a message
+  std::string shown(std::string_view key) const;  ///< the value, for a message; empty without it
 
   /// Throws Error(kBadInput) with the message "section.key what" at the line of this key, or at the
   /// line of this table if the key does not exist.

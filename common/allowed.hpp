@@ -1,6 +1,7 @@
 // Conditions that a number in an input must meet, each with the words for it in messages and in
 // docs/case-file.md. The keys of cases, geometries and models and the readers of JSON (case_file/,
-// freefem_axi/, lubrication/, reduced_model/, common/text/) use them. A change of words changes
+// freefem_axi/, lubrication/, reduced_model/, common/text/) use them. Numbers have any unit.
+// Nothing is thrown: the reader throws for a number that is refused. A change of words changes
 // messages and that page.
 #pragma once
 

@@ -11,8 +11,8 @@ namespace viscontact {
 
 /// True if two numbers differ by a relative 1e-12 at most. Conversions of units leave relative
 /// rounding errors of some 1e-16, and numbers written with 13 digits are rounded by less than
-/// 1e-12; no result depends on such a difference. Both numbers have the same unit and any sign.
-/// False if one is NaN.
+/// 1e-12; no result depends on such a difference. Both numbers have the same unit and any sign, and
+/// must not be infinite (not checked). 0 equals only 0. False if one is NaN; nothing is thrown.
 inline bool equal_up_to_rounding(double first, double second) {
   constexpr double kRelative = 1e-12;
   return std::abs(first - second) <= kRelative * std::max(std::abs(first), std::abs(second));

@@ -28,7 +28,7 @@ enum class ErrorKind {
 /// what is allowed or what to do".
 class Error : public std::runtime_error {
  public:
-  /// `message` is what() of the error, in the form above.
+  /// `message` is what() of the error; that it has the form above is not checked.
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
 
   ErrorKind kind() const { return kind_; }  ///< decides the exit code
@@ -38,7 +38,7 @@ class Error : public std::runtime_error {
 };
 
 /// Calls `call` and returns its value. An Error that it throws is thrown again with "PLACE: "
-/// before its message, except kInterrupted, which has no place.
+/// before its message, except kInterrupted, which has no place. Other exceptions pass unchanged.
 template <class Call>
 auto with_place(const std::string& place, const Call& call) {
   try {
@@ -49,13 +49,14 @@ auto with_place(const std::string& place, const Call& call) {
   }
 }
 
-/// A position in an input file. `line` is 0 for the file as a whole.
+/// A position in an input file.
 struct FilePosition {
   std::string file;  ///< its path, as the user gave it
-  int line = 0;      ///< counted from 1
+  int line = 0;      ///< counted from 1; 0 or less: the file as a whole
 };
 
-/// Throws Error(kBadInput) with the message "FILE:LINE: message".
+/// Throws Error(kBadInput) with the message "FILE:LINE: message", for the whole file "FILE:
+/// message".
 [[noreturn]] inline void throw_bad_input(const FilePosition& at, const std::string& message) {
   const std::string line = at.line > 0 ? ":" + std::to_string(at.line) : "";
   throw Error(ErrorKind::kBadInput, at.file + line + ": " + message);

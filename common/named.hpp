@@ -16,7 +16,8 @@
 
 namespace viscontact {
 
-/// All names in a table, separated by commas or by another text.
+/// All names in a table, in its order, separated by commas or by another text; empty for an empty
+/// table.
 template <class Table>
 std::string names_of(const Table& table, const char* separator = ", ") {
   std::string names;
@@ -24,7 +25,7 @@ std::string names_of(const Table& table, const char* separator = ", ") {
   return names;
 }
 
-/// The row with this name, or nullptr.
+/// The first row with this name, in which case counts; nullptr if there is none.
 template <std::ranges::borrowed_range Table>
 auto find_named(Table&& table, std::string_view name) -> decltype(&*table.begin()) {
   const auto found = std::ranges::find_if(table, [&](const auto& row) { return row.name == name; });

@@ -11,8 +11,8 @@ namespace viscontact {
 
 /// Returns the smallest double at which holds(x) is true. The caller knows that it is false at
 /// `from` and true at `to` >= `from`; neither is checked. The result is `to` if the condition is
-/// true only there. If the condition changes more than once in between, returns one of the places
-/// where it becomes true.
+/// true only there, or if one end is NaN. If the condition changes more than once in between,
+/// returns one of the places where it becomes true. to - from must be finite (not checked).
 template <class Condition>
 double bisect_first_true(double from, double to, const Condition& holds) {
   for (double middle = from + (to - from) / 2; from < middle && middle < to;
@@ -26,9 +26,11 @@ double bisect_first_true(double from, double to, const Condition& holds) {
 enum class Bracket { kOpen, kClosed };
 
 /// The root in [low, high] of an increasing function, by Newton's method from x in [low, high]. A
-/// step that leaves the bracket is replaced by bisection. `excess_and_slope(x)` returns the
-/// function and its derivative. The search ends where the function is 0, or if settled(x, next)
-/// says that the step from x to next is round-off, or after 200 steps.
+/// step that leaves the bracket, as it does with a slope of 0, is replaced by bisection.
+/// `excess_and_slope(x)` returns the function and its derivative. The search ends where the
+/// function is 0, or if settled(x, next) says that the step from x to next is round-off, or after
+/// 200 steps; then the last x is returned. That low <= x <= high, and that there is a root, is not
+/// checked.
 template <class ExcessAndSlope, class Settled>
 double bracketed_newton(double x, double low, double high, Bracket bracket,
                         const ExcessAndSlope& excess_and_slope, const Settled& settled) {

@@ -41,10 +41,12 @@ class SplitMix64 {
   /// A number in [0, 1).
   double unit() { return unit_interval_of(next()); }
 
-  /// A number in [from, to) of a uniform distribution.
+  /// A number in [from, to) of a uniform distribution, in the unit of both. to - from must be
+  /// finite and >= 0 (not checked). Rounding can give `to` itself.
   double between(double from, double to) { return from + (to - from) * unit(); }
 
-  /// A whole number in [0, count), count > 0. Small numbers are likelier by at most count/2^64.
+  /// A whole number in [0, count), count > 0 (not checked: 0 divides by zero). Small numbers are
+  /// likelier by at most count/2^64.
   std::uint64_t below(std::uint64_t count) { return next() % count; }
 
  private:

@@ -22,7 +22,7 @@ class StopToken {
   /// True if the flag requests a stop. It may be called on any thread.
   bool stop_requested() const { return flag_ != nullptr && *flag_; }
 
-  /// Throws Error(kInterrupted) if stop_requested().
+  /// Throws Error(kInterrupted) if stop_requested(); otherwise does nothing.
   void throw_if_stop_requested() const {
     if (stop_requested())
       throw Error(ErrorKind::kInterrupted, "interrupted; everything finished so far is kept");

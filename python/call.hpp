@@ -38,7 +38,8 @@ class InterruptGuard {
   void raise_if_interrupted();
 };
 
-/// The token that requests a stop after SIGINT has come during a call.
+/// The token that requests a stop after SIGINT has come during a call; one for all threads. It
+/// never does while there is no InterruptGuard, and is valid as long as the process.
 StopToken interrupt_token();
 
 /// Calls `compute` with a token that requests a stop at Ctrl-C, and returns what it returns. Other
@@ -56,12 +57,14 @@ auto long_call(const Compute& compute) {
   }
 }
 
-/// An argument that is an array of doubles, or is converted to one: a number, a list, an array of
-/// another type or with gaps in memory.
+/// An argument that is an array of doubles of any shape, row by row, or is converted to one: a
+/// number, a list, an array of another type or with gaps in memory. pybind11 raises TypeError or
+/// ValueError if it cannot be converted.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 /// The values of `function` at all elements of an array, in an array of the same shape; for a
-/// number (an array without dimensions) a float.
+/// number (an array without dimensions) a float. Throws what `function` throws. `function` must
+/// not touch objects of Python. Ctrl-C does not stop it.
 template <class Function>
 py::object mapped(const Doubles& x, const Function& function) {
   if (x.ndim() == 0) return py::float_(function(*x.data()));
@@ -74,7 +77,8 @@ py::object mapped(const Doubles& x, const Function& function) {
   return y;
 }
 
-/// A new array with value(row) for each row of `rows`.
+/// A new array of one dimension with value(row) for each row of `rows`, in their order; may be
+/// empty. Throws what `value` throws.
 template <class Rows, class Value>
 py::array column(const Rows& rows, const Value& value) {
   using Element = std::decay_t<decltype(value(*std::begin(rows)))>;
@@ -85,7 +89,8 @@ py::array column(const Rows& rows, const Value& value) {
 }
 
 /// The columns as an object of the Python class viscontact.Columns: a dictionary whose entries are
-/// attributes, too. `about` becomes its attribute `about`.
+/// attributes, too. `about` becomes its attribute `about`. Throws py::error_already_set if Python
+/// cannot import or make it.
 inline py::object as_columns(const py::dict& columns, const py::dict& about = py::dict()) {
   return py::module_::import("viscontact.columns").attr("Columns")(columns, about);
 }

@@ -1,8 +1,9 @@
 // Writes report.html with plots that can be zoomed in a browser, and for each plot a still picture
 // plots/NAME.svg, for browsers without scripts and for printing. The reports of report/, rolling/
 // and swimmer/ use all of it, the page of particles/picture only the functions for pieces of HTML.
-// Numbers in plots have no units here; the labels of axes name the units. report/page/*.js read the
-// plots as JSON, so a change of the JSON must be made there, too.
+// Numbers in plots have no units here; the labels of axes name the units. Only link_to() and the
+// class Report throw. report/page/*.js read the plots as JSON, so a change of the JSON must be made
+// there, too.
 #pragma once
 
 #include <exception>
@@ -38,7 +39,8 @@ struct PlotCurve {
   /// Words in the legend. A curve without words belongs to the entry of the previous curve.
   std::string legend{};
   CurveStyle style{};  ///< how it is drawn
-  /// In the order of x, which must not decrease; a y that is not finite interrupts the line.
+  /// In the order of x, which must not decrease (not checked); a y that is not finite interrupts
+  /// the line. May be empty.
   std::vector<std::pair<double, double>> points{};
 };
 
@@ -76,6 +78,7 @@ std::string section(std::string_view heading, const std::string& body);
 
 /// A link from the report to the file `file` of a run, a path relative to the run's folder. `words`
 /// is the text of the link, by default `file`. If there is no such file, the text without a link.
+/// Throws std::filesystem::filesystem_error if the system cannot tell.
 std::string link_to(const results::RunFolder& run, const std::string& file,
                     std::string_view words = {});
 
@@ -112,7 +115,7 @@ class Report {
   /// `folder` is that of the run. `names` are the names of all pictures that a report of this kind
   /// can have; only these files in plots/ are replaced or removed. They must outlive this object.
   /// Throws Error(kBadInput) if the report or one of these pictures would replace or delete a file
-  /// that Viscontact did not write or that is of another kind.
+  /// that Viscontact did not write, that is of another kind, or that cannot be read.
   Report(std::filesystem::path folder, std::span<const std::string_view> names);
 
   /// Draws the still pictures of these plots at the same time, each in a process of gnuplot,
@@ -123,7 +126,8 @@ class Report {
   /// False if gnuplot was missing or failed in draw().
   bool is_drawn() const { return failure_ == nullptr; }
 
-  /// Adds the SVG of a picture that cannot be zoomed, under a name of the constructor's `names`.
+  /// Adds the SVG of a picture that cannot be zoomed, under a name of the constructor's `names`
+  /// (not checked).
   void add_picture(const std::string& name, std::string svg) {
     figures_.push_back({{.name = name}, std::move(svg)});
   }
@@ -134,7 +138,8 @@ class Report {
   /// Writes the pictures and report.html, and removes pictures of an earlier report that this one
   /// does not have. `title` is plain text; `opening` and `sections` are HTML above and below the
   /// hints for the use of the figures. Warns if gnuplot was missing. Throws Error(kBadInput) if a
-  /// file cannot be written, and Error(kExternalProgram), after all is written, if gnuplot failed.
+  /// file cannot be written, Error(kWrongUsage) if the variable SOURCE_DATE_EPOCH is no time, and
+  /// Error(kExternalProgram), after all is written, if gnuplot failed in draw().
   void write(std::string_view title, const std::string& opening, const std::string& sections,
              const results::Provenance& provenance) const;
 

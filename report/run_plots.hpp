@@ -1,8 +1,9 @@
 // The plots of the report of one sphere, as data for report/page.hpp. Gaps q [L], times t [T] and
 // forces [M L/T^2] are in the units of the case. A contact model replaces the thin film by contact
 // and computes gamma, minus the impulse that the film has absorbed [M L/T], from which the film's
-// thickness is recovered. Each trajectory must have a row. report.cpp uses the plots, and leaves
-// out those without curves. A change must keep the names of the plots, which are names of files.
+// thickness is recovered. Each trajectory must have a row (not checked). Only plot_fit() and
+// plot_gaps_logarithmic() throw. report.cpp uses the plots, and leaves out those without curves. A
+// change must keep the names of the plots, which are names of files.
 #pragma once
 
 #include <optional>
@@ -36,13 +37,14 @@ Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& traject
 /// in the steps of impacts, they are cut off.
 Plot plot_lubrication_force(const std::vector<reduced_model::Trajectory>& trajectories);
 
-/// gamma(t) of the contact models.
+/// gamma(t) <= 0 of the contact models; other trajectories have no curve.
 Plot plot_gamma(const std::vector<reduced_model::Trajectory>& trajectories);
 
-/// The force of the plane on the sphere where solids touch, over time; impacts are cut off.
+/// The force >= 0 of the plane on the sphere where solids touch, over time; impacts are cut off.
+/// Trajectories in which no solids touch have no curve.
 Plot plot_solid_force(const std::vector<reduced_model::Trajectory>& trajectories);
 
-/// The external force f_ext(t) from 0 to `end_time` [T].
+/// The external force f_ext(t) from 0 to `end_time` [T], > 0 (not checked).
 Plot plot_external_force(const reduced_model::ExternalForce& force, double end_time);
 
 /// The thinnest film of each model, for contact models the one recovered from gamma, beside the
@@ -50,7 +52,7 @@ Plot plot_external_force(const reduced_model::ExternalForce& force, double end_t
 Plot plot_minimal_gaps(const reduced_model::Comparison& comparison,
                        const std::optional<case_file::PublishedGap>& published);
 
-/// The uncertainty of the gap over time without inertia: intervals relative to the fit's gap.
+/// The uncertainty of the gap over time without inertia: intervals relative to the fit's gap [1].
 Plot plot_uncertainty(const reduced_model::FitUncertainty& uncertainty);
 
 }  // namespace viscontact::report

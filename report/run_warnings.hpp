@@ -28,8 +28,9 @@ inline std::string trajectory_name(const std::string& model) {
 /// The warnings of a run, in this order: models that failed, gaps outside the fit's interval, a
 /// poor fit, rows less accurate than was asked, spheres that go through the plane, models that
 /// ignore the roughness, draws of coefficients that were refused, files that were not made from
-/// each other. Empty if there is nothing to warn of. Throws Error(kBadInput) if a file cannot be
-/// read, if the fit's drag is not positive, or if a contact model refuses the motion.
+/// each other. Empty if there is nothing to warn of. Each trajectory must have a row (not checked).
+/// Throws Error(kBadInput) if a file cannot be read, if the fit's drag is not positive, or if a
+/// contact model refuses the motion; std::bad_optional_access if the case has no motion.
 std::vector<ReportWarning> warnings_of(const results::RunResults& run);
 
 }  // namespace viscontact::report

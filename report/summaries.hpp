@@ -1,7 +1,8 @@
 // Summaries of fits, shifts of rough walls and comparisons of models: words and tables for the
 // terminal, JSON, and pictures. Gaps and times are in the units of the case, residuals are relative
-// [1]. pipeline/fit_stages.cpp and pipeline/compare_stage.cpp print them. A change must keep the
-// keys of the JSON, which users' scripts read.
+// [1]. pipeline/fit_stages.cpp and pipeline/compare_stage.cpp print them. Fits must have
+// diagnostics: without them fit_in_words() and basis_table() throw std::bad_optional_access. A
+// change must keep the keys of the JSON, which users' scripts read.
 #pragma once
 
 #include <string>
@@ -15,7 +16,7 @@
 
 namespace viscontact::report {
 
-/// Lines on basis, residuals, cause of the misfit and outliers. The fit must have diagnostics.
+/// Lines on basis, residuals, cause of the misfit and outliers; the last has no line break.
 std::string fit_in_words(const lubrication::Fit& fit);
 
 /// A table with a line for each basis (of a failed fit, with the reason), and a last line that
@@ -27,8 +28,9 @@ std::string basis_table(const std::vector<fitting::BasisResult>& results);
 std::string basis_json(const std::vector<fitting::BasisResult>& results);
 
 /// A picture of the relative residuals of every basis over the gap, beside the table's error
-/// estimates. `table` must be that of the fits. Throws Error(kExternalProgram) if gnuplot is
-/// missing or fails, and Error(kInterrupted) if `stop` requests a stop.
+/// estimates. `table` must be that of the fits (not checked). Throws Error(kExternalProgram) if
+/// gnuplot is missing or fails, as it does if every fit failed and the table has no estimates, and
+/// Error(kInterrupted) if `stop` requests a stop.
 std::string plot_bases(const lubrication::MotionTable& table,
                        const std::vector<fitting::BasisResult>& results,
                        const results::PictureFormat& format, const StopToken& stop = {});

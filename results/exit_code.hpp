@@ -22,10 +22,10 @@ struct ExitCode {
 /// All exit codes, in increasing order.
 std::span<const ExitCode> exit_codes();
 
-/// The exit code for an error; each kind has one.
+/// The exit code for an error, from 1 to 255; that each kind has one is asserted.
 int exit_code_of(ErrorKind kind);
 
-/// The kind of error that has this exit code. Throws std::out_of_range if no kind has it.
+/// The kind of error that has this exit code. Throws std::out_of_range if no kind has it, as for 0.
 ErrorKind kind_of_exit_code(int exit_code);
 
 }  // namespace viscontact::results

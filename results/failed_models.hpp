@@ -1,6 +1,6 @@
 // The record of the models that failed in a simulation, failed_models.json in a run's folder. It
-// tells the commands `compare` and `report` why these models have no trajectory. A change must keep
-// the keys of the file. Used by pipeline/ and rolling/.
+// tells the commands `compare` and `report` why these models have no trajectory. Nothing here has a
+// unit. A change must keep the keys of the file. Used by pipeline/ and rolling/.
 #pragma once
 
 #include <filesystem>
@@ -22,35 +22,38 @@ struct FailedModel {
   CsvComments made_from;  ///< comments that identify case, fit and version, as in a trajectory
 };
 
-/// Reads the record (JSON). Returns an empty list if there is no such file.
-/// Throws Error(kBadInput) if the file is not such a record.
+/// Reads the record (JSON), in its order. Returns an empty list if there is no such file. Throws
+/// Error(kBadInput) if the file cannot be read or is not such a record.
 std::vector<FailedModel> read_failed_models(const std::filesystem::path& path);
 
 /// The entries in the record of a run's folder that were made from these inputs
-/// (FailedModel::made_from). The list is empty if the record is damaged.
+/// (FailedModel::made_from). The list is empty if the record is missing or damaged.
 std::vector<FailedModel> recorded_failures(const RunFolder& run, const CsvComments& made_from);
 
-/// The text (JSON) of the record.
+/// The text (JSON) of the record; of two entries of one model the last counts. Throws nothing.
 std::string write_failed_models(const std::vector<FailedModel>& failed);
 
-/// The error that ends a simulation in which the models of `failed` (at least one) failed and
+/// The error that ends a simulation in which the models of `failed` (at least one, not checked)
+/// failed and
 /// `computed` other models (0 or more) were computed. The error names the case and has the kind and
 /// the reason of the first model that failed.
 Error error_of(const std::vector<FailedModel>& failed, std::size_t computed,
                const std::filesystem::path& case_path);
 
-/// The models in the record of the folder of which `trajectories` has no trajectory.
+/// The models in the record of the folder of which `trajectories` has no trajectory; none without a
+/// record. Throws the error of read_failed_models().
 std::vector<reduced_model::ModelWithoutTrajectory> failures_without(
     const std::vector<reduced_model::Trajectory>& trajectories, const RunFolder& run);
 
 /// The model with which `run` compares the others: reduced_model::reference_of() those of `models`
-/// (at least one) that are not in `failed`.
+/// that are not in `failed`; the usual reference if none is left.
 std::string reference_without(const std::vector<std::string>& models,
                               const std::vector<FailedModel>& failed);
 
 /// The model with which `compare` compares the others: `asked`; if this is empty,
-/// reduced_model::usual_reference(); if the latter failed, the model of the first trajectory.
-/// Throws Error(kBadInput) with the recorded reason if the model `asked` failed.
+/// reduced_model::usual_reference(); if the latter failed, the model of the first trajectory (at
+/// least one, not checked). Throws Error(kBadInput) with the recorded reason if the model `asked`
+/// failed; whether it has a trajectory otherwise is not checked.
 std::string reference_among(const std::vector<reduced_model::Trajectory>& trajectories,
                             const std::vector<reduced_model::ModelWithoutTrajectory>& failed,
                             const std::string& asked);

@@ -1,6 +1,6 @@
 // The kinds of pictures that a user can ask for. The ending of a file's name says which one. The
 // commands with --plot, pipeline/ and report/ use them; a new kind needs a place for its
-// provenance, the record of how it was made (results/provenance.cpp).
+// provenance, the record of how it was made (results/provenance.cpp). Nothing is thrown.
 #pragma once
 
 #include <array>
@@ -44,10 +44,10 @@ struct PictureFormat {
 /// The picture that the options of a command ask for.
 struct PictureRequest {
   std::string path;       ///< its ending is that of one of kPictureKinds; empty: no picture
-  int width = 0;          ///< PictureFormat::width
-  double font_size = 14;  ///< PictureFormat::font_size
+  int width = 0;          ///< PictureFormat::width; with --width from 100 to 10000
+  double font_size = 14;  ///< PictureFormat::font_size; with --font-size from 2 to 200
 
-  /// The format of the picture; `path` must not be empty.
+  /// The format of the picture; `path` must have such an ending (not checked).
   PictureFormat format() const { return {picture_kind(path)->kind, width, font_size}; }
 };
 

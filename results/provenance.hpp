@@ -1,7 +1,8 @@
 // Provenance: how a file was made. Every output contains its provenance as one line, which
 // `viscontact rerun`, the report and foreign_files.hpp read. It names the versions of the programs
-// and libraries that made the file. All parts that write results use it. A change must keep files
-// of earlier versions readable.
+// and libraries that made the file. All parts that write results use it. Functions with paths throw
+// std::filesystem::filesystem_error, too, if the system refuses to look at them. A change must keep
+// files of earlier versions readable.
 #pragma once
 
 #include <filesystem>
@@ -50,8 +51,8 @@ struct Inputs {
 /// read.
 Provenance provenance_of(const Inputs& inputs);
 
-/// The position in a word of a command at which an absolute path would begin: after "--output=" (or
-/// another option with "=") or after "-o", otherwise 0.
+/// The position (bytes from 0) in a word of a command at which an absolute path begins: after
+/// "--output=" (or another option with "=") or after "-o", otherwise 0.
 std::size_t path_in_word(const std::string& word);
 
 /// The provenance for a file that users pass on to others. It names the inputs, but no folders of
@@ -62,20 +63,21 @@ Provenance without_folders(Provenance provenance);
 /// `text` with the provenance as one line in it. The line is the first key of a kJson file, an
 /// element `metadata` of a kSvg file, a data script in the head of a kHtml file, a comment before
 /// the last lines of a kPdf file, a chunk of text after the header of a kPng file, and a comment at
-/// the head of any other file. `text` must be a complete file of this kind; for kJson it must be an
-/// object with at least one key.
+/// the head of any other file. `text` must be a complete file of this kind, for kJson an object
+/// with at least one key; of other texts only the mark of kJson, kSvg and kXml is asserted, and a
+/// kHtml, kPdf or kPng without its mark or header throws std::out_of_range.
 std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance);
 
-/// `text` as it was before with_provenance. Two files that were made in the same way at different
-/// times are equal without their provenance.
+/// `text` as it was before with_provenance, unchanged if it has no provenance. Two files that were
+/// made in the same way at different times are equal without their provenance.
 std::string without_provenance(const std::string& text);
 
 /// True if there is a file at `path` whose text without its provenance is `text`. Such a file is
 /// not written again, so that it keeps its time of making. False if the file cannot be read.
 bool has_content(const std::filesystem::path& path, const std::string& text);
 
-/// SHA-256 of the text without its provenance. Outputs of Viscontact record by this hash from which
-/// other output they were made.
+/// SHA-256 (64 hexadecimal digits) of the text without its provenance. Outputs of Viscontact record
+/// by this hash from which other output they were made.
 std::string content_sha256(const std::string& text);
 
 /// The provenance in a text of any kind, or nothing if the text has none. Throws Error(kBadInput)
@@ -86,9 +88,9 @@ std::optional<Provenance> provenance_in(const std::string& text, const std::stri
 /// if the file cannot be read or its provenance is damaged.
 std::optional<Provenance> read_provenance(const std::filesystem::path& path);
 
-/// Says in words how an input has changed since the output was made; empty if it has not changed.
-/// `folder` is the folder in which the command ran. Throws Error(kBadInput) if the input cannot be
-/// read.
+/// Says in words how an input has changed since the output was made, is missing or was a pipe;
+/// empty if it has not changed. `folder` is the folder in which the command ran. Throws
+/// Error(kBadInput) if the input is there but cannot be read.
 std::string change_of(const InputFile& input, const std::filesystem::path& folder);
 
 /// The folder in which the relative paths of the provenance of `file` lead to files: the one in
@@ -104,7 +106,8 @@ std::filesystem::path folder_to_run_in(const std::filesystem::path& file,
 std::vector<std::filesystem::path> given_inputs(const std::filesystem::path& path);
 
 /// The text that write_output writes: `text` with the provenance and the current time. Throws
-/// Error(kWrongUsage) if SOURCE_DATE_EPOCH is not a valid time.
+/// Error(kWrongUsage) if the variable SOURCE_DATE_EPOCH is set, but no whole number of seconds from
+/// 0 (1970) to the end of the year 9999, and as with_provenance().
 std::string output_text(const std::filesystem::path& path, TextKind kind, const std::string& text,
                         Provenance provenance);
 
@@ -116,7 +119,7 @@ void write_output(const std::filesystem::path& path, TextKind kind, const std::s
 /// The versions of Viscontact and of the libraries it was built with, by name.
 std::map<std::string, std::string> library_versions();
 
-/// The version that FreeFEM reports, or "not found" if FreeFEM cannot be run. Throws
+/// The version that FreeFEM reports, or "not found" if FreeFEM cannot be run or fails. Throws
 /// Error(kInterrupted) if `stop` requests a stop.
 std::string freefem_version_or_not_found(const StopToken& stop = {});
 

@@ -1,6 +1,6 @@
 // The names of the files in the folder of a run (docs/file-formats.md). app/, pipeline/, report/,
 // particles/, rolling/ and swimmer/ use them. A change must keep them, because users, scripts and
-// later versions rely on them. Nothing is thrown.
+// later versions rely on them. Nothing is thrown, and whether a file exists is not checked.
 #pragma once
 
 #include <filesystem>

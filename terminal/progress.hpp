@@ -31,7 +31,7 @@ class ProgressLines {
   std::optional<Clock::time_point> last_;
 };
 
-/// Limits how often a progress line is shown.
+/// Limits how often a progress line is shown. Only one thread may use it.
 class ProgressTimer {
  public:
   /// True if a tenth of a second has passed since it last returned true, or since the timer was
@@ -42,25 +42,26 @@ class ProgressTimer {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// The remaining time of a work whose share `done`, from 0 to 1, took `seconds` [s], such as ",
-/// about 3 min left". Empty if `done` is 0, and in the first two seconds, which are too short for
-/// an estimate.
+/// The remaining time of a work whose share `done`, from 0 to 1, took `seconds` [s] >= 0, such as
+/// ", about 3 min left". Empty if `done` is 0 or NaN, and in the first two seconds, which are too
+/// short for an estimate; 0 s are left if `done` > 1.
 std::string time_left(double seconds, double done);
 
 /// Removes the progress line.
 void clear_progress();
 
-/// Writes a line to standard error.
+/// Writes a line to standard error; if that fails, the line is lost, as in all functions here.
 void say(const std::string& text);
 
 /// Writes a line to standard error, in which the first "warning:" is yellow.
 void warn(const std::string& text);
 
-/// Writes an error message to standard error, with its first word in red.
+/// Writes an error message to standard error, with its first word in red if another one follows.
 void complain(const std::string& text);
 
 /// While an object of this class exists, nothing that its thread says or shows reaches the
-/// terminal. A sweep runs many simulations at once, whose messages would be mixed.
+/// terminal; objects may be nested. A sweep runs many simulations at once, whose messages would be
+/// mixed.
 class QuietThread {
  public:
   QuietThread();

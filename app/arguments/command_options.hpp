@@ -3,7 +3,8 @@
 // Used by main.cpp, commands/ and help/ of app/. help/self_description.cpp recognises by the type
 // names below whether to offer files, folders or models as the value of an option; a change of the
 // names must be made there, too. A change must keep the names of options, because submitted scripts
-// contain them.
+// contain them. The functions that add an option throw CLI::OptionAlreadyAdded if the command has
+// it. CLI11 checks values while it parses the line, and throws CLI::ParseError for a wrong one.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -33,11 +34,12 @@ CLI::Option* add_value(CLI::App& command, const std::string& name, Value& value,
 }
 
 /// A check that refuses any value but these words. It has no description, because --help shows the
-/// words in the type name.
+/// words in the type name. CLI11 throws CLI::ValidationError for another value.
 CLI::Validator one_of(std::vector<std::string> words);
 
 /// Calls `read`, which reads a word of the command line, such as the name of a basis, and returns
-/// its value. An Error(kBadInput) becomes an Error(kWrongUsage) that names the option.
+/// its value. An Error(kBadInput) becomes an Error(kWrongUsage) that names the option; other errors
+/// pass unchanged.
 template <class Read>
 auto from_option(std::string_view option, const Read& read) {
   try {
@@ -51,19 +53,20 @@ auto from_option(std::string_view option, const Read& read) {
 /// Throws Error(kWrongUsage), which names the option, if one of `names` is not a model's name.
 void check_models(std::string_view option, const std::vector<std::string>& names);
 
-/// Throws Error(kWrongUsage) if an output has an empty name or two outputs are the same file.
+/// Throws Error(kWrongUsage) if an output has an empty name or two outputs are the same file, and
+/// std::filesystem::filesystem_error if a path cannot be resolved. An empty list is right.
 void check_outputs(const std::vector<std::string>& paths);
 
 /// Throws Error(kWrongUsage) unless the ending of the file that --plot names is that of a kind of
 /// picture (results::kPictureKinds), and Error(kBadInput) if `path` is a file, but no picture of
-/// this kind that Viscontact wrote. Does nothing if `path` is empty.
+/// this kind that Viscontact wrote, or cannot be read. Does nothing if `path` is empty.
 void check_picture(const std::string& path);
 
 /// Adds the options --plot, whose help is `help`, --width (100 to 10000) and --font-size (2 to
 /// 200), which set `picture`; their unit is a pixel of an SVG, or a point of a PDF.
 void add_picture(CLI::App& command, results::PictureRequest& picture, const std::string& help);
 
-/// The default of --jobs, >= 1: one process or thread for each core.
+/// The default of --jobs, >= 1: one process or thread for each core; 1 if their number is unknown.
 int default_jobs();
 
 /// Adds the option -j, --jobs, which sets `jobs` to a number from 1 to 1024.
@@ -86,35 +89,36 @@ struct ArrayOptions {
   std::string launcher = "local",  ///< "local": computes here; "slurm": submits a job
       slurm_options,               ///< words for sbatch, quoted as in a shell; may be empty
       task;                        ///< "K/T": rows K, K+T, ...; 0 <= K < T; empty: all
-  std::size_t tasks = 0;           ///< tasks of the array job; 0: one for each row, at most 1000
+  std::size_t tasks = 0;           ///< tasks, <= 4000000; 0: one for each row, at most 1000
   bool gather = false;             ///< true: writes tables from finished rows, computes none
   /// CLI11's objects of --launcher, --gather and --task, by which a command declares that other
-  /// options exclude them.
+  /// options exclude them; nullptr before add_array_options().
   CLI::Option *launcher_option = nullptr, *gather_option = nullptr, *task_option = nullptr;
 
   bool is_slurm() const { return launcher == "slurm"; }  ///< whether a job is submitted
 };
 
-/// Adds these options, which set the members of `o`. `results` is what --help calls the output of
-/// the command, such as "the tables".
+/// Adds these options, which set the members of `o`, which must outlive `command`. `results` is
+/// what --help calls the output of the command, such as "the tables".
 void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& results);
 
 /// Throws Error(kWrongUsage) if options are given that only --launcher slurm uses, or if --task is
 /// not K/T with 0 <= K < T.
 void check_array_options(const ArrayOptions& o);
 
-/// The rows that --task asks for; all rows if the option is not given. Throws the error of
-/// check_array_options() for a wrong --task.
+/// The rows that --task asks for; all rows if the option is not given. Throws Error(kWrongUsage) if
+/// --task is not K/T with 0 <= K < T.
 pipeline::Share share_of(const ArrayOptions& o);
 
 /// The request that these options make, for an array job that computes the rows of `output`.
 /// `jobs_option` is CLI11's object of --jobs, and `jobs` its value, the number of rows at once in a
-/// task.
+/// task, >= 1; if the option is not given, the request has none. Checks and throws nothing.
 pipeline::ArrayRequest array_request(const ArrayOptions& o, const std::string& output,
                                      const CLI::Option& jobs_option, int jobs);
 
 /// Calls `call`. If it throws Error(kNotConverged), because rows are missing, or
-/// Error(kExternalProgram), because Slurm failed, `remedy` is appended to the message.
+/// Error(kExternalProgram), because Slurm failed, "; " and `remedy` are appended to the message;
+/// other errors pass unchanged.
 template <class Call>
 void with_remedy(std::string_view remedy, const Call& call) {
   try {

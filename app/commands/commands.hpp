@@ -1,29 +1,38 @@
 // The commands of the program. Each function adds the command that it is named after, with its
-// options, to the command line `app`; the command runs while CLI11 parses the line, and throws
-// viscontact::Error. docs/command-line.md describes the commands. pipeline/ and the libraries do
-// the work. main.cpp calls these functions; a change must keep the names of commands and options,
-// which scripts of users contain.
+// options, to the command line `app`, and throws only CLI::OptionAlreadyAdded, if `app` has the
+// command. It runs while CLI11 parses the line, and throws viscontact::Error of any kind (common/
+// error.hpp; kInterrupted after Ctrl-C), std::filesystem::filesystem_error, or CLI::ParseError for
+// a wrong option. A CASE is a TOML file (docs/case-file.md) with numbers in its own units.
+// docs/command-line.md describes the commands. pipeline/ and the libraries do the work. main.cpp
+// calls these functions; a change must keep the names of commands and options, which scripts of
+// users contain.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace viscontact::app {
 
-void add_compare(CLI::App& app);  ///< `compare`: compares trajectories
-/// `doctor`: says what is installed. Sets `healthy` to false if something is missing or wrong.
+void add_compare(CLI::App& app);  ///< `compare`: compares trajectories of several models
+/// `doctor`: says which programs are installed. Sets `healthy`, which must outlive `app`, to false
+/// if one is missing or FreeFEM computes a wrong force; leaves it as it is otherwise.
 void add_doctor(CLI::App& app, bool& healthy);
 void add_export(CLI::App& app);     ///< `export`: writes a fit as code or numbers
-void add_fit(CLI::App& app);        ///< `fit`: fits a formula to a table
-void add_init(CLI::App& app);       ///< `init`: writes a first case
+void add_fit(CLI::App& app);        ///< `fit`: fits a formula of the gap to a table of forces
+void add_init(CLI::App& app);       ///< `init`: writes a case file to begin with
 void add_particles(CLI::App& app);  ///< `particles`: simulates many particles
-void add_report(CLI::App& app);     ///< `report`: makes the page of a folder again
-void add_rerun(CLI::App& app);      ///< `rerun`: repeats a recorded command
-void add_run(CLI::App& app);        ///< `run`: runs the main job
-void add_shift(CLI::App& app);      ///< `shift`: fits at which depth a rough wall acts as smooth
-void add_simulate(CLI::App& app);   ///< `simulate`: computes trajectories
-void add_sweep(CLI::App& app);      ///< `sweep`: runs a case with many values of its keys
-void add_rolling(CLI::App& app);    ///< `rolling`: rolls a sphere along a plane
-void add_swimmer(CLI::App& app);    ///< `swimmer`: swims with spheres
-void add_tabulate(CLI::App& app);   ///< `tabulate`: computes tables of forces
+/// `report`: writes report.html of a folder of results again, from the other files in it.
+void add_report(CLI::App& app);
+void add_rerun(CLI::App& app);  ///< `rerun`: repeats the command that a result file has recorded
+/// `run`: computes all results of a case of one sphere: table of forces, fit, trajectories, report.
+void add_run(CLI::App& app);
+/// `shift`: fits how far below its crests a rough wall must be replaced by a smooth one so that the
+/// drag of a sphere above it stays the same.
+void add_shift(CLI::App& app);
+void add_simulate(CLI::App& app);  ///< `simulate`: computes trajectories of one sphere
+void add_sweep(CLI::App& app);     ///< `sweep`: runs a case with many values of its keys
+void add_rolling(CLI::App& app);   ///< `rolling`: simulates a sphere that rolls along a plane
+/// `swimmer`: simulates a swimmer made of spheres on a line, and finds its best stroke.
+void add_swimmer(CLI::App& app);
+void add_tabulate(CLI::App& app);  ///< `tabulate`: computes tables of forces with FreeFEM
 
 }  // namespace viscontact::app

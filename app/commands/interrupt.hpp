@@ -1,6 +1,7 @@
 // Turns Ctrl-C and similar signals into a request to stop. main.cpp and the commands of app/ pass
-// it as a StopToken to the libraries, which check it during long computations. Nothing is thrown
-// here. A change must keep that the signal handler only sets a flag.
+// it as a StopToken to the libraries, which check it during long computations and then throw
+// Error(kInterrupted). Nothing is thrown here. A change must keep that the signal handler only sets
+// a flag.
 #pragma once
 
 #include "viscontact/common/stop_token.hpp"
@@ -9,10 +10,13 @@ namespace viscontact::app {
 
 /// After this call SIGINT, SIGTERM and SIGHUP request a stop instead of ending the process. A
 /// process gets SIGHUP when its terminal or connection is lost. SIGHUP stays ignored if it was
-/// ignored when the program started, which is what `nohup` does. main() calls this function once.
+/// ignored when the program started, which is what `nohup` does. SIGXFSZ (a file reaches the limit
+/// of its size) is ignored from now on, so that the write fails instead. Whether the system accepts
+/// the handlers is not checked. main() calls this function once.
 void catch_interrupts();
 
-/// The token that requests a stop after one of these signals has come.
+/// The token that requests a stop after one of these three signals has come, for ever; it is valid
+/// as long as the process.
 StopToken interrupt_token();
 
 }  // namespace viscontact::app

@@ -1,7 +1,7 @@
 // What the program says of its own command line: the manual page, and scripts by which shells
 // complete the command line. They are made from CLI11's list of options, so that they always agree
 // with --help. main.cpp prints them. A change must keep that every option is in all of them.
-// Nothing is thrown.
+// Nothing is thrown; no text is empty. `app` must have all its commands.
 #pragma once
 
 #include <string>

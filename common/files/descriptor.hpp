@@ -16,7 +16,7 @@ namespace viscontact {
 /// Owns a file descriptor: one object at a time holds it, and closes it.
 class Descriptor {
  public:
-  /// Takes over an open descriptor; -1: none.
+  /// Takes over an open descriptor, which must have no other owner (not checked); negative: none.
   explicit Descriptor(int descriptor = -1) : descriptor_(descriptor) {}
   /// Takes over the descriptor of `other`, which has none afterwards.
   Descriptor(Descriptor&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
@@ -28,7 +28,7 @@ class Descriptor {
   }
   ~Descriptor() { close(); }
 
-  int get() const { return descriptor_; }  ///< -1 after close()
+  int get() const { return descriptor_; }  ///< the number, >= 0; -1: none, as after close()
   /// Closes the descriptor, if there is one. Errors of closing are not reported.
   void close() {
     if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
@@ -39,7 +39,7 @@ class Descriptor {
 };
 
 /// Writes all of `text` at the position of an open file. Returns false, with the reason in errno, if
-/// that fails; a part of the text may then have been written.
+/// that fails (EBADF without a file); a part of the text may then have been written.
 inline bool write_all(const Descriptor& file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = ::write(file.get(), text.data(), text.size());

@@ -18,8 +18,9 @@ namespace viscontact {
 /// then ends with `message`. It is not an error if the file system has no locks.
 Descriptor open_and_lock(const std::filesystem::path& path, const std::string& message);
 
-/// Writes the whole text at the end of the file. `path` is the file's path, for messages. Throws
-/// Error(kBadInput), which names the path, if the text cannot be written.
+/// Writes the whole text at the end of the file, which open_and_lock() opened. `path` is the file's
+/// path, for messages. Throws Error(kBadInput), which names the path, if the text cannot be
+/// written; a part of it may then be in the file.
 void append_to(const Descriptor& file, std::string_view text, const std::filesystem::path& path);
 
 /// Returns when the content of the file is on disk. Throws Error(kBadInput), which names the path,
@@ -33,7 +34,8 @@ void sync_file(const Descriptor& file, const std::filesystem::path& path);
 class LockedFolder {
  public:
   /// Throws Error(kBadInput), which names the path, if the folder cannot be made, or if another
-  /// process has locked it; then its message ends with `message`.
+  /// process, or another object of this one, has locked it; then its message ends with `message`.
+  /// A folder that cannot be opened is no error here.
   LockedFolder(std::filesystem::path path, const std::string& message);
   ~LockedFolder();
   LockedFolder(const LockedFolder&) = delete;

@@ -1,7 +1,9 @@
 // A child process with which this process exchanges many messages, such as a fluid solver (Linux):
 // text goes to its standard input, and words come from its standard output. Used by freefem_flow/.
-// A change must keep that no function waits longer than its deadline, also if a pipe is full, or if
-// the child has ended or is silent.
+// Failures are Error(kExternalProgram) if the program cannot be run, Error(kInterrupted) at a stop,
+// std::system_error without free sockets; a child that fails later is a state, no error. A change
+// must keep that no function waits longer than its deadline, also if a pipe is full, or if the
+// child has ended or is silent.
 #pragma once
 
 #include <array>
@@ -31,7 +33,8 @@ class LastLines {
   /// stream then continues it.
   void add(Stream stream, std::string_view text);
 
-  /// The lines without their ends, those that are not complete last.
+  /// At most kLines lines without their ends, the oldest first, those that are not complete last;
+  /// none if nothing was added.
   std::deque<std::string> lines() const;
 
  private:
@@ -44,21 +47,24 @@ class LastLines {
 /// The child leads a process group of its own. The group is killed when the object is destroyed,
 /// and the child is ended by the kernel when the thread that made the object ends, even by SIGKILL.
 ///
-/// The functions that wait throw Error(kInterrupted) if `stop` of the constructor requests a stop.
+/// read_word() and read_line() throw Error(kInterrupted) if they would wait while `stop` of the
+/// constructor requests a stop, at most 0.1 s after the request. The other functions throw nothing.
 class ChildProcess {
  public:
   /// The clock of the deadlines.
   using Clock = std::chrono::steady_clock;
 
-  /// Starts the child. Throws Error(kExternalProgram) "PROGRAM cannot be run (REASON)" if there is
-  /// no such program or it cannot be run.
+  /// Starts the child; command.arguments must not be empty (not checked). Throws
+  /// Error(kExternalProgram) "PROGRAM cannot be run (REASON)" if there is no such program or it
+  /// cannot be run, and std::system_error if the system has no more sockets.
   ChildProcess(const ProcessCommand& command, const StopToken& stop);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
   ~ChildProcess();
 
   /// Adds `text` to what is sent to the child. It is sent while one of the functions below waits,
-  /// so that a child that writes before it reads cannot block both sides.
+  /// so that a child that writes before it reads cannot block both sides. If the child no longer
+  /// reads, the text is lost without an error.
   void send(std::string_view text);
 
   /// How the attempt to read a word or a line ended.
@@ -66,25 +72,26 @@ class ChildProcess {
     kRead,      ///< the word or line was read
     kClosed,    ///< the child has closed its standard output before the end of a word or line
     kTimedOut,  ///< the deadline has passed
-    kTooLong,   ///< a word or line is longer than kLongestText; `text` is its beginning
+    kTooLong,   ///< longer than kLongestText; `text` is the beginning, and nothing was taken
   };
   /// What was read. `text` is valid until the next call of a function of the object.
   struct Reading {
     State state = State::kRead;  ///< how reading ended
-    std::string_view text{};     ///< the word or line, or what there is of it
+    std::string_view text{};     ///< the word or line, or what there is of it; empty if kTimedOut
   };
   /// Bytes of the longest word or line that is accepted, which bounds the memory. Answers are
   /// numbers and messages, which are shorter.
   static constexpr std::size_t kLongestText = 4096;
 
-  /// The next word of the output, which white space precedes and follows.
+  /// The next word of the output, which white space must follow: after a last word without it the
+  /// state is kClosed and `text` is empty.
   Reading read_word(Clock::time_point deadline);
 
   /// The rest of the current line of the output, without its end. At the end of the output the line
   /// need not be complete: state is kClosed, and `text` is what there is.
   Reading read_line(Clock::time_point deadline);
 
-  /// Makes the next call read the last word again.
+  /// Makes the next call read the last word again; only directly after read_word() gave kRead.
   void put_word_back() { at_ = word_start_; }
 
   /// The largest resident memory of the child so far [1024 bytes], without that of its own

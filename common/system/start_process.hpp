@@ -1,6 +1,6 @@
 // Starts a child process with sockets as its standard streams (Linux). Used by run_process()
-// (process.cpp) and ChildProcess (child_process.hpp). A change must keep that the child ends with
-// the thread that started it.
+// (process.cpp) and ChildProcess (child_process.hpp). A program that cannot be run is no exception:
+// StartedProcess says so. A change must keep that the child ends with the thread that started it.
 #pragma once
 
 #include <sys/types.h>
@@ -14,7 +14,7 @@ namespace viscontact {
 
 /// What a child process is: a program, its arguments and its surroundings.
 struct ProcessCommand {
-  /// The program, which is looked up on PATH, and its arguments. At least one.
+  /// The program, which is looked up on PATH, and its arguments. At least one (not checked).
   std::vector<std::string> arguments;
   /// "NAME=value" each, added to the environment of this process.
   std::vector<std::string> environment{};
@@ -30,19 +30,22 @@ enum class ErrorStream { kWithOutput, kSeparate };
 /// must wait for the end of the child (waitpid).
 struct StartedProcess {
   pid_t id = -1;        ///< -1: there is no such program, or it cannot be run
-  std::string failure;  ///< why it cannot be run; empty if it runs
+  std::string failure;  ///< why it cannot be run (words for errno); empty if it runs
   /// Its standard input. send() with MSG_NOSIGNAL fails with EPIPE if the child no longer reads.
   Descriptor to_child{};
-  Descriptor from_child{};    ///< its standard output
-  Descriptor errors_of_it{};  ///< its standard error, if kSeparate
+  Descriptor from_child{};    ///< its standard output, with kWithOutput its errors, too
+  Descriptor errors_of_it{};  ///< its standard error; none with kWithOutput
 };
 
 /// Starts the program. The child does not receive Ctrl-C of the terminal. It is ended by the kernel
 /// when the thread or the process that started it ends, even by SIGKILL. Throws std::system_error
-/// if the system has no more sockets.
+/// if the system has no more sockets or descriptors; if fork fails, the id is -1. Stop requests are
+/// not looked at.
 StartedProcess start_process(const ProcessCommand& command, ErrorStream errors);
 
-/// The end of a process by a signal in words: "ended by signal 11 (Segmentation fault)".
+/// The end of a process by a signal in words: "ended by signal 11 (Segmentation fault)". `signal`
+/// is its number, from 1 to 31; for a real-time signal (32 to 64), which has no words, throws
+/// fmt::format_error.
 std::string end_by_signal_in_words(int signal);
 
 }  // namespace viscontact

@@ -18,8 +18,9 @@ namespace viscontact {
 /// same bits for any number of threads.
 class ThreadPool {
  public:
-  /// `threads` >= 1, including the calling thread; fewer are used if the system refuses to start
-  /// more. Between loops the threads look for the next loop for about 1 ms, then sleep.
+  /// `threads` >= 1 (less counts as 1), including the calling thread; fewer are used if the system
+  /// refuses to start more. Between loops the threads look for the next loop for about 1 ms, then
+  /// sleep. One loop at a time: `body` must not start another one (not checked).
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -30,8 +31,9 @@ class ThreadPool {
   /// time than the thread saves.
   static constexpr std::size_t kBlock = 16384;
 
-  /// Calls body(begin, end) for each block of [0, count). The calls run on all threads of the pool.
-  /// If one throws, the first exception is thrown again when all calls have ended.
+  /// Calls body(begin, end) for each block of [0, count), never for count = 0. The calls run on all
+  /// threads of the pool. If one throws, the first exception is thrown again when all calls have
+  /// ended; a pool of one thread throws at once and leaves out the remaining blocks.
   template <class Body>
   void for_blocks(std::size_t count, const Body& body) {
     const std::size_t blocks = (count + kBlock - 1) / kBlock;
@@ -45,7 +47,7 @@ class ThreadPool {
   }
 
   /// Adds, by += in the order of the blocks, what body(begin, end) returns for each block. Returns
-  /// Result{} if count is 0.
+  /// Result{} if count is 0. Throws as for_blocks().
   template <class Result, class Body>
   Result sum_of_blocks(std::size_t count, const Body& body) {
     if (count <= kBlock) return count > 0 ? body(std::size_t{0}, count) : Result{};

@@ -1,6 +1,7 @@
 // CSV files as Viscontact writes them (docs/file-formats.md): lines "# key: value", a header line,
-// and rows of numbers, each in the unit of its column. All readers of tables, trajectories and
-// particles use this file. A change must keep published files readable.
+// and rows of finite numbers, each in the unit of its column. All readers of tables, trajectories
+// and particles use this file; what is thrown is Error(kBadInput) with the file. A change must keep
+// published files readable.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,7 @@
 
 namespace viscontact {
 
-/// The lines "# key: value" at the head of a file, sorted by key.
+/// The lines "# key: value" of a file, sorted by key; a value may be empty.
 using CsvComments = std::map<std::string, std::string>;
 
 /// A row: the fields of the requested columns as numbers (nothing for an empty field), and the
@@ -38,12 +39,13 @@ struct CsvFile {
   std::vector<CsvRow<columns>> rows;     ///< in the order of the file
 };
 
-/// Reads the lines "# key: value" of `text`, without the commas at their end that spreadsheets add.
-/// If a key occurs twice, the last value counts; if values differ, `contradictions` gets the key.
+/// Reads the lines "# key: value" of `text`, without the commas at their end that spreadsheets add;
+/// other lines are skipped, and nothing is thrown. If a key occurs twice, the last value counts; if
+/// values differ, `contradictions` (nullptr: not asked for) gets the key.
 CsvComments read_csv_comments(const std::string& text,
                               std::set<std::string>* contradictions = nullptr);
 
-/// The lines "# key: value" for `comments`.
+/// The lines "# key: value" for `comments`; empty if there are none. Line ends are not checked.
 std::string write_csv_comments(const CsvComments& comments);
 
 /// The value of a comment that must be a finite number. Throws Error(kBadInput), which names the
@@ -51,15 +53,17 @@ std::string write_csv_comments(const CsvComments& comments);
 double csv_comment_number(const CsvComments& comments, const std::string& key,
                           const std::string& file);
 
-/// The fields of a line without quotation marks. There is one field more than there are commas.
+/// The fields of a line without quotation marks, unchanged. There is one field more than there are
+/// commas, so that an empty line has one.
 std::vector<std::string> csv_fields(const std::string& line);
 
-/// The text for a message: if it has more than 60 characters, the first 60 of them and "...".
+/// The text for a message: if it has more than 60 bytes, the first 60 of them and "...".
 std::string shortened(const std::string& text);
 
 /// As read_csv below, and with its errors, for a number of columns that is known at run time:
 /// `text` is the content of the file, `file` its name in messages. Calls `add_row` with the fields
-/// of each row and the number of its line.
+/// of each row, as many as `names` (at least one), and the number of its line, from 1; rows above a
+/// faulty one may have been added when the error is thrown. Throws what `add_row` throws, too.
 void read_csv_rows(
     std::string text, const std::string& file, std::span<const std::string> names,
     std::size_t required,
@@ -69,9 +73,11 @@ void read_csv_rows(
 /// order, and further columns. The first `required` columns must exist; if another column is
 /// missing, its fields are empty. Blank lines after the last row are ignored.
 ///
-/// Throws Error(kBadInput) with file and line for a missing column, a row with more or fewer fields
-/// than the header line, a field that is neither empty nor a finite number, and a number of rows
-/// that differs from a line "# rows: N" (which shows that the file was cut short).
+/// Throws Error(kBadInput) with the file, and the line if it is one, if the file cannot be read,
+/// has no header line, the same column twice or a required one not at all; for a row with more or
+/// fewer fields than the header line, a line too long for the library, and a field that is neither
+/// empty nor a finite number; and if a line "# rows: N" says another number of rows or the last
+/// line has no line break (the file was cut short). A file without rows is right.
 template <std::size_t columns>
 CsvFile<columns> read_csv(const std::filesystem::path& path,
                           const std::array<std::string, columns>& names, std::size_t required) {
@@ -87,8 +93,8 @@ CsvFile<columns> read_csv(const std::filesystem::path& path,
   return result;
 }
 
-/// The number in column `i` of a row. Throws Error(kBadInput) with file and line if the field is
-/// empty.
+/// The number in column `i` < `columns` of a row. Throws Error(kBadInput) with file and line if the
+/// field is empty.
 template <std::size_t columns>
 double required_field(const CsvRow<columns>& row, const std::array<std::string, columns>& names,
                       std::size_t i, const std::string& file) {

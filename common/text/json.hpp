@@ -27,9 +27,9 @@ class JsonDocument {
   /// Name of the file in messages.
   const std::string& file() const { return file_; }
 
-  /// Line of the value at a path such as "terms[2].name"; the path of the whole text is "". If
-  /// there is no such value, or it lies deeper than eight levels, returns the line of the array or
-  /// object that would contain it.
+  /// Line, from 1, of the value at a path such as "terms[2].name"; the path of the whole text is
+  /// "". If there is no such value, or it lies deeper than eight levels, returns the line of the
+  /// array or object that would contain it.
   int line_of(std::string path) const;
 
  private:
@@ -43,7 +43,8 @@ class JsonDocument {
 std::string cause_in_words(const Json::exception& error);
 
 /// Calls `read` with the JSON in the file at `path`. Throws Error(kBadInput), which names the file,
-/// if it is not valid JSON, or if a value that `read` asks for is missing or of another type.
+/// if it cannot be read or is not valid JSON, or if a value that `read` asks for is missing or of
+/// another type (a Json::exception). Other exceptions of `read` pass unchanged.
 void read_json(const std::filesystem::path& path, const std::function<void(const Json&)>& read);
 
 }  // namespace viscontact

@@ -6,8 +6,10 @@
 //     json("geometry", s.geometry, kLeftOutIfEmpty);
 //   }
 //
-// with the fields in the order of the file. Every error is an Error(kBadInput), which names the
-// file, the line, the key and what is allowed there. lubrication/, motions/, reduced_model/ and
+// with the fields in the order of the file. Numbers have the units of S. Every error of reading is
+// an Error(kBadInput), which names the file, the line, the key and what is allowed there; writing
+// checks and throws nothing, and a NaN or infinity becomes null. lubrication/, motions/,
+// reduced_model/ and
 // swimmer/ use it for fits and comparisons; published files must stay readable.
 #pragma once
 
@@ -58,7 +60,7 @@ class JsonFields {
     return fields.written_;
   }
 
-  /// The text of a file, in which each level is indented by `indent` more.
+  /// The text of a file, in which each level is indented by `indent` >= 0 spaces more.
   template <class Struct>
   static std::string text_of(const Struct& value, int indent = 2) {
     // Texts from the head of a table may contain bytes that are not UTF-8. dump() replaces them
@@ -69,7 +71,8 @@ class JsonFields {
   /// True while the fields are read, not written; fields_of() may then check their values.
   bool reads() const { return json_ != nullptr; }
 
-  /// Throws Error(kBadInput) with "FILE:LINE: KEY WHAT". An empty `key` stands for the object.
+  /// Throws Error(kBadInput) with "FILE:LINE: KEY WHAT". An empty `key` stands for the object. Only
+  /// while reads().
   [[noreturn]] void fail(const std::string& key, const std::string& what) const {
     const std::string where = path_of(key);
     throw_bad_input({document_->file(), document_->line_of(where)},
@@ -79,7 +82,8 @@ class JsonFields {
   /// Reads or writes the member `value` under `key`. Its type is double (finite), bool,
   /// std::size_t, long, std::string, std::optional (an empty one is written as null, or left out
   /// with kLeftOutIfEmpty), a map of texts, an array of two numbers, a struct with fields_of(), or
-  /// a vector of any of these.
+  /// a vector of any of these. A key that a file may lack and lacks leaves `value` as it is. Throws
+  /// if another key is missing or its value has another type; a struct also for an unknown key.
   template <class Value>
   void operator()(const std::string& key, Value& value, Absence absence = Absence::kRefused) {
     if (!reads()) {
@@ -95,14 +99,14 @@ class JsonFields {
     }
   }
 
-  /// A number that must pass the test `allowed`.
+  /// A finite number that must exist and pass the test `allowed` when it is read.
   void operator()(const std::string& key, double& value, const Allowed& allowed) {
     (*this)(key, value);
     if (reads() && !allowed.test(value))
       fail(key, fmt::format("is {}; it must be {}", value, allowed.words));
   }
 
-  /// Two gaps [L], of which the first is > 0 and less than the second.
+  /// Two gaps [L], of which, when they are read, the first must be > 0 and less than the second.
   void gap_interval(const std::string& key, std::array<double, 2>& interval) {
     (*this)(key, interval);
     if (reads() && !(interval[0] > 0 && interval[1] > interval[0]))
@@ -147,7 +151,7 @@ class JsonFields {
     }
   }
 
-  /// A key that must have this text.
+  /// A key that must exist and have this text.
   void constant(const std::string& key, const std::string& text) {
     std::string found = text;
     (*this)(key, found);

@@ -1,6 +1,6 @@
 // Converts numbers to text and back without loss. The locale has no effect. All parts use these
 // functions for the numbers in text files other than JSON and TOML. A change must keep the texts,
-// because hashes in files are computed from them. Nothing is thrown.
+// because hashes in files are computed from them. Numbers have any unit. Nothing is thrown.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,9 @@ namespace viscontact {
 /// The shortest decimal text that reads back to the same double. `value` must be finite (asserted).
 std::string format_number(double value);
 
-/// The double nearest to a decimal text, which blanks may surround. Returns nothing if the text is
-/// not one finite number in the range of a double, such as "nan", "inf", "1e400" or "1.5x".
+/// The double nearest to a decimal text, which blanks and tabs may surround and a "+" may begin.
+/// Returns nothing if the text is empty or not one finite number in the range of a double, such as
+/// "nan", "inf", "1e400", "1e-400" or "1.5x".
 std::optional<double> parse_number(std::string_view text);
 
 }  // namespace viscontact

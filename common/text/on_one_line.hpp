@@ -8,7 +8,7 @@
 
 namespace viscontact {
 
-/// The text with a space in place of each line end.
+/// The text with a space in place of each "\n"; its length stays. Nothing is thrown.
 inline std::string on_one_line(std::string text) {
   std::ranges::replace(text, '\n', ' ');
   return text;

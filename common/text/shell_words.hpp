@@ -10,10 +10,12 @@
 namespace viscontact {
 
 /// The words of a command line. Blanks, tabs and line ends separate words, except between ' or ".
-/// A backslash has no special meaning. Throws Error(kWrongUsage) if a quotation mark is not closed.
+/// A backslash has no special meaning. '' is an empty word; a text of blanks has no word. Throws
+/// Error(kWrongUsage) if a quotation mark is not closed.
 std::vector<std::string> split_words(const std::string& text);
 
-/// The text with the quotation marks that it needs so that a POSIX shell reads it as one word.
+/// The text with the quotation marks that it needs so that a POSIX shell reads it as one word; ''
+/// if it is empty. Throws nothing.
 std::string shell_word(const std::string& text);
 
 }  // namespace viscontact

@@ -7,8 +7,8 @@
 
 namespace viscontact {
 
-/// The words for the units of length, time and mass, such as "m", "s" and "kg"; all empty if the
-/// case does not say them.
+/// The words for the units of length, time and mass, such as "m", "s" and "kg"; all three empty if
+/// the case does not say them (only the length is looked at). Only wrong powers are thrown for.
 struct Units {
   std::string length,  ///< such as "m"
       time,            ///< such as "s"
@@ -19,9 +19,10 @@ struct Units {
   /// "length m, time s, mass kg"; empty without units.
   std::string words() const;
   /// The unit of the quantity with these powers, such as "kg m/s²" for (1, 1, -2); empty without
-  /// units. Powers are from -9 to 9; others throw std::out_of_range.
+  /// units, and if all powers are 0. Powers are from -9 to 9; others throw std::out_of_range.
   std::string unit_of(int mass_power, int length_power, int time_power) const;
-  /// The same in brackets for the end of a label, such as " [m/s]"; empty without units.
+  /// The same in brackets for the end of a label, such as " [m/s]"; empty without units. Throws as
+  /// unit_of(), and so does the next function.
   std::string in_brackets(int mass_power, int length_power, int time_power) const;
   /// The unit, or without units its dimension in words, such as "mass × length/time²".
   std::string unit_or_dimension(int mass_power, int length_power, int time_power) const;

@@ -1,7 +1,8 @@
 // The arrays of a VTK XML file with appended raw data (VTK's file formats, "XML file formats"):
 // writes them, and reads what was written on a machine with the same byte order. Numbers are copied
-// without conversion. particles/ and flow_vtk.cpp use it for frames and flows; a change must keep
-// the files of earlier versions readable.
+// without conversion, in the units of the caller. Only AppendedReader throws, Error(kBadInput).
+// particles/ and flow_vtk.cpp use it for frames and flows; a change must keep the files of earlier
+// versions readable.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,7 +24,8 @@ namespace viscontact {
 class AppendedData {
  public:
   /// Appends `values` and returns the element `DataArray` that refers to them. `type` is their type
-  /// in VTK, such as Float64, and `components` the number of values at a point or cell.
+  /// in VTK, such as Float64 for double, and `components` >= 1 the number of values at a point or
+  /// cell, which stand together. Neither is checked; `values` may be empty.
   template <class Number>
   std::string array(const char* type, std::string_view name, int components,
                     const std::vector<Number>& values) {
@@ -59,7 +61,8 @@ struct PolyCells {
       lines,        ///< numbers of the two points of each line, from 0
       line_ends;    ///< for each line, the number of entries of `lines` up to it
 
-  /// Adds a vertex at the point with this number.
+  /// Adds a vertex at the point with this number, from 0; that the point exists is not checked here
+  /// and below.
   void add_vertex(std::int64_t point) {
     vertices.push_back(point);
     vertex_ends.push_back(std::ssize(vertices));
@@ -75,8 +78,8 @@ struct PolyCells {
         "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\">\n",
         points, vertex_ends.size(), line_ends.size());
   }
-  /// The elements of the points, of the cells, and of the end of the piece. `points` has three
-  /// coordinates for each point.
+  /// The elements of the points, of the cells, and of the end of the piece; appends their arrays to
+  /// `data`. `points` has three coordinates [L] for each point, x, y, z (not checked).
   std::string closing(AppendedData& data, const std::vector<double>& points) const {
     std::string text = "<Points>\n" + data.array("Float64", "Points", 3, points);
     text += "</Points>\n<Verts>\n";
@@ -89,7 +92,8 @@ struct PolyCells {
   }
 };
 
-/// The text between `before` and the next `after`; nothing if one of them is missing.
+/// The text between the first `before` and the next `after`; nothing if one of them is missing. It
+/// is a part of `text`, which must outlive it.
 inline std::optional<std::string_view> between(std::string_view text, std::string_view before,
                                                std::string_view after) {
   const auto found = text.find(before);
@@ -119,8 +123,9 @@ class AppendedReader {
     return after_name(section, name).has_value();
   }
 
-  /// The array `name` in the element `section`. Throws Error(kBadInput), which names the file, if
-  /// there is none or it is cut short.
+  /// The array `name` in the element `section`: the values of all points or cells, one after the
+  /// other; may be empty. Throws Error(kBadInput), which names the file, if there is none or it is
+  /// cut short. That `Number` is the type which the file states is not checked.
   template <class Number>
   std::vector<Number> array(std::string_view section, std::string_view name) const {
     const auto element = after_name(section, name);

@@ -18,13 +18,13 @@ namespace viscontact {
 /// plane is a half-plane: x >= 0 is the distance from the axis, and y the place along it.
 struct QuadraticMesh {
   std::vector<double> x;  ///< of each node [L]
-  std::vector<double> y;  ///< of each node [L]
-  /// The nodes of each triangle: three corners counter-clockwise, then the middles of the sides
-  /// between corners 0 and 1, 1 and 2, 2 and 0, as VTK numbers them.
+  std::vector<double> y;  ///< of each node [L], as many as x
+  /// The nodes of each triangle, as indices of x from 0: three corners counter-clockwise, then the
+  /// middles of the sides between corners 0 and 1, 1 and 2, 2 and 0, as VTK numbers them.
   std::vector<std::array<std::int32_t, 6>> triangles;
 };
 
-/// Velocity and pressure at the nodes of a mesh.
+/// Velocity and pressure at the nodes of a mesh: each list has one number for each node.
 struct FlowField : QuadraticMesh {
   std::vector<double> velocity_x;  ///< along x, of each node [L/T]
   std::vector<double> velocity_y;  ///< along y, of each node [L/T]
@@ -35,13 +35,14 @@ struct FlowField : QuadraticMesh {
 /// data): quadratic triangles (VTK's cell type 22) with velocity [L/T], pressure [M/(L T^2)] and
 /// speed [L/T] at their nodes. `more` is empty or has a value for each node, which is written under
 /// the name `more_name`. x and y are those of VTK and z = 0; with `on_axis`, the flow is in the
-/// half-plane x >= 0, y = 0 of VTK, and z is the axis.
+/// half-plane x >= 0, y = 0 of VTK, and z is the axis. Lengths of lists are not checked; nothing is
+/// thrown.
 std::string write_flow(const FlowField& flow, bool on_axis = false, std::string_view more_name = {},
                        const std::vector<double>& more = {});
 
 /// Reads mesh, velocity and pressure from a file that write_flow wrote on a machine with the same
 /// byte order. The numbers have the same bits. Throws Error(kBadInput), which names the file, if it
-/// is not such a file or was cut short.
+/// cannot be read, is not such a file or was cut short; whether numbers are finite is not checked.
 FlowField read_flow(const std::filesystem::path& path);
 
 }  // namespace viscontact

@@ -1,7 +1,8 @@
 // A flow on a regular grid, from which pictures and pages draw it. Lengths [L], masses [M] and
 // times [T] are in the units of the case. flow_plots.cpp, stream_lines.cpp and particles/picture
 // use it. A change must keep the order of the points: row by row from the bottom, each row from the
-// left. Nothing is checked or thrown.
+// left. Lists have one number for each point of the grid, or for each node of the mesh. Nothing is
+// checked or thrown.
 #pragma once
 
 #include <array>
@@ -39,8 +40,8 @@ struct Grid {
   }
 };
 
-/// A grid of the window with about `points` points, nearly as far apart along x as along y, but
-/// with 2 to 1200 points in a row or column.
+/// A grid of the window with about `points` >= 1 points, nearly as far apart along x as along y,
+/// but with 2 to 1200 points in a row or column (a longer row could not be seen on a screen).
 Grid grid_of(const Window& window, std::size_t points);
 
 /// Velocity [L/T] and pressure [M/(L T^2)] at the points of a grid; NaN where there is no flow.
@@ -50,7 +51,7 @@ struct FlowOnGrid {
 
 /// How a flow is repeated in the plane: one period further it is the same, with another velocity.
 struct FlowPeriods {
-  std::array<double, 2> lengths{};  ///< periods along x and y [L]; 0 where there is no period
+  std::array<double, 2> lengths{};  ///< periods along x and y [L], >= 0; 0: no period
   /// Mean velocity gradient du/dx, du/dy, dv/dx, dv/dy [1/T]. The velocity one period further is
   /// larger by the gradient times the vector of the period.
   std::array<double, 4> gradient{};
@@ -61,13 +62,13 @@ struct FlowPeriods {
 /// triangles may lie outside of the cell that `periods` repeats.
 FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPeriods& periods = {});
 
-/// Interpolates a field, which has `values` at the nodes of the mesh, at the points of the grid;
-/// NaN where the mesh has no triangle.
+/// Interpolates a field, which has `values` in any unit at the nodes of the mesh, at the points of
+/// the grid; NaN where the mesh has no triangle.
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
                                   const Grid& grid);
 
 /// Replaces each NaN by the mean of those of its up to eight neighbours on the grid that are
-/// numbers. A NaN without such a neighbour stays. `values` has `columns` numbers in a row.
+/// numbers. A NaN without such a neighbour stays. `values` has `columns` >= 1 numbers in a row.
 void fill_next_to_known(std::vector<double>& values, std::size_t columns);
 
 }  // namespace viscontact::report

@@ -11,10 +11,11 @@
 
 namespace viscontact::report {
 
-// `picture` is the flow of a row of the table that `tabulation` describes. It is computed in the
-// half-plane of the distance from the axis and the height; pictures show its mirror image, too. If
-// the gap is thin, heights are stretched, and the title says so. All throw Error(kExternalProgram)
-// if gnuplot is missing or fails, and Error(kInterrupted) if `stop` requests a stop.
+// `picture` is the flow of a row of the table that `tabulation` describes (neither that nor the
+// motion is checked). It is computed in the half-plane of the distance from the axis and the
+// height; pictures show its mirror image, too. If the gap is thin, heights are stretched, and the
+// title says so. All throw Error(kExternalProgram) if gnuplot is missing, fails or takes ten
+// minutes, and Error(kInterrupted) if `stop` requests a stop.
 
 /// The finest mesh in the gap, and on it the coarsest mesh, whose triangles were each divided into
 /// 16 or more triangles of the finest.

@@ -23,7 +23,7 @@ struct LinearField {
 };
 
 /// The lines on which the field equals `level`, joined across triangles. The first and the last
-/// point of a closed line are equal.
+/// point of a closed line are equal. `level` has the unit of the field; no lines if it is nowhere.
 std::vector<Polyline> level_lines(const LinearField& field, double level);
 
 /// A streamline; its points are in the order in which the fluid flows.
@@ -46,14 +46,15 @@ struct StreamLineSet {
 /// 2.2). psi solves these equations between neighbouring points of the grid by least squares.
 class StreamLines {
  public:
-  /// For flows on `grid`. With `has_axis` they are symmetric about x = 0, and the grid has x >= 0.
+  /// For flows on `grid`; `grid` has x >= 0 and flows are symmetric about x = 0 with `has_axis`.
   StreamLines(const Grid& grid, bool has_axis);
   ~StreamLines();
   StreamLines(StreamLines&&) noexcept;
 
   /// About `count` > 0 lines at equal steps of psi, with arrows outside the particles. There are
   /// none if nothing moves. `is_body` is 1 for each point of the grid in a particle, which hides
-  /// it, otherwise 0. Flows should be given in order of time, because the factor of the matrix is
+  /// it, otherwise 0; it and the lists of `flow` have grid.size() numbers, in its order. Flows
+  /// should be given in order of time, because the factor of the matrix is
   /// used again as long as the fluid covers about the same points.
   StreamLineSet of(const FlowOnGrid& flow, const std::vector<char>& is_body, int count);
 

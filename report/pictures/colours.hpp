@@ -1,7 +1,8 @@
 // The colours of curves, and scales of colours for gamma, friction, speeds and pressures. gamma is
 // minus the impulse that the film of a contact has absorbed [M L/T], of discs in a fluid per length
 // [M/T]. The pages and pictures of report/, rolling/, swimmer/ and particles/ use them. A change
-// must keep that colour-blind readers can tell the colours apart. Nothing is checked or thrown.
+// must keep that colour-blind readers can tell the colours apart. Nothing is checked or thrown; a
+// share beyond 0 or 1 gets the colour of that end, and no number may be NaN unless it is allowed.
 #pragma once
 
 #include <array>
@@ -38,7 +39,7 @@ constexpr const char* curve_colour(std::size_t place) {
 struct ColourScale {
   std::string words;                                  ///< what it shows, with the unit or dimension
   std::vector<std::string> colours;                   ///< "#rrggbb", from the left, evenly spaced
-  std::vector<std::pair<double, std::string>> ticks;  ///< shares of the width with their texts
+  std::vector<std::pair<double, std::string>> ticks;  ///< shares of the width, 0 to 1, with texts
 };
 
 /// The colour "#rrggbb" for share = gamma/(lowest gamma), from 0 (light) to 1 (dark).
@@ -77,7 +78,8 @@ struct PressureColours {
   double smallest = 0, largest = 0;  ///< of all pressures [M/(L T^2)]
   double linear_below = 0;           ///< [M/(L T^2)], >= 0; 0: linear everywhere
 
-  /// The position of a pressure on the scale. gnuplot gets positions as the values of a field.
+  /// The position of a pressure [M/(L T^2)] on the scale: that pressure, or with linear_below > 0 a
+  /// number [1]. gnuplot gets positions as the values of a field.
   double at(double pressure) const;
 
   /// The colour "#rrggbb" at a position.
@@ -98,10 +100,12 @@ struct PressureColours {
   std::vector<std::string> settings() const;
 };
 
-/// A linear scale from the smallest to the largest of the pressures that are finite.
+/// A linear scale from the smallest to the largest of the pressures [M/(L T^2)] that are finite. If
+/// both are p, it is from p - |p| to p + |p|, or from -1 to 1 if p = 0 or no pressure is finite.
 PressureColours proportional_colours(const std::vector<double>& pressures);
 
-/// A scale for the pressures of pixels, of which a few may be much larger than all others. If the
+/// A scale for the pressures of pixels [M/(L T^2)], of which a few may be much larger than all
+/// others, and those that are not finite do not count. If the
 /// largest is more than three times the largest that remains without the highest 0.5 %, the scale
 /// ends at the latter, rounded up; likewise for the lowest. If such an end is cut, or if an end is
 /// more than ten times the pressure `usual` >= 0, the scale is linear below about `usual` and

@@ -1,5 +1,5 @@
 // Draws curves and colour fields with the program gnuplot. Values have no unit here; the labels of
-// the axes name the units. Pages, flows and sweeps draw by it. A change must keep that no text of a
+// the axes name the units. report/ and swimmer/ draw by it. A change must keep that no text of a
 // user reaches gnuplot as a command.
 #pragma once
 
@@ -31,18 +31,18 @@ struct Curve {
 /// row from the left. Cells with non-finite values are transparent. The commands in Panel::settings
 /// set the colours (palette, cbrange).
 struct ColourField {
-  std::size_t columns = 0, rows = 0;  ///< at least 2
-  double left = 0, right = 0, bottom = 0, top = 0;
-  std::vector<double> values;
+  std::size_t columns = 0, rows = 0;                ///< at least 2 each (not checked)
+  double left = 0, right = 0, bottom = 0, top = 0;  ///< sides of the rectangle; left < right, ...
+  std::vector<double> values;                       ///< columns * rows; gnuplot gets four digits
 };
 
 /// Curves, and possibly a colour field, on common axes.
 struct Panel {
-  std::string title, x_label, y_label;
-  bool x_log = false, y_log = false;
-  std::vector<std::string> settings;  ///< further gnuplot commands
-  std::vector<Curve> curves;
-  std::optional<ColourField> field{};  ///< drawn below the curves
+  std::string title, x_label, y_label;  ///< plain text; may be empty
+  bool x_log = false, y_log = false;    ///< true: a logarithmic axis, without values <= 0
+  std::vector<std::string> settings;    ///< further gnuplot commands, not quoted or checked
+  std::vector<Curve> curves;            ///< a curve without points is left out
+  std::optional<ColourField> field{};   ///< drawn below the curves
 };
 
 /// Settings of a panel that put the legend below the plot, and the name of the horizontal axis
@@ -56,14 +56,16 @@ inline constexpr const char* kLegendBelow =
 std::string quoted_for_gnuplot(const std::string& text);
 
 /// Draws the panels one below the other, as an SVG (one element, which may stand in an HTML page),
-/// a PDF, a PNG, or as gnuplot's script with the data, which gnuplot turns into an SVG. `width` and
-/// `height` are those of the picture by itself, in the unit of PictureFormat::width. Throws
-/// GnuplotMissing(kExternalProgram) if gnuplot cannot be run, Error(kExternalProgram) if gnuplot
-/// fails or has not ended after ten minutes, and Error(kInterrupted) if `stop` requests a stop.
+/// a PDF, a PNG, or as gnuplot's script with the data, which gnuplot turns into an SVG. `width` > 0
+/// and `height` > 0 are those of the picture by itself [pixels of an SVG]; if format.width > 0,
+/// this is the width, and the height in proportion. Throws GnuplotMissing(kExternalProgram) if
+/// gnuplot cannot be run, Error(kExternalProgram) if gnuplot fails (as it does if nothing is to be
+/// drawn) or has not ended after ten minutes, and Error(kInterrupted) if `stop` requests a stop; a
+/// script is made without gnuplot and throws nothing.
 std::string draw_picture(const results::PictureFormat& format, const std::vector<Panel>& panels,
                          int width, int height, const StopToken& stop = {});
 
-/// draw_picture() of the kind kSvg.
+/// draw_picture() of the kind kSvg, with its errors.
 std::string draw_svg(const std::vector<Panel>& panels, int width, int height,
                      const StopToken& stop = {});
 

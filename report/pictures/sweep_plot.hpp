@@ -1,5 +1,6 @@
 // The picture of a sweep, which varies keys of a case, from its CSV file, in the units of the case.
-// A change must keep that `sweep --plot` can draw files larger than the memory.
+// The command `sweep` (app/commands/sweep/) calls it for --plot. A change must keep that it can
+// draw files larger than the memory.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +16,7 @@ namespace viscontact::report {
 struct SweepPlot {
   std::string x;                     ///< varied key on the horizontal axis
   std::string y;                     ///< key on the vertical axis of a map; empty: lines over x
-  std::vector<std::string> columns;  ///< at least one; a map shows the first only
+  std::vector<std::string> columns;  ///< at least one (not checked); a map shows the first only
   /// The other keys with several values in a grid. Lines are drawn for each combination of these
   /// values. Without effect on a map.
   std::vector<std::string> others{};
@@ -26,9 +27,10 @@ struct SweepPlot {
 
 /// The content of a picture with lines, or with colours over the grid of two keys. Axes and colours
 /// are logarithmic if all values are > 0 and span a decade or more. Throws Error(kBadInput) if a
-/// column does not exist, in a message that lists the columns, if there is no number to draw, or if
-/// a map has fewer than two values along an axis; Error(kExternalProgram) if gnuplot is missing or
-/// fails; and Error(kInterrupted) if `stop` requests a stop.
+/// column does not exist or the file cannot be read, in a message that lists the columns, if there
+/// is no number to draw, or if a map has fewer than two values along an axis; std::out_of_range if
+/// a row has too few fields; Error(kExternalProgram) if gnuplot is missing or fails; and
+/// Error(kInterrupted) if `stop` requests a stop. A field that is no number is not drawn.
 std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot& plot,
                        const results::PictureFormat& format, const StopToken& stop = {});
 

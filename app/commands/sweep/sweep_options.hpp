@@ -16,8 +16,9 @@
 
 namespace viscontact::app {
 
-/// The values of the options, each named after its option. An empty text or list, or the number 0,
-/// means that the option was not given; the section [sweep] of the case or a default then decides.
+/// The values of the options, each named after its option. An empty text or list, or 0 for samples
+/// and draws, means that the option was not given; the section [sweep] of the case or a default
+/// then decides. The command line always gives case_file and output.
 struct SweepOptions {
   std::string case_file,          ///< path of the case
       fit,                        ///< path of a fit file
@@ -28,10 +29,10 @@ struct SweepOptions {
       models,                     ///< names of models
       columns;                    ///< columns that are drawn
   results::PictureRequest plot;   ///< the picture
-  std::uint64_t samples = 0,      ///< number of random points
-      seed = 1,                   ///< seed of the random points
-      draws = 0;                  ///< number of random arrangements of particles at a point
-  int jobs = default_jobs();      ///< number of rows at once, >= 1
+  std::uint64_t samples = 0,      ///< number of random points, <= 1e12
+      seed = 1,                   ///< seed of the random points; any number
+      draws = 0;                  ///< random arrangements of particles at a point, <= 1e9
+  int jobs = default_jobs();      ///< number of rows at once, from 1 to 1024
   ArrayOptions array;             ///< how the rows are divided among the jobs of a cluster
   bool dry_run = false,           ///< true: says how long the rows take, computes none
       json = false,               ///< true: says it in JSON
@@ -49,18 +50,25 @@ struct CaseStudy {
 };
 
 /// Each of these functions makes the study of the case o.case_file, which must be of its kind. They
-/// throw Error(kWrongUsage) for options that this kind does not have, and Error(kBadInput) if the
-/// case is wrong or if o.output is a file that is no sweep of this kind.
+/// throw Error(kWrongUsage) for options that this kind does not have, for a wrong --vary, and if
+/// neither --fit nor (for one sphere or a rolling one) the case gives a fit; and Error(kBadInput)
+/// if case or fit is wrong, or if o.output is a file that is no sweep of this kind.
 CaseStudy study_of_sphere(const SweepOptions& o);
 CaseStudy study_of_swimmer(const SweepOptions& o);
 CaseStudy study_of_rolling_sphere(const SweepOptions& o);
 
-/// The rows of a sweep of a case of many particles. Throws the errors of study_of_sphere().
+/// The rows of a sweep of a case of many particles. Throws Error(kWrongUsage) for options that this
+/// kind does not have, for a wrong --vary, and if nothing is varied; and Error(kBadInput) if the
+/// case is wrong, or if o.output or its table of means is another file.
 particles::ParticlesSweep sweep_of_particles(const SweepOptions& o);
-/// The study of these rows for a picture only: it cannot compute rows.
+/// The study of these rows for a picture only: it cannot compute rows. Throws Error(kBadInput) if
+/// the case is wrong.
 CaseStudy study_of_particles(const particles::ParticlesSweep& sweep);
 /// Computes the rows here, submits them to a cluster (--launcher slurm), computes those of one task
 /// (--task), or collects finished rows (--gather). With --dry-run prints how long the rows take.
+/// Throws Error(kNotConverged) if all rows failed, or with --gather if rows are missing;
+/// Error(kExternalProgram) if Slurm fails; Error(kBadInput) if a file cannot be written; and
+/// Error(kInterrupted) after Ctrl-C. One failed row among others is no error.
 void sweep_many_particles(const SweepOptions& o, const particles::ParticlesSweep& sweep);
 
 }  // namespace viscontact::app
