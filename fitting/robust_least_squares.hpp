@@ -26,7 +26,8 @@ struct RobustSolution {
 /// The x that minimises the sum of loss((A x - b)_i/scale) over the rows i, with A = `matrix` and
 /// b = `right_hand_side`, by iteratively reweighted least squares. Throws the errors of
 /// solve_least_squares(), Error(kNotConverged) if 1000 reweightings do not suffice, and
-/// Error(kInterrupted) if `stop` requests a stop, which is checked before each reweighting.
+/// Error(kInterrupted) if `stop` requests a stop, which is checked before each reweighting; with
+/// Loss::kSquared there is none.
 RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right_hand_side,
                                           lubrication::Loss loss, const StopToken& stop = {});
