@@ -63,7 +63,7 @@ struct TableHead {
   /// True if the neighbour moves. The force may then be along the sphere's velocity.
   bool neighbour_moves = false;
   /// Theory's coefficient k [M L/T] > 0 in the resistance R = k/q + ... of the approach at a small
-  /// gap q, where R is -force/velocity; nothing if not known.
+  /// gap q, where R is -force/velocity; nothing if not known. A file with k <= 0 is refused.
   std::optional<double> leading_coefficient;
   /// Theory's coefficient of ln q (sliding, rolling) or q ln q (spinning) in the force factor and
   /// in the torque factor of MotionRow [1 over the unit of the term], of any sign, with q in the
