@@ -16,7 +16,7 @@ struct RobustSolution {
   /// the M-estimate (Huber 1981, section 7.6), scale^2 sum psi^2/(n - p)/(mean psi')^2 (A^T A)^-1,
   /// with the derivative psi of the loss at residual/scale, n rows and p columns.
   LeastSquaresSolution least_squares;
-  /// Weight of each row, > 0 and at most 1; all are 1 with Loss::kSquared.
+  /// Weight of each row [1], in the order of A, > 0 and at most 1; all are 1 with Loss::kSquared.
   Eigen::VectorXd row_weights;
   /// Scale of the residuals A x - b, >= 0, in the unit of b: 1.4826 sqrt(n/max(1, n - p)) times the
   /// median of their absolute values, which estimates the standard deviation of Gaussian residuals.

@@ -25,9 +25,9 @@ struct RollingForce {
 
 /// The symmetric matrix that maps a RollingVelocity to the force and torque against it.
 struct RollingResistance {
-  double slide = 0;       ///< force per velocity [M/T]
-  double roll = 0;        ///< torque per angular velocity [M L^2/T]
-  double slide_roll = 0;  ///< [M L/T]; the entries off the diagonal are -slide_roll
+  double slide = 0;       ///< force per velocity [M/T], > 0 by theory (not checked)
+  double roll = 0;        ///< torque per angular velocity [M L^2/T], > 0 by theory (not checked)
+  double slide_roll = 0;  ///< [M L/T], any sign; the entries off the diagonal are -slide_roll
 };
 
 /// The resistances of the fluid as functions of the gap q, and their derivatives by ln q.

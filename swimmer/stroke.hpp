@@ -38,9 +38,8 @@ Stroke polygon_stroke(const std::vector<Eigen::VectorXd>& corners, double period
 
 /// Straight legs between samples of the arms [L] at rising times [T], at constant velocity each.
 /// Needs at least two samples and as many times. The first time is the beginning of the stroke,
-/// which becomes 0, and the last sample closes the loop. Throws
-/// Error(kBadInput) if the last sample differs from the first one by more than 1e-9 of its largest
-/// arm.
+/// which becomes 0, and the last sample closes the loop. Throws Error(kBadInput) if the last sample
+/// differs from the first one by more than 1e-9 of the largest arm.
 Stroke sampled_stroke(const std::vector<double>& times,
                       const std::vector<Eigen::VectorXd>& samples);
 

@@ -39,7 +39,7 @@ std::filesystem::path journal_path(const std::filesystem::path& table_path,
                                    const std::string& writer = {});
 
 /// The name "NUMBER-of-COUNT.HOST.PROCESS" of this process as the writer of a journal. It computes
-/// part `number`, from 1 (not checked), of the `count` parts into which the rows of a table are
+/// part `number`, from 0 (not checked), of the `count` parts into which the rows of a table are
 /// divided. HOST and PROCESS, the process id, make the name unique among all running processes.
 std::string writer_name(std::size_t number, std::size_t count);
 
