@@ -25,12 +25,14 @@ struct BasisResult {
 
 /// Fits the table in each of all_bases(), in this order, and then in the basis of `settings` if
 /// that is a user's list of terms. Each fit has the other settings of `settings`. An Error of a fit
-/// is stored in its result and not thrown, except Error(kInterrupted) if `stop` requests a stop.
+/// is stored in its result and not thrown, except Error(kInterrupted) if `stop` requests a stop,
+/// which is checked before each fit and during robust ones. The table has at least one row.
 std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
                                        const FitSettings& settings, const StopToken& stop = {});
 
 /// The element of `results` whose fit has the smallest FitDiagnostics::information_criterion; null
-/// if no fit has a criterion. Every fit must have diagnostics, as those of compare_bases() do.
+/// if no fit has a criterion. Every fit must have diagnostics (not checked), as those of
+/// compare_bases() do. Of equal criteria the first one counts.
 const BasisResult* best_basis(const std::vector<BasisResult>& results);
 
 }  // namespace viscontact::fitting

@@ -30,23 +30,23 @@ struct FitSettings {
   /// The fixed coefficient of 1/q in the force at the velocity u0 of the table's first row
   /// [M L^2/T^2]; in theory -k u0 if the resistance is k/q near contact. Needs `fix_leading`.
   std::optional<double> leading_value{};
-  /// Empty, or for each row of the table a force > 0 [M L/T^2], by which its residual is divided in
-  /// place of the force of the row.
+  /// Empty, or for each row of the table, in its order, a force > 0 [M L/T^2], by which its
+  /// residual is divided in place of the force of the row.
   std::vector<double> row_scales{};
   /// What the fitted resistance must be according to theory: kDrag, positive and decreasing with
   /// the gap; kPositive, positive; kAny, anything. Diagnostics warn of another result.
   lubrication::FittedShape shape = lubrication::FittedShape::kDrag;
 };
 
-/// Fits a table with at least one row. A force F at the velocity u counts as F u0/u at the velocity
-/// u0 of the first row, because Stokes flow is linear in the velocity. All members of the fit are
-/// set except table_sha256 and versions. Throws Error(kBadInput) if the table has fewer different
-/// gaps than coefficients to fit or than two, if `row_scales` is not as its comment says, if F/u of two rows of equal gap differs by more than
-/// the sum of their error estimates (unless both are 0: not known), if `fix_leading` is true but
-/// the basis has no other term, lacks 1/q, or there is no value for its coefficient, or if double
-/// precision cannot hold the result; Error(kNotConverged) if the terms are linearly dependent on
-/// these gaps or the robust loss does not converge; Error(kInterrupted) if `stop` requests a stop
-/// during a robust fit.
+/// Fits a table with at least one row (not checked). A force F at the velocity u counts as F u0/u
+/// at the velocity u0 of the first row, because Stokes flow is linear in the velocity. All members
+/// of the fit are set except table_sha256 and versions. Throws Error(kBadInput) if the table has
+/// fewer different gaps than coefficients to fit or than two, if `row_scales` is not as its comment
+/// says, if F/u of two rows of equal gap differs by more than the sum of their error estimates
+/// (unless both are 0: not known), if `fix_leading` is true but the basis has no other term, lacks
+/// 1/q, or there is no value for its coefficient, or if double precision cannot hold the result;
+/// Error(kNotConverged) if the terms are linearly dependent on these gaps or the robust loss does
+/// not converge; Error(kInterrupted) if `stop` requests a stop during a robust fit.
 lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const FitSettings& settings,
                                  const StopToken& stop = {});
 

@@ -11,8 +11,9 @@ namespace viscontact::fitting {
 struct LeastSquaresSolution {
   /// x, with an entry for each column of A; its unit is that of b over that of the column.
   Eigen::VectorXd coefficients;
-  /// Covariance matrix of x: s^2 (A^T A)^-1 with s^2 = |A x - b|^2/(rows - columns), the variance
-  /// of a residual. All entries are 0 if rows == columns.
+  /// Covariance matrix of x, with a row and a column for each entry of x: s^2 (A^T A)^-1 with s^2 =
+  /// |A x - b|^2/(rows - columns), the variance of a residual. All entries are 0 if rows ==
+  /// columns.
   Eigen::MatrixXd covariance;
   /// Condition number of A with its columns scaled to length 1, >= 1.
   double condition_number = 0;

@@ -16,7 +16,7 @@ struct RobustSolution {
   /// the M-estimate (Huber 1981, section 7.6), scale^2 sum psi^2/(n - p)/(mean psi')^2 (A^T A)^-1,
   /// with the derivative psi of the loss at residual/scale, n rows and p columns.
   LeastSquaresSolution least_squares;
-  /// Weight of each row, > 0 and at most 1; all are 1 with Loss::kSquared.
+  /// Weight of each row [1], in the order of A, > 0 and at most 1; all are 1 with Loss::kSquared.
   Eigen::VectorXd row_weights;
   /// Scale of the residuals A x - b, >= 0, in the unit of b: 1.4826 sqrt(n/max(1, n - p)) times the
   /// median of their absolute values, which estimates the standard deviation of Gaussian residuals.
@@ -26,7 +26,8 @@ struct RobustSolution {
 /// The x that minimises the sum of loss((A x - b)_i/scale) over the rows i, with A = `matrix` and
 /// b = `right_hand_side`, by iteratively reweighted least squares. Throws the errors of
 /// solve_least_squares(), Error(kNotConverged) if 1000 reweightings do not suffice, and
-/// Error(kInterrupted) if `stop` requests a stop, which is checked before each reweighting.
+/// Error(kInterrupted) if `stop` requests a stop, which is checked before each reweighting; with
+/// Loss::kSquared there is none.
 RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right_hand_side,
                                           lubrication::Loss loss, const StopToken& stop = {});

@@ -16,20 +16,20 @@ namespace viscontact::fitting {
 struct ShiftedRow {
   /// Gap q [L] between sphere and crests of the roughness, > 0.
   double gap = 0;
-  /// The shift s [L] of this row alone: the solution of R_smooth(q + s) = R_rough(q).
+  /// The shift s [L] of this row alone, of any sign: the solution of R_smooth(q + s) = R_rough(q).
   double shift = 0;
   /// R_smooth(q + q_s)/R_rough(q) - 1 [1], with the common shift q_s.
   double relative_residual = 0;
-  /// Relative error estimate of the rough wall's force [1], >= 0.
+  /// Relative error estimate of the rough wall's force [1], >= 0; 0: not known.
   double relative_error_estimate = 0;
 };
 
 /// The common shift of all rows, with its residuals.
 struct WallShift {
-  double shift = 0;  ///< q_s [L]
-  /// The largest |relative residual| of the rows.
+  double shift = 0;  ///< q_s [L], >= 0
+  /// The largest |relative residual| of the rows [1].
   double largest_relative_residual = 0;
-  /// Root mean square of the relative residuals.
+  /// Root mean square of the relative residuals [1], >= 0.
   double rms_relative_residual = 0;
   std::vector<ShiftedRow> rows;  ///< in the order of the table
 };
@@ -38,7 +38,8 @@ struct WallShift {
 /// (R_smooth(q + q_s)/R_rough(q) - 1)^2. All q + q_s are in the fitted interval of `smooth`. Throws
 /// Error(kBadInput) if `smooth` has a formula for gaps outside this interval (OutsideInterval), if
 /// viscosity or radius of table and smooth force differ, or if a resistance of the table is not one
-/// of the smooth force in its interval; Error(kNotConverged) after 100 steps of the iteration.
+/// of the smooth force in its interval; Error(kNotConverged) after 100 steps of the iteration. Not
+/// checked: that there is a row, and that one shift can bring all gaps into the interval.
 WallShift fit_wall_shift(const lubrication::MotionTable& rough,
                          const lubrication::LubricationForce& smooth);
 

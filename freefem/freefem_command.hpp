@@ -18,11 +18,11 @@ namespace viscontact::freefem {
 /// Name of the environment variable with the time limit of a FreeFEM process [s].
 inline constexpr const char* kTimeLimit = "VISCONTACT_FREEFEM_TIME_LIMIT";
 
-/// The value of the environment variable VISCONTACT_FREEFEM if it is set, else FreeFem++-nw: a name
-/// to look for on PATH, or a path.
+/// The value of the environment variable VISCONTACT_FREEFEM if it is set and not empty, else
+/// FreeFem++-nw: a name to look for on PATH, or a path. It is not checked.
 std::string executable_of_user();
 
-/// The value of VISCONTACT_FREEFEM_TIME_LIMIT in seconds, or nothing if it is not set. Throws
+/// The value of VISCONTACT_FREEFEM_TIME_LIMIT [s], or nothing if it is not set or empty. Throws
 /// Error(kWrongUsage) if it is not a whole number from 1 to 10 million.
 std::optional<std::chrono::seconds> time_limit_of_user();
 
@@ -37,12 +37,13 @@ std::filesystem::path find_script_folder(std::string_view part, std::string_view
 struct Command {
   std::vector<std::string> arguments;    ///< the program and its arguments
   std::vector<std::string> environment;  ///< "NAME=value" each, for this process only
-  std::string folder;                    ///< working folder
+  std::string folder;                    ///< working folder, an absolute path
 };
 
 /// The command that runs a script of `script_folder` without graphics and on one thread.
 /// `executable` is a name to look for on PATH, or a path relative to the current folder.
 /// `arguments` are passed to the script: "-name" and "value" alternate, each an element of its own.
+/// Whether program and script exist is not checked.
 Command make_command(const std::string& executable, const std::filesystem::path& script_folder,
                      std::string_view script, const std::vector<std::string>& arguments);
 
@@ -53,8 +54,8 @@ struct Package {
 };
 
 /// The package that has installed an executable, which is a path or a name to look for on PATH.
-/// Nothing if there is none, or if the system has no dpkg. Throws Error(kInterrupted) if `stop`
-/// requests a stop.
+/// Nothing if there is none, if the system has no dpkg, or if dpkg takes more than 10 s. Throws
+/// Error(kInterrupted) if `stop` requests a stop.
 std::optional<Package> package_of(const std::string& executable, const StopToken& stop = {});
 
 /// What to do if FreeFEM cannot be run, for an error message.

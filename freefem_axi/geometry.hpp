@@ -24,7 +24,8 @@ struct GeometryParameter {
   std::string_view key;   ///< its key in the table `geometry` of a case file, such as "radius"
   std::string_view flag;  ///< its argument of the script, such as "-neighbourRadius"
   Allowed allowed;        ///< the values that are accepted
-  /// Value for a case without this key; nothing if the key is required.
+  /// Value for a case without this key, in the unit of the parameter; nothing if the key is
+  /// required.
   std::optional<double> fallback;
   /// True: the head of a table names the parameter only if it differs from the fallback.
   bool is_named_if_given = false;
@@ -32,15 +33,16 @@ struct GeometryParameter {
 
 /// The space that a sphere at one gap and its neighbour need [L].
 struct RequiredSpace {
-  double container_radius = 0;  ///< the container's radius must be larger
-  double container_height = 0;  ///< the container's height must be larger
-  double largest_gap = std::numeric_limits<double>::infinity();  ///< largest gap that is allowed
+  double container_radius = 0;  ///< >= 0; the container's radius must be larger
+  double container_height = 0;  ///< >= 0; the container's height must be larger
+  /// Largest gap that is allowed; <= 0 if the sphere has no room.
+  double largest_gap = std::numeric_limits<double>::infinity();
 };
 
 /// The motions of a geometry that lists none in geometry.cpp.
 inline constexpr std::array kApproachAlone = {lubrication::MotionKind::kApproach};
 
-/// A kind of neighbour and what its tables need.
+/// A kind of neighbour and what its tables need. The functions check and throw nothing.
 struct Geometry {
   /// The name, which is the key `kind` of `geometry` in the case file.
   std::string_view name;
@@ -54,7 +56,8 @@ struct Geometry {
   /// sphere [1]. Null: the neighbour is always at rest.
   double (*neighbour_ratio)(lubrication::MotionKind motion, std::span<const double> parameters);
   /// Lubrication theory's k in R = k/q + ... near contact, over that of a plane, 6 pi mu r^2 [1].
-  /// It depends on curvature and velocity of the neighbour. Null: not known.
+  /// It depends on curvature and velocity of the neighbour; <= 0 if the neighbour moves away at
+  /// least as fast as the sphere follows. Null: not known.
   double (*leading_factor)(double radius, std::span<const double> parameters);
   /// The space that a sphere of radius `radius` [L] at the gap `gap` [L] needs.
   RequiredSpace (*required_space)(double radius, double gap, std::span<const double> parameters);
@@ -86,9 +89,9 @@ const Geometry& default_geometry();
 /// True if `motion` is one of geometry.motions.
 bool has_motion(const Geometry& geometry, lubrication::MotionKind motion);
 
-/// The motions with these names, in the order of MotionKind; {"all"} stands for all motions of the
-/// geometry with the name `geometry`. Throws Error(kBadInput) for an unknown name, a name that
-/// stands twice, and a motion that the geometry lacks.
+/// The motions with these names, in the order of MotionKind, none for no names; {"all"} stands for
+/// all motions of the geometry with the name `geometry`. Throws Error(kBadInput) for an unknown
+/// name, a name that stands twice, a motion that the geometry lacks, and an unknown geometry.
 std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string>& names,
                                                    std::string_view geometry);
 

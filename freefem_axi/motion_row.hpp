@@ -20,15 +20,17 @@ enum class MotionGroup { kAlong = 0, kAcross = 1, kAround = 2 };
 std::vector<lubrication::MotionKind> motions_of(MotionGroup group);
 
 /// True if the neighbour is a sphere outside the other one; its force and torque are computed, too.
+/// Throws Error(kBadInput) if there is no geometry with the name tabulation.geometry.
 bool neighbour_is_sphere(const Tabulation& tabulation);
 
-/// Solves the motions of a group, kAcross or kAround, at the gap `gap` [L] > 0 and the velocity 1
-/// [L/T] or angular velocity 1 [1/T] in a FreeFEM process. The rows are in the order of
-/// motions_of(). `further_arguments` are added to the command line of FreeFEM. If `output` is not
-/// null, it is set to everything that FreeFEM printed. Throws Error(kExternalProgram) if FreeFEM
-/// fails or exceeds its time limit, or if the torque of sliding and the force of rolling, which
-/// must agree by the reciprocal theorem (Lorentz 1896), differ by more than their error estimates;
-/// Error(kInterrupted) if freefem.stop requests a stop.
+/// Solves the motions of a group, kAcross or kAround (not checked), at the gap `gap` [L] > 0 and
+/// the velocity 1 [L/T] or angular velocity 1 [1/T] in a FreeFEM process. The rows are in the order
+/// of motions_of(). `further_arguments` are added to the command line of FreeFEM. If `output` is
+/// not null, it is set to everything that FreeFEM printed. Throws Error(kExternalProgram) if
+/// FreeFEM fails or exceeds its time limit, or if the torque of sliding and the force of rolling,
+/// which must agree by the reciprocal theorem (Lorentz 1896), differ by more than their error
+/// estimates; Error(kBadInput) for an unknown geometry; Error(kInterrupted) if freefem.stop
+/// requests a stop.
 std::vector<lubrication::MotionRow> solve_motions(
     const FreeFem& freefem, const Tabulation& tabulation, MotionGroup group, double gap,
     const std::vector<std::string>& further_arguments = {}, std::string* output = nullptr);

@@ -27,7 +27,9 @@ using TablePath = std::function<std::filesystem::path(lubrication::MotionKind)>;
 /// form one group and are both solved, even if one table only is asked for. The plan itself writes
 /// the table of the first asked motion, to the path that the caller passes on; the other table, if
 /// asked for, is its companion at `path_of(motion)`. A table has for each velocity all gaps, both
-/// in the given order. TablePlan::solve throws the errors of solve_row() or solve_motions().
+/// in the given order. Throws Error(kBadInput) for an unknown geometry. TablePlan::solve throws the
+/// errors of solve_row() or solve_motions(). That a motion of the group is asked for is not
+/// checked.
 TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
                             const TablePath& path_of);
 

@@ -21,14 +21,15 @@ enum class BoundaryKind { kWall, kSphere, kAxis, kShearFree, kInterface };
 /// A curved edge of a boundary.
 struct BoundaryEdge {
   BoundaryKind kind = BoundaryKind::kWall;  ///< what is on the other side of the edge
-  std::array<std::size_t, 3> nodes{};       ///< numbers of both ends, then of the middle
+  /// Numbers, from 0, of the nodes at both ends, then in the middle.
+  std::array<std::size_t, 3> nodes{};
 };
 
 /// The flow of one row of a table, as a picture shows it.
 struct RowPicture {
   lubrication::MotionKind motion = lubrication::MotionKind::kApproach;  ///< of the sphere
-  double gap = 0;                                                       ///< q [L]
-  double reference_velocity = 0;  ///< u0 [L/T], or w0 [1/T] of a sphere that turns
+  double gap = 0;                                                       ///< q [L], > 0
+  double reference_velocity = 0;  ///< u0 [L/T], or w0 [1/T] of a sphere that turns; not 0
   /// The flow on the finest mesh in the half-plane (rho, z), whose origin is the point of the
   /// neighbour that is nearest to the sphere. The pressure has the mean 0 in a container, and is 0
   /// far away in unbounded fluid. If the sphere slides or rolls, the flow is (u_rho cos phi,
@@ -40,18 +41,20 @@ struct RowPicture {
   std::vector<double> stream_function;
   /// Of the other motions: u_phi [L/T] at the nodes. Empty for the approach.
   std::vector<double> azimuthal_velocity;
-  /// The mesh from which the finest mesh was made, by repeated division of triangles into four.
+  /// The mesh [L] from which the finest mesh was made, by repeated division of triangles into four.
   QuadraticMesh coarsest;
 };
 
 /// Solves the flow at the gap `gap` [L] > 0 and the velocity `reference_velocity` [L/T], or angular
 /// velocity [1/T] for kRoll and kSpin, not 0. Throws Error(kExternalProgram) if FreeFEM fails or
-/// writes an incomplete mesh, and the other errors of solve_row().
+/// writes an incomplete mesh, Error(kBadInput) for an unknown geometry, and the other errors of
+/// solve_row(), also Error(kInterrupted).
 RowPicture solve_row_for_picture(
     const FreeFem& freefem, const Tabulation& tabulation, double gap, double reference_velocity,
     lubrication::MotionKind motion = lubrication::MotionKind::kApproach);
 
-/// The text of a VTK file (.vtu) for ParaView: the flow, and stream_function or azimuthal_velocity.
+/// The text of a VTK file (.vtu) for ParaView: the flow, and stream_function or azimuthal_velocity,
+/// in the units of `picture`.
 std::string write_vtu(const RowPicture& picture);
 
 }  // namespace viscontact::freefem_axi

@@ -26,10 +26,12 @@ struct Container {
 /// The inputs of a table of F_lub over a grid of gaps and velocities. The sphere and its neighbour,
 /// the body that it approaches, have a common axis of symmetry.
 struct Tabulation {
-  double viscosity = 0;                      ///< mu [M/(L T)], > 0
-  double radius = 0;                         ///< r [L], > 0
-  std::vector<double> gaps;                  ///< q [L], all > 0
-  std::vector<double> reference_velocities;  ///< u0 [L/T], none of them 0
+  double viscosity = 0;      ///< mu [M/(L T)], > 0
+  double radius = 0;         ///< r [L], > 0
+  std::vector<double> gaps;  ///< q [L], all > 0, at least one
+  /// u0 [L/T] of motions in which the sphere moves, w0 [1/T] of those in which it turns; at least
+  /// one, none of them 0.
+  std::vector<double> reference_velocities;
   /// Larger than Geometry::required_space for all gaps. Nothing: the fluid is unbounded, or the
   /// neighbour encloses it.
   std::optional<Container> container;
@@ -42,7 +44,9 @@ struct Tabulation {
 
 /// The container in words for the head of a table: "closed cylinder, radius 40, height 80",
 /// "unbounded", or "none" if the neighbour encloses the fluid. This function and the next four
-/// throw Error(kBadInput) if there is no geometry with the name tabulation.geometry.
+/// throw Error(kBadInput) if there is no geometry with the name tabulation.geometry. The
+/// geometry_parameters must be complete: otherwise some throw std::out_of_range, others read
+/// beyond.
 std::string container_in_words(const Tabulation& tabulation);
 
 /// The neighbour in words for the head of a table: "sphere, radius 2, velocity_ratio 0".
@@ -52,8 +56,9 @@ std::string geometry_in_words(const Tabulation& tabulation);
 /// sphere [1]; 0 if the neighbour is always at rest.
 double neighbour_ratio(const Tabulation& tabulation, lubrication::MotionKind motion);
 
-/// Lubrication theory's coefficient k [M L/T] in the resistance -F_lub/u0 = k/q + ... near contact.
-/// Nothing if it is not known or too large for a double.
+/// Lubrication theory's coefficient k [M L/T] in the resistance -F_lub/u0 = k/q + ... near contact;
+/// <= 0 if the neighbour moves away at least as fast as the sphere follows. Nothing if it is not
+/// known or too large for a double.
 std::optional<double> leading_coefficient(const Tabulation& tabulation);
 
 /// The arguments of the FreeFEM script of the geometry for the row at the gap q = `gap` [L] and the
@@ -76,7 +81,8 @@ SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity);
 /// in a FreeFEM process. `further_arguments` are added to its command line. If `output` is not
 /// null, it is set to everything that FreeFEM printed, in the units of solve_scale(). Throws
 /// Error(kExternalProgram) with the last lines of FreeFEM if it fails or exceeds its time limit,
-/// Error(kBadInput) if the force is outside the range of a double, and Error(kInterrupted).
+/// Error(kBadInput) if the force is outside the range of a double or the geometry is not known, and
+/// Error(kInterrupted) if freefem.stop requests a stop.
 lubrication::MotionRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
                                  double reference_velocity,
                                  const std::vector<std::string>& further_arguments = {},

@@ -33,7 +33,7 @@ enum class Misfit {
   kUnknown
 };
 
-/// The word for the cause in fit files: "basis", "data" or "unknown".
+/// The word for the cause in fit files: "basis", "data" or "unknown". Throws nothing.
 std::string_view to_string(Misfit misfit);
 
 /// The inverse of to_string(). Throws Error(kBadInput) for another word.
@@ -41,21 +41,21 @@ Misfit parse_misfit(std::string_view word);
 
 /// A row with a residual so large that a robust loss reduces its weight (FitDiagnostics::outliers).
 struct Outlier {
-  double gap = 0;                 ///< [L]
-  double reference_velocity = 0;  ///< [L/T]
-  double relative_residual = 0;   ///< fit / table - 1
+  double gap = 0;                 ///< [L], > 0
+  double reference_velocity = 0;  ///< [L/T], not 0
+  double relative_residual = 0;   ///< fit / table - 1, any sign
 };
 
 /// A row, compared with the prediction of the fit of all other rows.
 struct LeftOutRow {
-  double gap = 0;                ///< [L]
+  double gap = 0;                ///< [L], > 0
   double relative_residual = 0;  ///< |prediction / table - 1|, >= 0
 };
 
 /// The row with the largest ratio of the residual to the error estimate of the same row.
 struct WorstToEstimate {
-  double gap = 0;                ///< [L]
-  double relative_residual = 0;  ///< fit / table - 1
+  double gap = 0;                ///< [L], > 0
+  double relative_residual = 0;  ///< fit / table - 1, any sign
   double ratio = 0;              ///< |relative_residual| / error estimate of this row, >= 0
 };
 
@@ -69,20 +69,20 @@ struct FitDiagnostics {
   std::size_t failed_rows = 0;
   /// Number of fitted coefficients; a fixed coefficient does not count.
   std::size_t free_coefficients = 0;
-  /// Gap [L] of the row with the largest relative residual.
+  /// Gap [L] > 0 of the row with the largest |relative residual|.
   double worst_gap = 0;
   /// The relative residual at worst_gap, with its sign.
   double worst_relative_residual = 0;
-  /// Largest relative error estimate of the table's rows; 0 if the table has none.
+  /// Largest relative error estimate of the table's rows, >= 0; 0 if the table has none.
   double largest_error_estimate = 0;
-  /// Largest |relative residual| of the rows that are not outliers.
+  /// Largest |relative residual| of the rows that are not outliers, >= 0.
   double largest_inlier_residual = 0;
   /// Root mean square and largest size of the relative residuals that each row has in the fit of
   /// the other rows, r_i/(1 - h_i) with the residual r_i and the leverage h_i of row i (PRESS,
   /// Allen 1974). Nothing if the coefficients cannot be determined without one of the rows.
   std::optional<double> leave_one_out_rms{},  ///< the root mean square, >= 0
       leave_one_out_largest{};                ///< the largest size, >= 0
-  /// Gap [L] of the row with the residual leave_one_out_largest.
+  /// Gap [L] of the row with the residual leave_one_out_largest; nothing if that is nothing.
   std::optional<double> leave_one_out_gap{};
   /// The inner row and the end row with the largest of these residuals. An end row is the only row
   /// at the smallest or largest gap, to which the fit of the other rows extrapolates; to all other,
@@ -90,7 +90,8 @@ struct FitDiagnostics {
   /// between rows. Nothing if leave_one_out_rms is nothing, or if the table has no such row.
   std::optional<LeftOutRow> left_out_inner{},  ///< the inner row
       left_out_end{};                          ///< the end row
-  /// Number of rows, without outliers, whose |residual| is larger than their own error estimate.
+  /// Number of rows, without outliers, whose |residual| is larger than their own error estimate; 0
+  /// also in fit files of earlier versions, which lack it.
   std::size_t rows_beyond_estimate = 0;
   /// The row with the largest ratio among the rows that are not outliers. Nothing if none of them
   /// has an error estimate, or in fit files of earlier versions, which lack it.
@@ -142,7 +143,7 @@ enum class FittedShape { kDrag, kPositive, kAny };
 
 /// One term of a fit with its coefficient.
 struct FitTerm {
-  std::string name;        ///< name of a Term
+  std::string name;        ///< name of a Term (terms.hpp); read_fit() refuses other names
   double coefficient = 0;  ///< in units of a force [M L/T^2] over that of the term
   /// Standard error of the coefficient, in the same unit, >= 0. Its formula treats the residuals as
   /// independent random noise, which the misfit of a basis is not.
@@ -191,21 +192,22 @@ struct Fit {
 inline constexpr std::string_view kExactPlane = "exact_plane";
 
 /// A fit without terms and residuals that stands for the exact drag of a plane. Its gap_interval
-/// has no meaning. `viscosity` [M/(L T)] > 0, `radius` [L] > 0.
+/// has no meaning. `viscosity` [M/(L T)] > 0, `radius` [L] > 0 (not checked).
 Fit exact_plane_fit(double viscosity, double radius);
 
 /// True if `fit` stands for the exact drag of a plane.
 bool is_exact_plane(const Fit& fit);
 
-/// The fit for a fluid of another viscosity [M/(L T)] > 0. The force is proportional to the
-/// viscosity, so all coefficients are multiplied by the same factor.
+/// The fit for a fluid of another viscosity [M/(L T)] > 0 (not checked). The force is proportional
+/// to the viscosity, so all coefficients are multiplied by the same factor.
 Fit with_viscosity(Fit fit, double viscosity);
 
-/// Reads or writes the keys of a fit file (common/text/json_fields.hpp).
+/// Reads or writes the keys of a fit file (common/text/json_fields.hpp). Reading throws the errors
+/// of read_fit().
 void fields_of(JsonFields& json, Fit& fit);
 
 /// Reads a fit file and checks it against docs/fit.schema.json. Throws Error(kBadInput) with the
-/// line, the key and what is allowed.
+/// line, the key and what is allowed, or if the file cannot be read.
 Fit read_fit(const std::filesystem::path& path);
 
 /// As read_fit(), for the text of a fit file. `file` is its name in messages.
@@ -215,8 +217,9 @@ Fit parse_fit(const std::string& text, const std::string& file);
 std::string write_fit(const Fit& fit);
 
 /// `count` >= 2 gaps [L] in geometric progression on `interval`, 0 < first < second, at which fits
-/// are checked and exported. The first and the last gap are exactly its ends. The default of 201
-/// points is also stated in the help of `export` and in docs/file-formats.md.
+/// are checked and exported. The first and the last gap are exactly its ends. Neither `count` nor
+/// `interval` is checked. The default of 201 points is also stated in the help of `export` and in
+/// docs/file-formats.md.
 std::vector<double> spread_gaps(const std::array<double, 2>& interval, int count = 201);
 
 }  // namespace viscontact::lubrication

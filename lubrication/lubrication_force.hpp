@@ -18,7 +18,8 @@ enum class BelowInterval {
   /// Not known: functions of such a gap throw Error(kBadInput).
   kError,
   /// R(q) = R(q1) + k (1/q - 1/q1), with the fitted coefficient k of 1/q. In theory R - k/q varies
-  /// only as ln q; this limit takes it as constant.
+  /// only as ln q; this limit takes it as constant. If the fit has no k > 0, functions of such a
+  /// gap throw Error(kBadInput).
   kLubricationLimit,
   /// The same formula with the coefficient k of theory (Fit::leading_coefficient).
   kTheoryLimit
@@ -46,40 +47,41 @@ struct OutsideInterval {
 
 /// The force of one fit at every velocity. Stokes flow is linear in the velocity, so a fit at u0
 /// gives F_lub(q, u) = (u/u0) F_lub(q, u0). Every function of the gap throws Error(kBadInput),
-/// which names the interval, if the gap is outside it, unless `outside` or the comment of the
-/// function allows that gap.
+/// which names the interval, if the gap is outside it or NaN, unless `outside` or the comment of
+/// the function allows that gap.
 class LubricationForce {
  public:
-  /// Throws Error(kBadInput) if the fit's resistance is not positive at one of the 201 gaps of
-  /// spread_gaps() on its interval, or if `outside` asks for theory's k and the fit does not state
-  /// it. A fit whose basis is kExactPlane gives exact_plane().
+  /// Throws Error(kBadInput) if the fit's resistance is not positive and finite at one of the 201
+  /// gaps of spread_gaps() on its interval, if a term has an unknown name, or if `outside` asks for
+  /// theory's k and the fit states none > 0. A fit whose basis is kExactPlane gives exact_plane().
   explicit LubricationForce(const Fit& fit, const OutsideInterval& outside = {});
 
   /// The exact drag of a sphere near a no-slip plane in a half-space (plane_drag.hpp), for gaps
-  /// from 1e-300 to 1e300 radii. A smaller gap throws Error(kNotConverged). `viscosity` [M/(L T)] >
-  /// 0, `radius` [L] > 0.
+  /// from 1e-300 to 1e300 radii. A smaller gap >= 0 throws Error(kNotConverged). `viscosity`
+  /// [M/(L T)] > 0, `radius` [L] > 0 (not checked).
   static LubricationForce exact_plane(double viscosity, double radius);
 
   /// R(q) = -F_lub(q, u)/u [M/T], > 0. Throws Error(kNotConverged) if R is larger than the largest
   /// double, which can happen below the interval.
   double resistance(double gap) const;
 
-  /// dR/d ln q = q dR/dq [M/T].
+  /// dR/d ln q = q dR/dq [M/T], of any sign.
   double resistance_log_slope(double gap) const;
 
-  /// R(q) - k/q [M/T] with the fitted k, for q >= 0. Below the interval it is constant: the value
-  /// at the smallest fitted gap.
+  /// R(q) - k/q [M/T] with the fitted k (0 without a term 1/q), for q >= 0. Below the
+  /// interval it is constant: the value at the smallest fitted gap.
   double regular_resistance(double gap) const;
 
   /// int_0^q (R(s) - k/s) ds [M L/T] for q >= 0, with the same constant below the interval.
   double regular_impulse(double gap) const;
 
   /// Gamma(q) = int_r^q R(s) ds [M L/T], r the sphere's radius. It is computed from a closed form
-  /// and increases with q.
+  /// and increases with q; it is < 0 for q < r.
   double impulse(double gap) const;
 
   /// The gap q [L] with Gamma(q) = impulse [M L/T], to round-off. Throws Error(kBadInput) if the
-  /// gap is outside interval(), and Error(kNotConverged) if it is too small for a double.
+  /// gap is outside interval() or `impulse` is not finite, and Error(kNotConverged) if the gap is
+  /// too small for a double.
   double gap_of_impulse(double impulse) const;
 
   /// k [M L/T]: the coefficient of 1/q in R; for a plane 6 pi mu r^2 in theory. Throws
@@ -90,8 +92,8 @@ class LubricationForce {
   /// first is 0; with a limit above the second is infinity.
   std::array<double, 2> interval() const;
 
-  double radius() const { return radius_; }        ///< r [L]
-  double viscosity() const { return viscosity_; }  ///< mu [M/(L T)]
+  double radius() const { return radius_; }        ///< r [L], > 0
+  double viscosity() const { return viscosity_; }  ///< mu [M/(L T)], > 0
 
  private:
   /// R(q) = k/q + constant below the interval; k [M L/T], constant [M/T].

@@ -38,8 +38,8 @@ struct MotionRow : Action {
   double reference_velocity = 0;
   /// Force and torque on the neighbour. Nothing in the approach, and if the neighbour is no sphere.
   std::optional<Action> neighbour{};
-  double degrees_of_freedom = 0;  ///< unknowns on the finest mesh
-  double seconds = 0;             ///< wall time of the row [s]
+  double degrees_of_freedom = 0;  ///< unknowns on the finest mesh, >= 0; 0: not known
+  double seconds = 0;             ///< wall time of the row [s], >= 0; 0: not known
   /// Observed order of convergence in the mesh size [1]: 4 in theory, 0 if it was not observed.
   double observed_order = 0;
 };
@@ -48,21 +48,21 @@ struct MotionRow : Action {
 using MotionTable = Table<MotionRow>;
 
 /// The columns of a row: gap and velocity, force and torque on the sphere, how the row was
-/// computed, and force and torque on the neighbour if `row` has one.
+/// computed, and force and torque on the neighbour if `row` has one. They point into `row`.
 std::vector<Column> columns_of(const TableHead& head, MotionRow& row);
 
 /// Adds a neighbour unless the motion is the approach.
 void prepare(const TableHead& head, MotionRow& row);
 
 /// Computes a force or torque that is NaN from its factor, and a factor that is NaN from the force
-/// or torque. If factors of the neighbour are still NaN, the neighbour is removed.
+/// or torque. If factors of the neighbour are still NaN, the neighbour is removed. Throws nothing.
 void complete(const TableHead& head, MotionRow& row);
 
 /// Throws Error(kBadInput) with the position `here` if a factor is not finite, or if the neighbour
 /// is at rest and the force (torque, if the sphere turns) is not opposed to the velocity.
 void check(const TableHead& head, const MotionRow& row, const FilePosition& here);
 
-/// The largest error estimate of sphere and neighbour in the row [1], >= 0.
+/// The largest error estimate of sphere and neighbour in the row [1], >= 0; 0: none is known.
 double largest_estimate(const MotionRow& row);
 
 /// Force and torque F and T over factors and velocity v [L/T] (approach, slide) or angular velocity
@@ -72,23 +72,25 @@ struct ActionUnits {
   double torque = 0;  ///< 8 pi mu r^2 [M L/T] or 8 pi mu r^3 [M L^2/T]
 };
 /// These numbers for a sphere of radius `radius` [L] > 0 and a fluid of viscosity `viscosity`
-/// [M/(L T)] > 0.
+/// [M/(L T)] > 0 (not checked).
 ActionUnits action_units(MotionKind motion, double viscosity, double radius);
 
 /// True if the path is a regular file whose head says that it is a table of another motion than the
-/// approach. A pipe is not read, because it cannot be read a second time.
+/// approach; false also if it cannot be opened. A pipe is not read, because it cannot be read a
+/// second time.
 bool is_motion_table(const std::filesystem::path& path);
 
 /// Reads a table of any motion; a head that names no motion means the approach. The columns gap,
 /// reference_velocity and force are required, and torque if the motion is not the approach; the
 /// others may be absent in a table that Viscontact did not write. Throws Error(kBadInput) with file
-/// and line for a value that is missing or out of range, and the errors of check().
+/// and line for a value that is missing or out of range, for a file without rows or with another
+/// number of rows than its head says, or that cannot be read; and the errors of check().
 MotionTable read_motion_table(const std::filesystem::path& path);
 
 /// As read_motion_table(), but throws Error(kBadInput) for another motion than the approach.
 MotionTable read_force_table(const std::filesystem::path& path);
 
-/// The text of the file.
+/// The text of the file. `table` has at least one row (not checked).
 std::string write_motion_table(const MotionTable& table);
 
 }  // namespace viscontact::lubrication

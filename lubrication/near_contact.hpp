@@ -31,8 +31,9 @@ struct LeadingFactors {
   double torque = 0;  ///< in the torque factor of the sphere [1]
 };
 
-/// The coefficients for kSlide, kRoll or kSpin, with q in sphere radii (Goldman, Cox & Brenner 1967
-/// for a plane; Jeffrey & Onishi 1984 for two spheres).
+/// The coefficients for kSlide, kRoll or kSpin (kApproach gives those of kRoll), with q in sphere
+/// radii; of any sign, without meaning if `neighbour` is not as its comments say (Goldman, Cox &
+/// Brenner 1967 for a plane; Jeffrey & Onishi 1984 for two spheres).
 LeadingFactors leading_factors(MotionKind motion, const NeighbourSurface& neighbour);
 
 }  // namespace viscontact::lubrication

@@ -20,8 +20,9 @@ namespace viscontact::lubrication {
 /// velocity, and 3 for a torque per angular velocity. A term q^n ln q becomes a sum of the terms
 /// q^n ln q and q^n, because ln(q r/r') = ln q - ln(r'/r); q^n is added to the fit if it lacks it.
 /// Interval, leading coefficient, errors, and lengths in the words for geometry and container are
-/// scaled, too. If both radii are equal up to rounding, only the factor mu'/mu is applied. Throws
-/// Error(kBadInput) for a term that is not in all_terms().
+/// scaled, too. If both radii are equal up to rounding, only the factor mu'/mu is applied. For a
+/// fit of kExactPlane the result is exact_plane_fit(). Throws Error(kBadInput) for a term that is
+/// not in all_terms(); that mu' and r' are > 0 is not checked.
 Fit scaled_to(Fit fit, double viscosity, double radius, int power = 1);
 
 /// The factor by which scaled_to() multiplies the coefficient of a term q^n or q^n ln q, besides
@@ -29,8 +30,8 @@ Fit scaled_to(Fit fit, double viscosity, double radius, int power = 1);
 /// that is not in all_terms().
 double scale_of_term(std::string_view term, double ratio);
 
-/// Words such as "sphere, radius 2, velocity_ratio 0" with all lengths multiplied by `factor`. Each
-/// number after a word that does not end in "_ratio" counts as a length.
+/// Words such as "sphere, radius 2, velocity_ratio 0" with all lengths multiplied by `factor` [1].
+/// Each number after a word that does not end in "_ratio" counts as a length. Throws nothing.
 std::string with_lengths_scaled(const std::string& words, double factor);
 
 /// True if both texts have equal words in the same order; numbers may differ by rounding.

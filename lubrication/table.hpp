@@ -34,7 +34,7 @@ struct NamedMotion {
 /// All motions, in the order of MotionKind.
 std::span<const NamedMotion> all_motions();
 
-/// The name of a motion.
+/// The name of a motion. Throws nothing.
 std::string_view to_string(MotionKind motion);
 
 /// The motion with this name. Throws Error(kBadInput), which lists the names, if there is none.
@@ -42,7 +42,8 @@ MotionKind parse_motion(std::string_view name);
 
 /// The names, separated by commas, as in the head of a table: "approach, slide"; or an empty text.
 std::string motions_in_words(const std::vector<MotionKind>& motions);
-/// The motions of a text that motions_in_words() made. Throws the errors of parse_motion().
+/// The motions of a text that motions_in_words() made; none if it is empty. Throws the errors of
+/// parse_motion().
 std::vector<MotionKind> parse_motions_in_words(const std::string& words);
 
 /// The fewest and the most spheres on a line in a table of resistance matrices. With ten spheres a
@@ -56,16 +57,17 @@ struct TableHead {
   MotionKind motion = MotionKind::kApproach;
   double viscosity = 0;       ///< mu [M/(L T)], > 0
   double radius = 0;          ///< r of the sphere [L], > 0; 0 in a table of resistance matrices
-  std::vector<double> radii;  ///< of spheres along a line [L], > 0, at least 2; else empty
+  std::vector<double> radii;  ///< of spheres along a line [L], > 0, 2 to 10; else empty
   std::string geometry;       ///< what the sphere approaches, in words; may be empty
   std::string container;      ///< walls around the fluid, in words; may be empty
   /// True if the neighbour moves. The force may then be along the sphere's velocity.
   bool neighbour_moves = false;
-  /// Theory's coefficient k [M L/T] in the resistance R = k/q + ... of the approach at a small gap
-  /// q, where R is -force/velocity; nothing if not known.
+  /// Theory's coefficient k [M L/T] > 0 in the resistance R = k/q + ... of the approach at a small
+  /// gap q, where R is -force/velocity; nothing if not known. A file with k <= 0 is refused.
   std::optional<double> leading_coefficient;
   /// Theory's coefficient of ln q (sliding, rolling) or q ln q (spinning) in the force factor and
-  /// in the torque factor of MotionRow, with q in the unit of the table; nothing if not known.
+  /// in the torque factor of MotionRow [1 over the unit of the term], of any sign, with q in the
+  /// unit of the table; nothing if not known.
   std::optional<double> leading_force_factor,  ///< the coefficient in the force factor
       leading_torque_factor;                   ///< the coefficient in the torque factor
   std::string case_hash;  ///< SHA-256 of the tabulation's inputs; empty if the table has none
@@ -93,9 +95,9 @@ enum class IfAbsent { kRefused, kZero, kComputed, kAlwaysComputed };
 /// A column of a table, and its number in one row.
 struct Column {
   std::string name;                      ///< in the header line of the file
-  double* number = nullptr;              ///< address of a member of the row
+  double* number = nullptr;              ///< address of a member of the row; not null
   IfAbsent if_absent = IfAbsent::kZero;  ///< columns with kRefused stand before the others
-  Allowed allowed = kFinite;             ///< what the number may be
+  Allowed allowed = kFinite;             ///< what a number in a file may be; others are refused
 };
 
 }  // namespace viscontact::lubrication

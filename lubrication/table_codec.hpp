@@ -22,19 +22,22 @@
 namespace viscontact::lubrication {
 
 /// Reads the head in the text of a file; `file` is its name in messages, `is_of_line` is
-/// Row::kIsOfLine. Throws Error(kBadInput) with file and key if a line is missing or wrong.
+/// Row::kIsOfLine. Throws Error(kBadInput) with file and key if a line is missing or wrong, or if
+/// motion, viscosity, radii or a leading coefficient stands twice with different values.
 TableHead read_head(const std::string& text, const std::string& file, bool is_of_line);
 
-/// The lines of the head of a table with `rows` rows.
+/// The lines of the head of a table with `rows` rows. Throws nothing.
 CsvComments lines_of(const TableHead& head, std::size_t rows);
 
-/// Sets the numbers of a row from the fields of its line, one for each column; an empty field is
-/// nothing. Throws Error(kBadInput) for a number that is missing or out of range.
+/// Sets the numbers of a row from the fields of its line, one for each column (not checked); an
+/// empty field is nothing, and its number 0 or NaN (IfAbsent). Throws Error(kBadInput) for a number
+/// that is missing or out of range.
 void set_numbers(const std::vector<Column>& columns, std::span<const std::optional<double>> fields,
                  const FilePosition& here);
 
 /// Reads a table. Throws Error(kBadInput) with file and line if a value is missing, not finite or
-/// out of range, or if the number of rows is not that of the head (the file is truncated).
+/// out of range, if the number of rows is not that of the head (the file is truncated) or 0, or if
+/// the file cannot be read; and the errors of check().
 template <class Row>
 Table<Row> read_table(const std::filesystem::path& path) {
   const std::string file = path.string(), text = read_file(path);
@@ -60,7 +63,8 @@ Table<Row> read_table(const std::filesystem::path& path) {
 }
 
 /// The text of the file: lines "# key: value", the line of column names, and the rows. Every number
-/// has as many digits as are needed to read the same double back. `table` has at least one row.
+/// has as many digits as are needed to read the same double back. `table` has at least one row (not
+/// checked; without rows the line of column names is missing).
 template <class Row>
 std::string write_table(const Table<Row>& table) {
   std::string text = write_csv_comments(lines_of(table, table.rows.size())), numbers;

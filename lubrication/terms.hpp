@@ -1,7 +1,8 @@
 // The functions of the gap q that a fit of a force may combine, and named lists of them, the bases
 // (docs/physics.md (3.2)). q is a number > 0 in the unit of length of the fit. Used by fitting/,
 // lubrication/, motions/, rolling/, case_file/ and app/. A change must keep names and formulas,
-// which fit files and exports contain.
+// which fit files and exports contain. No function checks that q > 0: values at other q are NaN,
+// infinite, or without meaning.
 #pragma once
 
 #include <cmath>
@@ -42,13 +43,13 @@ inline constexpr std::string_view kLeadingTerm = "1/q";
 /// All terms. A new term needs only a row in the table of terms.cpp.
 std::span<const Term> all_terms();
 
-/// The term with this name, or nothing if there is none.
+/// The term with this name, or nothing if there is none. Throws nothing.
 std::optional<Term> find_term(std::string_view name);
 
 /// Sum of weight * value over all_terms() at a gap > 0. `weights` has an entry for each of these
-/// terms, in the same order; a term of weight 0 is not evaluated. The result has the dimension of a
-/// weight times that of its term. For the speed of inner loops this function and the next two
-/// compute one logarithm and call no function pointer.
+/// terms, in the same order (not checked); a term of weight 0 is not evaluated. The result has the
+/// dimension of a weight times that of its term. For the speed of inner loops this function and the
+/// next two compute one logarithm and call no function pointer.
 double sum_values(std::span<const double> weights, double gap);
 /// Sum of weight * log_slope over all_terms(), as sum_values().
 double sum_log_slopes(std::span<const double> weights, double gap);
@@ -82,7 +83,8 @@ const Basis& default_basis();
 const Basis& find_basis(std::string_view name);
 
 /// Makes a basis from names of terms that are separated by commas: "1/q, ln q, 1, q". Throws
-/// Error(kBadInput) if a name is not that of a term, or if a term is named twice.
+/// Error(kBadInput) if a name, also an empty one, is not that of a term, or if a term is named
+/// twice.
 Basis parse_terms(std::string_view names);
 
 }  // namespace viscontact::lubrication

@@ -59,8 +59,8 @@ struct EntryFit {
   /// A fit at the reference velocity -1, so that its sum of coefficients times terms is the
   /// resistance itself: [M/T] squeeze and slide, [M L/T] slide_roll, [M L^2/T] roll and spin.
   lubrication::Fit fit;
-  /// Lubrication theory's coefficient of NamedEntry::leading_term, if it is known, in the unit of
-  /// the entry over that of the term.
+  /// Lubrication theory's coefficient of NamedEntry::leading_term, of any sign, in the unit of the
+  /// entry over that of the term; nothing if it is not known.
   std::optional<double> theory;
 };
 
@@ -69,24 +69,27 @@ struct PairFit {
   double viscosity = 0;                         ///< mu [M/(L T)], > 0
   double radius = 0;                            ///< r [L], > 0
   std::string geometry;                         ///< the neighbour in words; may be empty
-  std::array<double, 2> gap_interval = {};      ///< the gaps [L] that all tables contain
-  std::map<PairEntry, EntryFit> entries;        ///< those that the fitted tables determine
+  std::array<double, 2> gap_interval = {};      ///< [L], 0 < first < second; common to all tables
+  std::map<PairEntry, EntryFit> entries;        ///< at least one: those that the tables determine
   std::map<std::string, std::string> versions;  ///< program name to version
 };
 
 /// The value of an entry at a gap [L] > 0, in the dimension that EntryFit gives. The fitted formula
-/// is also used outside fit.gap_interval. Throws Error(kBadInput) if the fit lacks the entry.
+/// is also used outside fit.gap_interval. Throws Error(kBadInput) if the fit lacks the entry. A gap
+/// <= 0 is not refused: the value is NaN or infinite.
 double entry_value(const PairFit& fit, PairEntry entry, double gap);
 
 /// The fit for another viscosity [M/(L T)] > 0 and radius [L] > 0 of the sphere, beside a neighbour
-/// of the same size in radii (lubrication/scaling.hpp).
+/// of the same size in radii (lubrication/scaling.hpp). That both are > 0 is not checked.
 PairFit scaled_to(PairFit fit, double viscosity, double radius);
 
 /// True if the path is a regular file with a PairFit. False for a pipe, which is not read, because
-/// it cannot be read a second time.
+/// it cannot be read a second time, and if there is no file. Throws Error(kBadInput) if a file
+/// cannot be read.
 bool is_pair_fit(const std::filesystem::path& path);
 
-/// Reads the file. Throws Error(kBadInput) with the line, the key and what is allowed.
+/// Reads the file. Throws Error(kBadInput) with the line, the key and what is allowed, also if
+/// there is no entry, or if an entry has another viscosity, radius or geometry than the file.
 PairFit read_pair_fit(const std::filesystem::path& path);
 
 /// The text of the file (JSON).

@@ -14,7 +14,8 @@
 namespace viscontact::rolling {
 
 /// The sphere, its start, the forces that do not depend on its motion, and the surfaces. The fluid
-/// is at rest where the plane is at rest; a plane with a constant velocity carries it along.
+/// is at rest where the plane is at rest; a plane with a constant velocity carries it along. The
+/// models do not check these ranges; case/rolling_case.cpp does. Where none is given, any sign is.
 struct RollingMotion {
   double mass = 0;               ///< m [M], > 0
   double moment_of_inertia = 0;  ///< I [M L^2], > 0
@@ -26,12 +27,12 @@ struct RollingMotion {
   double normal_force = 0;       ///< constant force along z [M L/T^2]; < 0 towards the plane
   double torque = 0;             ///< constant torque about y [M L^2/T^2]
   double plane_velocity = 0;     ///< V of the plane along x [L/T]
-  double roughness = 0;          ///< gap at which solids touch [L], >= 0
+  double roughness = 0;          ///< gap at which solids touch [L], >= 0; 0: never
   double friction = 0;           ///< Coulomb's coefficient mu_s of the solids [1], >= 0
   double end_time = 0;           ///< [T], > 0
   double time_step = 0;  ///< step of the model viscous_contact, and spacing of all rows [T], > 0
   double relative_tolerance = 1e-9;  ///< relative tolerance of the integrator CVODE [1], in (0, 1)
-  /// A stop makes the models throw Error(kInterrupted).
+  /// A stop makes all three models throw Error(kInterrupted).
   StopToken stop{};
 };
 
@@ -41,7 +42,7 @@ enum class SolidContact { kNone, kRolling, kSliding };
 /// The state of the sphere at one time.
 struct RollingRow {
   double time = 0;      ///< [T]
-  double gap = 0;       ///< q [L]; in contact in the model viscous_contact the film thickness
+  double gap = 0;       ///< q [L], > 0; in contact in the model viscous_contact the film thickness
   double position = 0;  ///< x [L], 0 at the start
   double angle = 0;     ///< angle turned about y [radians], 0 at the start
   double normal_velocity = 0;   ///< dq/dt [L/T]
@@ -53,12 +54,13 @@ struct RollingRow {
   SolidContact contact = SolidContact::kNone;
 };
 
-/// The motion of a sphere, in order of time.
+/// The motion of a sphere, in order of time; the models return at least the row of time 0.
 using RollingTrajectory = std::vector<RollingRow>;
 
 /// The model of smooth surfaces: lubrication at every gap, integrated by CVODE. Throws
-/// Error(kBadInput) if `fit` lacks squeeze, slide, roll or slide_roll, if the sphere rises above
-/// the gaps of `fit`, or if there are more than 1e8 rows; Error(kNotConverged) if CVODE gives up.
+/// Error(kBadInput) if `fit` lacks squeeze, slide, roll or slide_roll, if its squeeze is not
+/// positive in the interval, if the sphere is at the start, or rises, above the gaps of `fit`, or
+/// if there are more than 1e8 rows; Error(kNotConverged) if CVODE gives up.
 RollingTrajectory roll_smooth(const RollingMotion& motion, const motions::PairFit& fit);
 
 /// As roll_smooth(), with solid contact and Coulomb's friction at the gap `roughness`. The impact
@@ -78,21 +80,23 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
 /// How a motion ends.
 struct RollingEnd {
   RollingRow last;          ///< the last row
-  double smallest_gap = 0;  ///< smallest gap of all rows [L]
+  double smallest_gap = 0;  ///< smallest gap of all rows [L], > 0
   /// Velocity of the lowest point of the sphere relative to the plane, at the end [L/T].
   double slip = 0;
   /// Time of the first row in which the solids touch [T]; nothing if they never do.
   std::optional<double> contact_time;
 };
 
-/// The end of `trajectory`, which has at least one row, of a sphere of this radius [L].
+/// The end of `trajectory`, which has at least one row (not checked), of a sphere of this radius
+/// [L] > 0.
 RollingEnd end_of(const RollingTrajectory& trajectory, const RollingMotion& motion, double radius);
 
 /// A model by name.
 struct RollingModel {
   std::string_view name;         ///< as users type it
   std::string_view description;  ///< for pages
-  /// Computes the trajectory. `fit` has the resistances of the sphere near the plane.
+  /// Computes the trajectory, with the errors of the function above. `fit` has the resistances of
+  /// the sphere near the plane, in the units of `motion`.
   RollingTrajectory (*run)(const RollingMotion& motion, const motions::PairFit& fit);
 };
 

@@ -11,13 +11,13 @@
 
 namespace viscontact::rolling {
 
-/// Velocity of the sphere along x relative to the plane, and angular velocity about y.
+/// Velocity of the sphere along x relative to the plane, and angular velocity about y; any sign.
 struct RollingVelocity {
   double move = 0;  ///< [L/T]
   double turn = 0;  ///< [1/T]
 };
 
-/// A force along x and a torque about y, or an impulse and its moment.
+/// A force along x and a torque about y and the centre, or an impulse and its moment; any sign.
 struct RollingForce {
   double force = 0,  ///< [M L/T^2], of an impulse [M L/T]
       torque = 0;    ///< [M L^2/T^2], of an impulse [M L^2/T]
@@ -25,9 +25,9 @@ struct RollingForce {
 
 /// The symmetric matrix that maps a RollingVelocity to the force and torque against it.
 struct RollingResistance {
-  double slide = 0;       ///< force per velocity [M/T]
-  double roll = 0;        ///< torque per angular velocity [M L^2/T]
-  double slide_roll = 0;  ///< [M L/T]; the entries off the diagonal are -slide_roll
+  double slide = 0;       ///< force per velocity [M/T], > 0 by theory (not checked)
+  double roll = 0;        ///< torque per angular velocity [M L^2/T], > 0 by theory (not checked)
+  double slide_roll = 0;  ///< [M L/T], any sign; the entries off the diagonal are -slide_roll
 };
 
 /// The resistances of the fluid as functions of the gap q, and their derivatives by ln q.
@@ -38,13 +38,14 @@ class RollingFluid {
   explicit RollingFluid(const motions::PairFit& fit);
 
   /// The resistances at a gap [L] > 0. Below the interval of the fit its formula, which has the
-  /// terms of theory, is continued. Throws Error(kBadInput) above the interval.
+  /// terms of theory, is continued. Throws Error(kBadInput) above the interval. A gap <= 0 or NaN
+  /// is not refused: the results are NaN or infinite.
   RollingResistance at(double gap) const;
   RollingResistance slopes(double gap) const;  ///< d/d ln q of at(), with the same errors
 
   /// r of the sphere [L], > 0.
   double radius() const { return fit_.radius; }
-  /// Largest gap at which the resistances are known [L].
+  /// Largest gap at which the resistances are known [L], > 0.
   double largest_gap() const { return fit_.gap_interval[1]; }
 
  private:
@@ -55,12 +56,12 @@ class RollingFluid {
   std::vector<double> slide_, roll_, slide_roll_;
 };
 
-/// The force and torque of the fluid on the sphere.
+/// The force [M L/T^2] and torque [M L^2/T^2] of the fluid on the sphere. Nothing is checked.
 inline RollingForce fluid_force(const RollingResistance& r, const RollingVelocity& v) {
   return {-r.slide * v.move + r.slide_roll * v.turn, r.slide_roll * v.move - r.roll * v.turn};
 }
 
-/// The velocity of the sphere's lowest point relative to the plane [L/T].
+/// The velocity of the sphere's lowest point relative to the plane [L/T]; `radius` [L] > 0.
 inline double slip_of(const RollingVelocity& v, double radius) { return v.move - radius * v.turn; }
 
 /// Dry friction (Coulomb): its force along x on the lowest point of a sphere, and what the sphere
@@ -72,9 +73,13 @@ struct Friction {
 };
 
 /// Coulomb's friction T on the lowest point of a sphere. The slip of this point would be `slip`
-/// [L/T] without friction, and is `slip` + `compliance` T with it, where T is an impulse. T may
-/// also be a force, and `slip` the rate of the slip [L/T^2]. If |T| <= bound is enough to make the
-/// slip 0, it is 0; otherwise T is bound or -bound, against the slip. compliance > 0, bound >= 0.
+/// without friction, and is `slip` + `compliance` T with it. If |T| <= bound is enough to make the
+/// slip 0, it is 0 (kRolling); otherwise T is bound or -bound, against the slip (kSliding). The
+/// units are, by what the caller wants:
+///   T, bound [M L/T^2], a force;   slip [L/T^2], its rate;   compliance [1/M]
+///   T, bound [M L/T], an impulse;  slip [L/T];               compliance [1/M]
+///   T, bound [M L/T^2], a force;   slip [L/T] after a step;  compliance [T/M]
+/// compliance > 0 and bound >= 0 (0: no friction) are not checked; nothing is thrown.
 Friction coulomb(double slip, double compliance, double bound);
 
 }  // namespace viscontact::rolling

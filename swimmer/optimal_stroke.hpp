@@ -17,7 +17,8 @@ namespace viscontact::swimmer {
 /// The conditions for the optimal stroke.
 struct OptimalStrokeRequest {
   double displacement = 0;  ///< displacement in a period [L], not 0; > 0 towards the last sphere
-  Eigen::VectorXd through;  ///< the shape at which the stroke begins and ends [L]
+  /// The shape at which the stroke begins and ends [L], a number for each arm, at least two.
+  Eigen::VectorXd through;
   /// Number of polynomials of each arm (PolynomialLoop), at least kFewestPolynomials.
   Eigen::Index polynomials = 20;
 };
@@ -29,7 +30,7 @@ inline constexpr Eigen::Index kFewestPolynomials = 4;
 /// judged.
 struct OptimalStrokeStep {
   Eigen::Index polynomials = 0;        ///< number of polynomials of each arm
-  double energy = 0;                   ///< energy in a period of 1 [M L^2/T^2]
+  double energy = 0;                   ///< energy in a period of 1 [M L^2/T^2], > 0
   double euler_lagrange_residual = 0;  ///< [1], >= 0; euler_lagrange_residual()
 };
 
@@ -37,9 +38,10 @@ struct OptimalStrokeStep {
 struct OptimalStroke {
   /// The shapes of the stroke.
   PolynomialLoop loop;
-  /// Derivative of the least energy by the displacement, in a period of 1 [M L/T^2].
+  /// Derivative of the least energy by the displacement, in a period of 1 [M L/T^2], of any sign.
   double multiplier = 0;
-  /// The results with rising numbers of polynomials; the last one is that of `loop`.
+  /// The results with rising numbers of polynomials, without those for which Newton's method
+  /// failed; the last one is that of `loop`.
   std::vector<OptimalStrokeStep> convergence;
 };
 
@@ -47,7 +49,8 @@ struct OptimalStroke {
 /// starts from small loops in four directions, whose displacement then grows to the wanted one; of
 /// the four results the one with the least energy is improved with more polynomials. Throws
 /// Error(kBadInput) if every such loop leaves the table, Error(kNotConverged) if Newton's method
-/// fails with `request.polynomials`, and Error(kInterrupted) if `stop` requests a stop.
+/// fails with `request.polynomials`, and Error(kInterrupted) if `stop` requests a stop. The members
+/// of `request` are not checked.
 OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeRequest& request,
                                   const StopToken& stop);
 

@@ -15,32 +15,34 @@ namespace viscontact::swimmer {
 /// The arms x(s) = through + s (1 - s) sum_j c_j P_j(2 s - 1), s from 0 to 1, with Legendre's
 /// polynomials P_j. c_j is column j of `coefficients` [L]. The loop may have a corner at `through`.
 struct PolynomialLoop {
-  Eigen::VectorXd through;       ///< the shape at which the loop begins and ends [L]
+  Eigen::VectorXd through;       ///< shape at which the loop begins and ends [L], for each arm
   Eigen::MatrixXd coefficients;  ///< [L], a row for each arm, at least one column
 };
 
-/// The values of s (1 - s) P_j(2 s - 1) and their first and second derivatives by s, j < count.
+/// The values of s (1 - s) P_j(2 s - 1) and their first and second derivatives by s, each for j = 0
+/// to count - 1.
 struct LoopBasis {
   Eigen::VectorXd values,  ///< [1]
       slopes,              ///< first derivatives [1]
       second_slopes;       ///< second derivatives [1]
 };
-/// The first `count` > 0 functions of the basis at `s` from 0 to 1.
+/// The first `count` > 0 functions of the basis at `s` from 0 to 1. Nothing is checked.
 LoopBasis loop_basis(double s, Eigen::Index count);
 
-/// The loop as a stroke of one leg, run once in `period` [T] > 0 at a constant rate of s.
+/// The loop as a stroke of one leg, run once in `period` [T] > 0 (not checked) at a constant rate
+/// of s.
 Stroke stroke_of(const PolynomialLoop& loop, double period);
 
-/// The same loop with `count` polynomials, at least as many as it has; the coefficients of the
-/// others are 0.
+/// The same loop with `count` polynomials, at least as many as it has (not checked); the
+/// coefficients of the others are 0.
 PolynomialLoop with_more_polynomials(const PolynomialLoop& loop, Eigen::Index count);
 
 /// Energy and displacement of a loop that is run once at a constant rate of s, and their gradients
 /// by the coefficients, in the order of PolynomialLoop::coefficients, column by column.
 struct LoopSums {
-  /// Energy times period [M L^2/T], which is the same for all periods.
+  /// Energy times period [M L^2/T], >= 0, which is the same for all periods.
   double energy = 0;
-  double displacement = 0;          ///< [L]
+  double displacement = 0;          ///< [L], > 0 towards the last sphere
   Eigen::VectorXd energy_gradient,  ///< gradient of `energy` [M L/T]
       displacement_gradient;        ///< [1]
 };
@@ -48,7 +50,8 @@ struct LoopSums {
 /// Computes LoopSums by a quadrature with 2 n + 24 points for n polynomials.
 class LoopFunctional {
  public:
-  /// For loops with `polynomials` polynomials of each arm. `swimmer` must outlive the object.
+  /// For loops with `polynomials` > 0 polynomials of each arm; other loops are not refused, but
+  /// must not be given. `swimmer` must outlive the object.
   LoopFunctional(const Swimmer& swimmer, Eigen::Index polynomials);
 
   /// True if the table of the swimmer's fit contains the shapes of the loop at all points of the
@@ -62,8 +65,9 @@ class LoopFunctional {
   LoopSums operator()(const PolynomialLoop& loop) const;
 
   /// The Hessian, by the coefficients, of the integral of (dx/ds)^T G0 dx/ds over s for the
-  /// constant symmetric matrix G0 = `metric` [M/T]. The search for the optimal stroke scales the
-  /// coefficients by it.
+  /// constant symmetric matrix G0 = `metric` [M/T], with a row for each arm. The Hessian [M/T] has
+  /// a row for each coefficient, in the order of LoopSums. The search for the optimal stroke scales
+  /// the coefficients by it.
   Eigen::MatrixXd constant_metric_hessian(const Eigen::MatrixXd& metric) const;
 
  private:
@@ -73,7 +77,7 @@ class LoopFunctional {
 };
 
 /// The loop through shape(0) that approximates the given loop `shape(s)`, s from 0 to 1, best in
-/// the sense of least squares, with `polynomials` > 0 polynomials of each arm.
+/// the sense of least squares, with `polynomials` > 0 polynomials of each arm (not checked).
 PolynomialLoop project_loop(const std::function<Eigen::VectorXd(double s)>& shape,
                             Eigen::Index polynomials);
 

@@ -28,17 +28,19 @@ namespace viscontact::swimmer {
 struct ShapeMechanics {
   Eigen::RowVectorXd displacement_form;  ///< A [1]: velocity of the middle sphere per arm velocity
   Eigen::MatrixXd metric;                ///< Phi [M/T], symmetric and positive definite
-  /// U = motion * dx/dt: velocities of all spheres per arm velocity [1].
+  /// U = motion * dx/dt: velocities of all spheres per arm velocity [1], a row for each sphere and
+  /// a column for each arm; A and Phi have a column for each arm.
   Eigen::MatrixXd motion;
-  Eigen::MatrixXd resistance;  ///< R [M/T]
-  /// sum_ij R_ij [M/T]: the drag of the swimmer with fixed arms per velocity.
+  Eigen::MatrixXd resistance;  ///< R [M/T], symmetric and positive definite
+  /// sum_ij R_ij [M/T], > 0: the drag of the swimmer with fixed arms per velocity.
   double towing_resistance = 0;
-  // Derivatives by each arm, if they were asked for.
+  // Derivatives by each arm, in their order; empty if they were not asked for.
   std::vector<Eigen::RowVectorXd> displacement_form_slopes;  ///< dA/dx_k [1/L]
   std::vector<Eigen::MatrixXd> metric_slopes;                ///< dPhi/dx_k [M/(L T)]
 };
 
-/// Index of the middle sphere, from 0; of an even number of spheres, the first of the two.
+/// Index of the middle sphere, from 0; of an even number of spheres, the first of the two. There is
+/// at least one sphere (not checked).
 inline std::size_t middle_sphere(std::size_t spheres) { return (spheres - 1) / 2; }
 
 /// The mechanics of a swimmer as a function of its shape.
@@ -52,10 +54,11 @@ class Swimmer {
   /// The radii of the spheres along the line [L], > 0.
   const std::vector<double>& radii() const { return resistance_.radii(); }
 
-  /// The smallest and the largest length of arm k in the table [L].
+  /// The smallest and the largest length of arm k, from 0, in the table [L], > 0. Throws
+  /// std::out_of_range if there is no arm k.
   std::array<double, 2> arm_interval(Eigen::Index k) const;
 
-  /// True if the table contains the shape with these arms [L].
+  /// True if the table contains the shape with these arms [L], arms() numbers (not checked).
   bool contains(const Eigen::VectorXd& arms) const;
 
   /// The mechanics at a shape, with derivatives if `with_slopes`. Throws Error(kBadInput) if the
@@ -69,7 +72,8 @@ class Swimmer {
 };
 
 /// dA_2/dx_1 - dA_1/dx_2 [1/L] at a shape of a swimmer with two arms: the displacement of a small
-/// loop, counter-clockwise in (x_1, x_2), over its area.
+/// loop, counter-clockwise in (x_1, x_2), over its area. Throws Error(kBadInput) if the table does
+/// not contain the shape. That there are two arms is not checked.
 double displacement_curl(const Swimmer& swimmer, const Eigen::VectorXd& arms);
 
 }  // namespace viscontact::swimmer

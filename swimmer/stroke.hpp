@@ -13,8 +13,8 @@ namespace viscontact::swimmer {
 
 /// The arms and their velocities at one time.
 struct ArmState {
-  Eigen::VectorXd arms;   ///< x [L]
-  Eigen::VectorXd rates;  ///< dx/dt [L/T]
+  Eigen::VectorXd arms;   ///< x [L], a number for each arm in the order of the spheres
+  Eigen::VectorXd rates;  ///< dx/dt [L/T], as many
 };
 
 /// A part of a stroke on which the arms are a smooth function of time.
@@ -32,17 +32,20 @@ struct Stroke {
 };
 
 /// Straight legs from corner to corner [L] and back to the first one in `period` [T] > 0. Each leg
-/// takes the same time, at constant velocity. Needs at least two corners.
+/// takes the same time, at constant velocity. Needs at least two corners of equally many arms. This
+/// function and the next two do not check what they need.
 Stroke polygon_stroke(const std::vector<Eigen::VectorXd>& corners, double period);
 
 /// Straight legs between samples of the arms [L] at rising times [T], at constant velocity each.
-/// The first time is the beginning of the stroke, and the last sample closes the loop. Throws
-/// Error(kBadInput) if the last sample differs from the first one by more than rounding.
+/// Needs at least two samples and as many times. The first time is the beginning of the stroke,
+/// which becomes 0, and the last sample closes the loop. Throws Error(kBadInput) if the last sample
+/// differs from the first one by more than 1e-9 of the largest arm.
 Stroke sampled_stroke(const std::vector<double>& times,
                       const std::vector<Eigen::VectorXd>& samples);
 
 /// The arms x_k = centre_k + semi_axes_k cos(2 pi t/period + phase_k), with the phases in radians:
-/// an ellipse if there are two arms.
+/// an ellipse if there are two arms. The vectors have a number for each arm, at least one; `period`
+/// [T] > 0; centre and semi-axes are in [L].
 Stroke elliptic_stroke(const Eigen::VectorXd& centre, const Eigen::VectorXd& semi_axes,
                        const Eigen::VectorXd& phases, double period);
 
@@ -52,7 +55,8 @@ struct GaussRule {
       weights;             ///< > 0, with the sum 1
 };
 
-/// The rule with `count` > 0 points, exact for polynomials of degree 2 count - 1.
+/// The rule with `count` > 0 points (not checked), rising, exact for polynomials of degree
+/// 2 count - 1.
 GaussRule gauss_rule(int count);
 
 }  // namespace viscontact::swimmer

@@ -15,10 +15,10 @@ namespace viscontact::swimmer {
 
 /// The swimmer at one time.
 struct SwimRow {
-  double time = 0;       ///< [T]
-  Eigen::VectorXd arms;  ///< x [L]
+  double time = 0;       ///< [T], from 0 to the period
+  Eigen::VectorXd arms;  ///< x [L], > 0, a number for each arm
   double position = 0;   ///< position of the middle sphere [L], 0 at the beginning
-  /// Force of each sphere on the fluid [M L/T^2], > 0 towards the last sphere.
+  /// Force of each sphere on the fluid [M L/T^2], > 0 towards the last sphere; their sum is 0.
   Eigen::VectorXd forces;
   double power = 0;  ///< power of the swimmer [M L^2/T^3], >= 0
 };
@@ -26,23 +26,25 @@ struct SwimRow {
 /// The sums over one period.
 struct SwimSums {
   double displacement = 0;  ///< [L], > 0 towards the last sphere
-  double energy = 0;        ///< [M L^2/T^2]: the integral of the power
+  double energy = 0;        ///< [M L^2/T^2], >= 0: the integral of the power
   /// The least energy of any time law with this loop and period [M L^2/T^2]; that law has constant
   /// power.
   double energy_at_constant_power = 0;
-  /// Lighthill's efficiency [1]: power to tow the rigid swimmer at its mean velocity, with the mean
-  /// drag of its shapes, over the mean power (Lighthill 1952, Commun. Pure Appl. Math. 5, 109).
+  /// Lighthill's efficiency [1], >= 0, and 0 if the energy is 0: power to tow the rigid swimmer at
+  /// its mean velocity, with the mean drag of its shapes, over the mean power (Lighthill 1952,
+  /// Commun. Pure Appl. Math. 5, 109).
   double efficiency = 0;
 };
 
 /// Integrates one period of a stroke by Gauss-Legendre quadrature on each leg; the number of points
 /// is doubled until energies change by less than 1e-12 of themselves, and the displacement by less
 /// than 1e-13 of the length of the path of the arms. Throws Error(kBadInput) if the stroke leaves
-/// the table, and Error(kNotConverged) if the sums do not converge.
+/// the table, and Error(kNotConverged) if the sums of a leg do not converge with 512 points.
 SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke);
 
 /// The swimmer at about `intervals` + 1 times, or more: each leg has times at its beginning, at its
-/// end, and at equal distances between. Throws Error(kBadInput) if the stroke leaves the table.
+/// end, and at equal distances between, so that at a corner two rows have the same time.
+/// `intervals` > 0 (not checked). Throws Error(kBadInput) if the stroke leaves the table.
 std::vector<SwimRow> swim_rows(const Swimmer& swimmer, const Stroke& stroke, int intervals);
 
 /// Estimates of the errors of SwimSums, >= 0.
@@ -54,7 +56,7 @@ struct SwimErrors {
 /// Estimates the errors of `sums`, those of a stroke, by computing the sums with other fits, which
 /// fit/fit_resistance.hpp makes. An error is the sum of two parts: the absolute changes of the sum
 /// with each of the fits `lower_degrees`, and twice the root mean square of its changes with the
-/// fits `table_errors`. Throws the errors of swim_sums().
+/// fits `table_errors`; a part whose list is empty is 0. Throws the errors of swim_sums().
 ///
 /// For a stroke of least energy, `multiplier` is OptimalStroke::multiplier over the period [M
 /// L/T^2]. With another fit the displacement of the stroke changes, too, whereas that of the

@@ -16,10 +16,12 @@
 
 namespace viscontact::fitting {
 
-/// A term, which is a function of the gap, and the weight by which a sum multiplies it.
+/// A term, which is a function of the gap, and the weight by which a sum multiplies it, in the unit
+/// of the sum over that of the term.
 using WeightedTerm = std::pair<double, lubrication::Term>;
 
-/// A function that writes a finite number as a literal of type double in one language.
+/// A function that writes a finite number (not checked) as a literal of type double in one
+/// language.
 using Literal = std::string (*)(double);
 
 /// A literal of Python or MATLAB, with as many digits as are needed to read the same double back,

@@ -34,8 +34,9 @@ std::span<const ExportTarget> export_targets();
 /// The text for one target. `source` is the name of the fit's file, which the text states; it may
 /// be empty. `outside` says which formulas give the drag outside the interval. Throws
 /// Error(kWrongUsage) for the target csv if `outside` has a formula, because csv has samples within
-/// the interval only; Error(kBadInput) for an unknown target, or if the resistance of the fit is
-/// not positive and finite in the interval.
+/// the interval only; Error(kBadInput) for an unknown target, if the resistance of the fit is not
+/// positive and finite in the interval, or if `outside` asks for a k that the fit lacks or that is
+/// not > 0 (LubricationForce).
 std::string export_fit(const lubrication::Fit& fit, std::string_view target,
                        std::string_view source = "",
                        const lubrication::OutsideInterval& outside = {});

@@ -31,38 +31,42 @@ struct FreeFem {
 };
 
 /// The FreeFEM of the user: the executable is the value of the environment variable
-/// VISCONTACT_FREEFEM if it is set, else FreeFem++-nw. VISCONTACT_FREEFEM_TIME_LIMIT [s], if set,
-/// replaces both time limits. Throws Error(kExternalProgram) if the scripts are not found
-/// (freefem::find_script_folder()), and Error(kWrongUsage) if the limit is not a whole number from
-/// 1 to 10 million.
+/// VISCONTACT_FREEFEM if it is set and not empty, else FreeFem++-nw, of which it is not checked
+/// that it exists. VISCONTACT_FREEFEM_TIME_LIMIT [s], if set, replaces both time limits. Throws
+/// Error(kExternalProgram) if the scripts are not found (freefem::find_script_folder()), and
+/// Error(kWrongUsage) if the limit is not a whole number from 1 to 10 million.
 FreeFem default_freefem(const StopToken& stop = {});
 
 /// Runs a script on one thread to its end. `arguments` are "-name" and "value" in turn. After
 /// `time_limit`, or freefem.row_limit if it is not given, FreeFEM is killed and `timed_out` is true
 /// in the result. A script that fails throws nothing: the caller must check exit_status. Throws
-/// Error(kExternalProgram) if FreeFEM cannot be started, and Error(kInterrupted).
+/// Error(kExternalProgram) if FreeFEM cannot be started, and Error(kInterrupted) if freefem.stop
+/// requests a stop.
 ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                           const std::vector<std::string>& arguments,
                           std::optional<std::chrono::seconds> time_limit = {});
 
 /// Appends the arguments that all scripts need: -accuracy, the largest relative error estimate of a
-/// force [1], in (0, 1), and -cells, -levels and -attempts, which say how fine the meshes are.
+/// force [1], in (0, 1) (not checked), and -cells, -levels and -attempts, which say how fine the
+/// meshes are.
 void append_mesh_arguments(std::vector<std::string>& arguments, double relative_accuracy);
 
 /// Says in a message that FreeFEM was killed at its time limit, and what the user can do.
 std::string timed_out_in_words(std::chrono::seconds time_limit);
 
 /// Why a script failed, for an error message: that it exceeded `time_limit`, or the error that it
-/// printed, or else the last lines of its output.
+/// printed, or else the last lines of its output; empty if it printed nothing.
 std::string failure_in_words(const ProcessResult& result, std::chrono::seconds time_limit);
 
-/// The first line of `output` that starts with `prefix` and a space, without these; or empty.
+/// The first line of `output` that starts with `prefix` and a space, without these; empty if there
+/// is none.
 std::string line_after(const std::string& output, std::string_view prefix);
 
 /// The version of FreeFEM: that of the Debian package that has installed the executable, and the
 /// one that FreeFEM states, such as "4.11+dfsg1-3 (Debian package freefem++; FreeFEM says 4.9)". If
 /// there is no package, only the latter, "4.9", which may differ from the number of the release.
-/// Throws Error(kInterrupted), and Error(kExternalProgram) if FreeFEM does not answer in time.
+/// Throws Error(kInterrupted) if freefem.stop requests a stop, and Error(kExternalProgram) if
+/// FreeFEM cannot be started, fails, or does not answer within freefem.version_limit.
 std::string freefem_version(const FreeFem& freefem);
 
 }  // namespace viscontact::freefem_axi

@@ -33,13 +33,14 @@ template <class Row>
 struct PlanParts {
   /// A text with everything that the numbers depend on. Tables of another text are computed again.
   std::string inputs;
-  /// Where rows are computed, in the order of computation; at least one point. The first columns of
-  /// a row are its point.
+  /// Where rows are computed, in the order of computation; at least one point, all of one size. The
+  /// first columns of a row are its point.
   std::vector<RowPoint> points;
-  std::vector<PlannedRow<Row>> rows;  ///< in the order in which `solve` returns them
-  double relative_accuracy = 0;       ///< TablePlan::relative_accuracy
-  double typical_seconds = 0;         ///< TablePlan::typical_seconds [s]
-  bool needs_all_rows = false;        ///< TablePlan::needs_all_rows
+  /// In the order in which `solve` returns them; at least one is asked for.
+  std::vector<PlannedRow<Row>> rows;
+  double relative_accuracy = 0;  ///< TablePlan::relative_accuracy
+  double typical_seconds = 0;    ///< TablePlan::typical_seconds [s]
+  bool needs_all_rows = false;   ///< TablePlan::needs_all_rows
   /// Computes the rows at a point, one for each element of `rows`. Throws as TablePlan::solve.
   std::function<std::vector<Row>(const FreeFem&, const RowPoint&)> solve;
   std::function<std::string(const RowPoint&)> name_of;  ///< TablePlan::name_of
@@ -65,7 +66,8 @@ std::vector<double*> stored_numbers(const lubrication::TableHead& head, Row& row
 
 /// The plan. A row in a journal is a point and the numbers of all `given.rows` there, one after the
 /// other. TablePlan::solve throws what given.solve throws. TablePlan::read returns no rows, and
-/// throws nothing, if a file is not the planned table.
+/// throws nothing, if a file is not the planned table. TablePlan::write throws what given.arrange
+/// throws. What the comments of PlanParts demand is not checked.
 template <class Row>
 TablePlan make_plan(PlanParts<Row> given) {
   const std::size_t size_of_point = given.points.front().size();

@@ -31,7 +31,7 @@ std::string write_journal_line(const std::string& hash, const JournalEntry& entr
 std::optional<std::string> hash_of_journal_line(std::string_view line);
 
 /// Reads a line, which is given without its line end. `shape` says how many numbers its row has.
-/// Nothing if the line is incomplete or damaged.
+/// Nothing if the line is incomplete or damaged, or has fewer numbers.
 std::optional<JournalEntry> read_journal_line(std::string_view line, const RowShape& shape);
 
 /// The path TABLE.csv.rows, or TABLE.csv.rows.WRITER if there is a writer.
@@ -39,8 +39,8 @@ std::filesystem::path journal_path(const std::filesystem::path& table_path,
                                    const std::string& writer = {});
 
 /// The name "NUMBER-of-COUNT.HOST.PROCESS" of this process as the writer of a journal. It computes
-/// part `number` of the `count` parts into which the rows of a table are divided. HOST and PROCESS,
-/// the process id, make the name unique among all running processes.
+/// part `number`, from 0 (not checked), of the `count` parts into which the rows of a table are
+/// divided. HOST and PROCESS, the process id, make the name unique among all running processes.
 std::string writer_name(std::size_t number, std::size_t count);
 
 /// True for the names that writer_name() makes. A file TABLE.csv.rows.NAME with another NAME is not

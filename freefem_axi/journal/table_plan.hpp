@@ -23,7 +23,7 @@ using RowPoint = std::vector<double>;
 /// A row that was computed.
 struct FinishedRow {
   RowPoint point;  ///< which row
-  /// The computed numbers, as TablePlan::solve returns them.
+  /// The computed numbers, as TablePlan::solve returns them, RowShape::numbers of them.
   std::vector<double> numbers;
   std::string freefem_version;  ///< as freefem_version() in freefem.hpp states it; may be empty
 };
@@ -72,7 +72,8 @@ struct TablePlan {
   /// Reads the finished rows in the file of the table, and the failed rows that it names. No rows
   /// if there is no such file or if it was computed with other inputs.
   std::function<RowRecord(const std::filesystem::path&)> read;
-  /// Makes the text of the file from the finished rows; its head names the failed ones.
+  /// Makes the text of the file from the finished rows, at least one; its head names the failed
+  /// ones.
   std::function<std::string(const RowRecord&, const Versions&)> write;
   /// True if the table is useless without some of its rows. `write` then needs all of them.
   bool needs_all_rows = false;

@@ -14,7 +14,7 @@ namespace viscontact::freefem_axi {
 
 /// How many rows are computed.
 struct TabulateProgress {
-  std::size_t rows_done = 0;  ///< rows that are finished, by this call or before it, or failed
+  std::size_t rows_done = 0;  ///< finished, by this call or before it, or failed; <= `rows`
   std::size_t rows = 0;       ///< all rows that the call of compute_rows() asks for
   double seconds_left = 0;    ///< estimated time for the other rows [s], >= 0
 };
@@ -25,7 +25,7 @@ using TabulateReport = std::function<void(const TabulateProgress&)>;
 /// How this process computes rows. On a cluster several such processes work on one table.
 struct RowWorker {
   FreeFem freefem;  ///< how FreeFEM is run
-  int jobs = 1;     ///< number of FreeFEM processes that run at once, >= 1
+  int jobs = 1;     ///< number of FreeFEM processes that run at once, >= 1 (not checked)
   /// writer_name() of the process on a cluster (row_journal.hpp); empty on a single machine.
   std::string name;
 };
@@ -33,7 +33,8 @@ struct RowWorker {
 /// Computes the rows at `points` that are not finished. Before each row the files are read again,
 /// because another process may have finished it meanwhile. Each finished row, and the reason of
 /// each failed one, is written at once to the worker's journal (row_journal.hpp) beside
-/// `table_path`. `report` is called after each row, by one thread at a time. A row that fails does
+/// `table_path`. `report` is called after each row, by one thread at a time; if no row is missing,
+/// neither `report` nor FreeFEM is called. A row that fails does
 /// not stop the others and is not thrown; read_row_record() returns it. Throws
 /// Error(kExternalProgram) if FreeFEM cannot be run at all, Error(kBadInput) if the journal cannot
 /// be written, and Error(kInterrupted) if worker.freefem.stop requests a stop. The caller writes

@@ -17,7 +17,7 @@ namespace viscontact::motions {
 /// viscontact_spin [M L^2/T], without the prefix in Python and MATLAB. Outside the interval of gaps
 /// it returns NaN (C, Fortran, MATLAB) or raises ValueError (Python). json and csv contain 201
 /// samples. `source` is the name of the fit's file, which the text states; it may be empty. Throws
-/// Error(kBadInput) for an unknown target.
+/// Error(kBadInput) for an unknown target. That resistances are positive is not checked.
 std::string export_pair(const PairFit& fit, std::string_view target, std::string_view source);
 
 }  // namespace viscontact::motions

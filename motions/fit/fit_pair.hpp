@@ -29,7 +29,9 @@ struct PairFitSettings {
 /// tables is missing, to slide r or roll/r, with the radius r of the sphere. Throws
 /// Error(kBadInput) if there is no table, if the tables are of different pairs or have no gaps in
 /// common, if the neighbour moves, if the table of rolling lacks a gap of that of sliding, or if
-/// their slide_roll differ by more than their error estimates; and errors of fit_force_table().
+/// their slide_roll differ by more than their error estimates, or if `settings.basis` is not known;
+/// and errors of fit_force_table(): Error(kNotConverged), and Error(kInterrupted) if `stop`
+/// requests a stop during a robust fit. The versions in the result are empty.
 PairFit fit_pair(const PairTables& tables, const PairFitSettings& settings,
                  const StopToken& stop = {});
 

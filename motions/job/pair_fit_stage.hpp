@@ -22,7 +22,7 @@ std::vector<std::filesystem::path> pair_table_files(const std::vector<std::strin
 
 /// True if the tables are to be fitted by fit_pair_stage() and not as a single table of the
 /// approach: one of `paths` is a folder, there are several tables, or the only one is of another
-/// motion than the approach. `files` is the result of pair_table_files(paths).
+/// motion than the approach. `files` is the result of pair_table_files(paths). Throws nothing.
 bool are_of_pair(const std::vector<std::string>& paths,
                  const std::vector<std::filesystem::path>& files);
 
@@ -31,12 +31,15 @@ PairTables read_pair_tables(const std::vector<std::filesystem::path>& files);
 
 /// Fits the tables, writes the fit (JSON) to `fit_path`, and prints the residuals and the leading
 /// coefficients beside those of theory. If `fit_path` already contains this fit, it is not written.
+/// `files` has at least one element (not checked). Throws Error(kBadInput) if the fit cannot be
+/// written.
 void fit_pair_stage(const std::vector<std::filesystem::path>& files,
                     const std::filesystem::path& fit_path, const PairFitSettings& settings,
                     const StopToken& stop);
 
 /// Fits the tables in each of pair_bases(), and prints the largest relative residual of each
-/// resistance as a table, or, if `json`, as JSON with further diagnostics.
+/// resistance as a table, or, if `json`, as JSON with further diagnostics. The basis in `settings`
+/// is not used. The first basis that cannot be fitted ends the comparison with its error.
 void compare_pair_bases_stage(const std::vector<std::filesystem::path>& files,
                               PairFitSettings settings, bool json, const StopToken& stop);
 

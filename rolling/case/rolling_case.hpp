@@ -26,7 +26,7 @@ struct RollingCase {
       fluid_density = 0;  ///< rho_f [M/L^3], >= 0; only buoyancy depends on it
   /// The motion that the models compute.
   RollingMotion motion;
-  std::vector<std::string> models;  ///< names of rolling_models()
+  std::vector<std::string> models;  ///< names of rolling_models(), each at most once
   // Exactly one of the next two exists.
   /// The tables of the drag on the sphere near the plane that are to be computed and then fitted.
   std::optional<freefem_axi::Tabulation> tabulation;
@@ -43,7 +43,8 @@ struct RollingCase {
 RollingCase read_rolling_case(const std::filesystem::path& path);
 
 /// `fit`, scaled to radius and viscosity of the case. Messages name `file`, from which it was read.
-/// Throws Error(kBadInput) if the fit is not that of a sphere above a plane.
+/// Throws Error(kBadInput) if the fit is not that of a sphere above a plane; a fit that names no
+/// neighbour is accepted.
 motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
                          const std::filesystem::path& file);
 
@@ -55,7 +56,8 @@ std::vector<case_file::KeyTable> tables_of_rolling_case();
 
 namespace viscontact::case_file {
 
-/// The case of a rolling sphere whose root table is `root` (case_template.hpp).
+/// The case of a rolling sphere whose root table is `root` (case_template.hpp). Throws the errors
+/// of read_rolling_case().
 template <>
 rolling::RollingCase case_of_root(const TomlSection& root, std::string text,
                                   const std::filesystem::path& path);

@@ -30,8 +30,9 @@ RollingPlan planned_rolling(const RollingCase& c);
 
 /// The study of a plan. Its results are, for each model, MODEL.gap [L], MODEL.smallest_gap [L],
 /// MODEL.position [L], MODEL.angle [radians], MODEL.velocity [L/T], MODEL.angular_velocity [1/T],
-/// MODEL.slip [L/T], MODEL.contact and MODEL.contact_time [T]; RollingEnd defines them. Those of a
-/// model that fails are empty. `version` is that of Viscontact.
+/// MODEL.slip [L/T], MODEL.contact (SolidContact as a number: 0, 1, 2) and MODEL.contact_time [T]
+/// (empty if the solids never touch); RollingEnd defines them. Those of a model that fails are
+/// empty. `version` is that of Viscontact.
 ///
 /// Reads the case and the fit. Throws Error(kBadInput) if the first or the last point gives no
 /// valid case, or if the fit is not that of a sphere above a plane. Throws Error(kWrongUsage) if

@@ -20,13 +20,13 @@ namespace viscontact::rolling {
 struct RollingResults {
   RollingCase c;         ///< the case
   motions::PairFit fit;  ///< fit of the drag, scaled to radius and viscosity of the case
-  /// Name and trajectory of each model that did not fail.
+  /// Name and trajectory, of at least one row, of each model that did not fail.
   std::vector<std::pair<std::string, RollingTrajectory>> trajectories;
   std::vector<results::FailedModel> failed;  ///< models without a trajectory
 };
 
 /// A sentence for each model whose gap gets below the smallest gap of the fit, where the formula of
-/// the fit is continued although no row of a table supports it.
+/// the fit is continued although no row of a table supports it. Empty if there is none.
 std::vector<std::string> rolling_warnings(const RollingResults& results);
 
 /// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not
@@ -34,8 +34,8 @@ std::vector<std::string> rolling_warnings(const RollingResults& results);
 void check_rolling_report(const std::filesystem::path& folder);
 
 /// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no
-/// still pictures, and a warning says so. Throws Error(kExternalProgram) if gnuplot fails, and
-/// Error(kInterrupted) if `stop` requests a stop.
+/// still pictures, and a warning says so. Throws Error(kExternalProgram) if gnuplot fails,
+/// Error(kBadInput) if a file cannot be written, and Error(kInterrupted) if `stop` requests a stop.
 void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop);
 

@@ -22,7 +22,8 @@ struct RollingRequest {
 /// MODEL.csv for each model, rolling.json and the report into the folder (docs/file-formats.md).
 /// Tables that were made from the same inputs are kept. Throws Error(kBadInput) before anything is
 /// written if the case is wrong or a file of the user would be replaced, and the errors of
-/// pipeline::tabulate_stage(), motions::fit_pair_stage() and the models.
+/// pipeline::tabulate_stage() and motions::fit_pair_stage(). If a model fails, the results of the
+/// others are written before an Error that names it is thrown; if all fail, nothing more is.
 void run_rolling(const RollingRequest& request);
 
 /// Writes the report again from the files that run_rolling() wrote into `folder`, and from the case

@@ -30,7 +30,8 @@ struct SwimmerCase {
   std::optional<std::filesystem::path> table_file{};
   /// The table in that file, scaled to `spheres`; without rows if the table is to be computed.
   ResistanceTable table{};
-  /// For each arm, the gaps of the table between its two spheres [L], > 0, rising.
+  /// For each arm, in the order of the spheres, the gaps of the table between its two spheres [L],
+  /// > 0, rising.
   std::vector<std::vector<double>> gaps;
   /// The stroke that the swimmer makes; nothing if the file has no section [stroke].
   std::optional<Stroke> stroke;
@@ -46,7 +47,7 @@ struct SwimmerCase {
 /// value and what is allowed.
 SwimmerCase read_swimmer_case(const std::filesystem::path& path);
 
-/// The case file and the files of tables and strokes that it names.
+/// The case file and the files of tables and strokes that it names. Throws nothing.
 std::vector<std::filesystem::path> files_of(const SwimmerCase& c);
 
 /// What docs/case-file.md says about the keys of each section.
@@ -56,7 +57,8 @@ std::vector<case_file::KeyTable> tables_of_swimmer_case();
 
 namespace viscontact::case_file {
 
-/// The case of a swimmer whose root table is `root` (case_template.hpp).
+/// The case of a swimmer whose root table is `root` (case_template.hpp). Throws the errors of
+/// read_swimmer_case().
 template <>
 swimmer::SwimmerCase case_of_root(const TomlSection& root, std::string text,
                                   const std::filesystem::path& path);

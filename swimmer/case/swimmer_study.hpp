@@ -15,8 +15,8 @@ namespace viscontact::swimmer {
 /// The study of the case at `case_path`. Its results are displacement [L], energy [M L^2/T^2],
 /// energy_at_constant_power [M L^2/T^2] and efficiency [1] in a period (SwimSums) if the case has
 /// [stroke], and the same with the prefix "optimal." for the stroke of least energy if it has
-/// [optimal]. At each point `fit` is scaled to viscosity and radii of the case. `version` is that
-/// of Viscontact.
+/// [optimal]. At each point `fit` is scaled to viscosity and radii of the case. Results that cannot
+/// be computed at a point are empty there. `version` is that of Viscontact.
 ///
 /// Reads the case. Throws Error(kBadInput) if the first or the last point gives no valid case, if
 /// the radii of the case have other ratios than those of `fit`, or if the scaled fit has another

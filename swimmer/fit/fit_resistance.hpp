@@ -15,21 +15,24 @@ namespace viscontact::swimmer {
 /// with the smallest error of a row that is predicted from the others (largest_left_one_out_error),
 /// among those for which each matrix minus its lubrication is positive definite. Throws
 /// Error(kBadInput) if the rows are not all combinations of at least three values of each gap, each
-/// combination once, or if a matrix is not positive definite.
+/// combination once, or if a matrix is not positive definite. The checksum and the versions of the
+/// result are empty.
 ResistanceFit fit_resistance(const ResistanceTable& table);
 
 /// Fits with which a result is computed again. Its changes are estimates of its errors.
 struct PerturbedFits {
-  /// For each gap the least-squares fit whose polynomials have one degree less in this gap. A
-  /// result changes by about the error that it has because its polynomials have a finite degree.
+  /// For each gap, in the order of the spheres, the least-squares fit whose polynomials have one
+  /// degree less in this gap. A result changes by about the error that it has because its
+  /// polynomials have a finite degree.
   std::vector<ResistanceFit> lower_degrees;
-  /// Fits of tables in which each entry is changed by its error estimate, with random signs.
+  /// Fits of tables in which each entry is changed by its error estimate, with random signs; at
+  /// most 16, which give a root mean square to about a fifth.
   std::vector<ResistanceFit> table_errors;
 };
 
-/// The perturbed fits of a table; `fit` must be fit_resistance(table). The random signs are the
-/// same in each call. A fit of `table_errors` is left out if its table has a matrix that is not
-/// positive definite.
+/// The perturbed fits of a table; `fit` must be fit_resistance(table) (not checked). The random
+/// signs are the same in each call. A fit of `table_errors` is left out if its table has a matrix
+/// that is not positive definite.
 PerturbedFits perturbed_fits(const ResistanceTable& table, const ResistanceFit& fit);
 
 }  // namespace viscontact::swimmer

@@ -22,7 +22,7 @@ struct StrokeResult {
   double period = 0;          ///< [T], > 0
   SwimSums sums;              ///< displacement, energy and efficiency of a period
   SwimErrors errors;          ///< estimates of their errors
-  std::vector<SwimRow> rows;  ///< state at times of one period, in order of time
+  std::vector<SwimRow> rows;  ///< state at times of one period, in order of time, at least one
 };
 
 /// What a run of a swimmer has computed.
@@ -35,7 +35,8 @@ struct SwimmerResults {
   /// How the search for the stroke of least energy converged, with energies in the period of the
   /// case; empty without an optimal stroke.
   std::vector<OptimalStrokeStep> convergence;
-  /// Derivative of the least energy by the displacement [M L/T^2]; 0 without an optimal stroke.
+  /// Derivative of the least energy by the displacement [M L/T^2] in the period of the case; 0
+  /// without an optimal stroke.
   double energy_per_displacement = 0;
 };
 
@@ -44,8 +45,8 @@ struct SwimmerResults {
 void check_swimmer_report(const std::filesystem::path& folder);
 
 /// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no
-/// still pictures, and a warning says so. Throws Error(kExternalProgram) if gnuplot fails, and
-/// Error(kInterrupted) if `stop` requests a stop.
+/// still pictures, and a warning says so. Throws Error(kExternalProgram) if gnuplot fails,
+/// Error(kBadInput) if a file cannot be written, and Error(kInterrupted) if `stop` requests a stop.
 void write_swimmer_report(const SwimmerResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop);
 

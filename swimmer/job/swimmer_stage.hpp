@@ -13,7 +13,7 @@
 namespace viscontact::swimmer {
 
 /// The table of resistance matrices of a case, in the file `table`, and how it is computed. Throws
-/// Error(kBadInput) if the case names a table that exists.
+/// Error(kBadInput) if the case names the file of a table, so that there is none to compute.
 pipeline::CaseTable case_table(const SwimmerCase& c, const std::filesystem::path& table);
 
 /// The options of the command `swimmer`.

@@ -34,7 +34,7 @@ inline constexpr int kLubricationTerms = 3;
 /// with g1, g2, g3 of Jeffrey & Onishi 1984 (J. Fluid Mech. 139, 261, equation (3.17) for X11A).
 /// Their ln(1/xi) is replaced by ln(1 + 1/xi), which has the same singularity and stays positive.
 /// The value is symmetric in a and b. It is the sum of the first `terms` of the three terms, 0 to
-/// kLubricationTerms.
+/// kLubricationTerms. No argument of this function and the next two is checked.
 double pair_lubrication(double a, double b, double gap, int terms);
 
 /// The resistance matrix over the viscosity [L] of a line of spheres of which only neighbours
@@ -43,7 +43,7 @@ double pair_lubrication(double a, double b, double gap, int terms);
 Eigen::MatrixXd lubrication_matrix(std::span<const double> radii, std::span<const double> gaps,
                                    int terms);
 
-/// d pair_lubrication / d gap [1].
+/// d pair_lubrication / d gap [1], of any sign.
 double pair_lubrication_slope(double a, double b, double gap, int terms);
 
 /// R = mu (R_lub + l exp(S)), physics.md (7.2), with the viscosity mu and the largest radius l.
@@ -53,7 +53,7 @@ double pair_lubrication_slope(double a, double b, double gap, int terms);
 /// a_{k+1}. Therefore R is symmetric and positive definite for any polynomials.
 struct ResistanceFit {
   double viscosity = 0;       ///< mu [M/(L T)], > 0
-  std::vector<double> radii;  ///< of the spheres along the line [L], > 0
+  std::vector<double> radii;  ///< of the spheres along the line [L], > 0, 2 to 10 of them
   std::string container;      ///< walls around the fluid, in words; may be empty
   /// Number of terms of pair_lubrication() that are in R_lub, 0 to 3.
   int lubrication_terms = 0;
@@ -61,7 +61,8 @@ struct ResistanceFit {
   /// degree in t_k is one less than the number of nodes; at the nodes S has the values
   /// `logarithms`.
   std::vector<std::vector<double>> gaps;
-  /// S at all combinations of nodes [1]; the last gap changes fastest.
+  /// S at all combinations of nodes [1], a row and a column for each sphere; the last gap changes
+  /// fastest.
   std::vector<Eigen::MatrixXd> logarithms;
   /// Largest |R_ij fitted / R_ij - 1| of the table's rows, >= 0. It is round-off, because the
   /// polynomials go through all rows. The error of an entry below 1e-3 sqrt(R_ii R_jj) is relative
@@ -83,12 +84,13 @@ ResistanceFit scaled_to(ResistanceFit fit, double viscosity, const std::vector<d
 /// The text of the fit file (JSON).
 std::string write_resistance_fit(const ResistanceFit& fit);
 
-/// Reads a fit file. Throws Error(kBadInput) with the line, the key and what is allowed.
+/// Reads a fit file. Throws Error(kBadInput) with the line, the key and what is allowed, or if the
+/// file cannot be read.
 ResistanceFit read_resistance_fit(const std::filesystem::path& path);
 
 /// `count` >= 2 rising distances of centres from `from` to `to` [L], 0 < from < to: the extrema of
 /// a Chebyshev polynomial in 1/distance, at which polynomials in 1/distance (ResistanceFit)
-/// interpolate well. Both ends are among them.
+/// interpolate well. Both ends are among them. Nothing is checked.
 inline std::vector<double> chebyshev_arms(double from, double to, int count) {
   std::vector<double> arms;
   for (int i = 0; i < count; ++i) {
@@ -103,7 +105,7 @@ inline std::vector<double> chebyshev_arms(double from, double to, int count) {
 /// R and its derivatives by the gaps.
 struct ResistanceWithSlopes {
   Eigen::MatrixXd value;                ///< R [M/T], symmetric and positive definite
-  std::vector<Eigen::MatrixXd> slopes;  ///< dR/dgap_k [M/(L T)] for each gap
+  std::vector<Eigen::MatrixXd> slopes;  ///< dR/dgap_k [M/(L T)] for each gap k, symmetric
 };
 
 /// Evaluates a ResistanceFit.
@@ -115,10 +117,12 @@ class FittedResistance {
   /// The radii of the spheres along the line [L], > 0.
   const std::vector<double>& radii() const { return radii_; }
 
-  /// The smallest and the largest value of gap k [L] in the table.
+  /// The smallest and the largest value of gap k, from 0, in the table [L], 0 < first < second.
+  /// Throws std::out_of_range if there is no gap k.
   std::array<double, 2> gap_interval(std::size_t k) const { return intervals_.at(k); }
 
-  /// True if each gap is within its interval, up to a relative 1e-12 for rounding.
+  /// True if each gap [L] is within its interval, up to a relative 1e-12 for rounding; false if one
+  /// is NaN. There must not be more gaps than spheres less one (not checked).
   bool contains(std::span<const double> gaps) const;
 
   /// R at these gaps [L], one less than the spheres. Throws Error(kBadInput) unless contains(gaps).

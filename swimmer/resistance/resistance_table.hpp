@@ -27,12 +27,12 @@ struct ResistanceRow {
   /// Estimates of the errors of the entries, relative to the entry [1], >= 0. Errors of an entry
   /// smaller than 1e-3 sqrt(R_ii R_jj) are relative to this value instead.
   std::vector<double> relative_error_estimates;
-  double degrees_of_freedom = 0;  ///< unknowns on the finest mesh
-  double seconds = 0;             ///< computing time of the row on a clock [s]
+  double degrees_of_freedom = 0;  ///< unknowns on the finest mesh, >= 0; 0: not known
+  double seconds = 0;             ///< computing time of the row on a clock [s]; 0: not known
   /// Order of convergence in the mesh size [1], observed in the entry with the largest estimate: 4
   /// in theory, 0 if it was not observed.
   double observed_order = 0;
-  double relative_error_estimate = 0;  ///< largest of relative_error_estimates
+  double relative_error_estimate = 0;  ///< largest of relative_error_estimates [1], >= 0
 };
 
 using lubrication::kFewestSpheres;
@@ -40,18 +40,20 @@ using lubrication::kMostSpheres;
 /// A table of resistance matrices.
 using ResistanceTable = lubrication::Table<ResistanceRow>;
 
-/// Position of R_ij in ResistanceRow::entries of `spheres` spheres; i and j count from 0, in any
-/// order.
+/// Position of R_ij in ResistanceRow::entries of `spheres` spheres; i and j, below `spheres` (not
+/// checked), count from 0, in any order.
 std::size_t entry_position(std::size_t i, std::size_t j, std::size_t spheres);
 
 /// The number of entries on and above the diagonal of the matrix of `spheres` spheres.
 inline std::size_t entry_count(std::size_t spheres) { return spheres * (spheres + 1) / 2; }
 
-/// The symmetric matrix R [M/T] of a row for `spheres` spheres.
+/// The symmetric matrix R [M/T] of a row for `spheres` spheres. Throws std::out_of_range if the row
+/// has fewer entries.
 Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres);
 
 /// The columns of a row: gap12, gap23, ..., R11, R12, ..., R11_relative_error_estimate, ..., and
-/// how the row was computed. The numbers of two spheres are separated by "_" if one of them is 10.
+/// how the row was computed. They point into `row`, which prepare() must have sized. The numbers of
+/// two spheres are separated by "_" if one of them is 10.
 std::vector<lubrication::Column> columns_of(const lubrication::TableHead& head, ResistanceRow& row);
 
 /// Gives the vectors of a row the sizes that belong to the number of radii in the head.
@@ -71,22 +73,25 @@ double largest_estimate(const ResistanceRow& row);
 /// read_table() (lubrication/table_codec.hpp) and check().
 ResistanceTable read_resistance_table(const std::filesystem::path& path);
 
-/// The gaps of each pair of neighbours in the table [L], rising, without repetition.
+/// The gaps of each pair of neighbours in the table [L], > 0, rising, without repetition; empty
+/// lists if the table has no rows.
 std::vector<std::vector<double>> gap_grid(const ResistanceTable& table);
 
 /// The ratio [1] of `radii` to `other`, two lists of radii [L], > 0: radii = ratio other. Throws
 /// Error(kBadInput) if the lists are no multiples of each other up to rounding, or differ in their
-/// length. `what` is the word for the owner of `other` in the message, "table" or "fit".
+/// length. No list may be empty (not checked). `what` is the word for the owner of `other` in the
+/// message, "table" or "fit".
 double ratio_of_radii(const std::vector<double>& radii, const std::vector<double>& other,
                       std::string_view what);
 
 /// The table for spheres of other radii r' [L] > 0, in a fluid of another viscosity mu' [M/(L T)] >
 /// 0. Stokes flow has no length of its own: with r' = ratio r, the matrix at the gaps ratio q is
-/// (mu'/mu) ratio R(q). The container grows with the spheres. Throws the error of ratio_of_radii().
+/// (mu'/mu) ratio R(q). The container grows with the spheres, and the hash of the table becomes
+/// empty. Throws the error of ratio_of_radii().
 ResistanceTable scaled_to(ResistanceTable table, double viscosity,
                           const std::vector<double>& radii);
 
-/// The text of the file.
+/// The text of the file. `table` has at least one row (not checked).
 std::string write_resistance_table(const ResistanceTable& table);
 
 }  // namespace viscontact::swimmer

@@ -10,7 +10,8 @@
 namespace viscontact::swimmer {
 
 /// Barycentric weights of nodes: w_j = 1 / prod_{i != j} (t_j - t_i), scaled so that the largest is
-/// 1 (Berrut & Trefethen 2004, SIAM Review 46, 501, equation (3.2)). The nodes must differ.
+/// 1 (Berrut & Trefethen 2004, SIAM Review 46, 501, equation (3.2)), one for each node. The nodes
+/// must differ.
 Eigen::VectorXd barycentric_weights(const Eigen::VectorXd& nodes);
 
 /// The polynomial that has given vectors as values at all combinations of the nodes of each

@@ -38,14 +38,16 @@ struct CollinearSpheres {
 std::string surroundings_in_words(const CollinearSpheres& spheres);
 
 /// Solves for the matrix at these gaps [L] > 0, one less than there are spheres. Throws
-/// Error(kExternalProgram) with the last lines of FreeFEM if it fails or exceeds its time limit.
+/// Error(kExternalProgram) with the last lines of FreeFEM if it fails, also because an argument is
+/// out of range, or exceeds its time limit; Error(kInterrupted) if freefem.stop requests a stop.
 ResistanceRow solve_resistance(const freefem_axi::FreeFem& freefem, const CollinearSpheres& spheres,
                                const std::vector<double>& gaps);
 
 /// The plan of the table of all combinations of the gaps grid[k] between spheres k and k + 1 [L], >
 /// 0 and rising. The point of a row (TablePlan) is the list of its gaps. If the line of spheres is
 /// its own mirror image and the grids are equal, only one of each two mirrored rows of the table is
-/// computed, and the other one is its reflection.
+/// computed, and the other one is its reflection. TablePlan::solve throws the errors of
+/// solve_resistance().
 freefem_axi::TablePlan resistance_table_plan(const CollinearSpheres& spheres,
                                              const std::vector<std::vector<double>>& grid);
 
