@@ -123,7 +123,8 @@ Periods periods_of_member(const RigidBody& body, std::size_t m, const Particles&
 /// Vector from the centre of a body to the centre of its member number `m` [L].
 Vector present_offset(const RigidBody& body, std::size_t m, int dimension);
 
-/// The place of a particle, from 0, among the members of its body; their number if it is none.
+/// The place of a particle, from 0, among the members of its body; the number of members if it is
+/// none.
 std::size_t member_number(const RigidBody& body, std::int32_t particle);
 
 /// Vector from the centre of its body to the centre of a particle [L]; 0 without a body.

@@ -1,6 +1,6 @@
 // Reads and writes particles as CSV files, and the rows of motion.csv. Lengths, masses and times
-// are in the units of the case; angles are in radians. case/ reads such files, io/ and run/ write
-// them. A change must keep the names of columns, which users' files have.
+// are in the units of the case; angles are in radians. Writing throws nothing. case/ reads such
+// files, io/ and run/ write them. A change must keep the names of columns, which users' files have.
 #pragma once
 
 #include <filesystem>

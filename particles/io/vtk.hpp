@@ -1,7 +1,8 @@
 // Writes and reads frames, the states of a simulation at the output times, as VTK files for
-// ParaView. Lengths, masses and times are in the units of the case. run/ uses it: a run that
-// continues, and pages, read the frames of a run again. A change must keep the names of the arrays,
-// and that read_vtp() and read_pvd() can read all files that were written before.
+// ParaView. Lengths, masses and times are in the units of the case. Writing throws nothing. run/
+// uses it: a run that continues, and pages, read the frames of a run again. A change must keep the
+// names of the arrays, and that read_vtp() and read_pvd() can read all files that were written
+// before.
 #pragma once
 
 #include <filesystem>
@@ -32,7 +33,7 @@ struct VtpContent {
   std::vector<double> positions;
   std::vector<double> radii;      ///< of each particle [L]
   std::vector<double> masses;     ///< of each particle [M]; empty if the file has none
-  std::vector<double> speeds;     ///< of each particle [L/T]
+  std::vector<double> speeds;     ///< of each particle [L/T], >= 0
   std::vector<std::int32_t> ids;  ///< of each particle; empty if the file has none
   // Counter-clockwise; empty for discs that do not turn, and for spheres.
   std::vector<double> angles,  ///< of each disc [rad]
