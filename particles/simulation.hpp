@@ -60,7 +60,8 @@ class Simulation {
   /// The step has the length h = Setting::time_step, except near times at which a force or the
   /// velocity of a plane jumps (step_times.hpp). If `end` [T] is earlier than the end of this step
   /// by more than a millionth of h, the step ends at `end`. If less than a millionth of h is left
-  /// until `end`, no step is made: rounding errors of the times would cause tiny steps.
+  /// until `end`, no step is made (the report has the present time and no contacts): rounding
+  /// errors of the times would cause tiny steps.
   ///
   /// A step in which two touching particles pass each other by more than half the sum of their
   /// radii (kLargestTurn in contact.hpp) is computed in two halves, and these again, up to

@@ -45,8 +45,9 @@ struct StepInterval {
 /// The ends of all steps of a simulation.
 class StepGrid {
  public:
-  /// `time_step` > 0 is the length h of a step, and `jumps` are the jump_times(). With `leapfrog`,
-  /// steps are placed around them (leapfrog_step_end()); otherwise a step ends at each of them.
+  /// `time_step` > 0 is the length h of a step [T], and `jumps` are the jump_times(). With
+  /// `leapfrog`, steps are placed around them (leapfrog_step_end()); otherwise a step ends at each
+  /// of them.
   explicit StepGrid(double time_step, bool leapfrog = false, std::vector<double> jumps = {})
       : time_step_(time_step), leapfrog_(leapfrog), jumps_(std::move(jumps)) {}
 
