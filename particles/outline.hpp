@@ -88,12 +88,14 @@ class SpineContacts {
 /// Distance of a point from the outline [L]; < 0 inside.
 double distance_to(const Outline& outline, const std::array<double, 2>& x);
 
-/// Distance between two outlines of which neither contains the other [L]. If they overlap, it is
-/// minus the depth of the deepest point of `first` in `second`; for plates whose spines cross, it
-/// is minus the sum of both end radii.
+/// Distance between two outlines of which neither contains the other [L]. It is exact to rounding
+/// errors if one is a circle or both are plates; otherwise the minimum over one ellipse is searched
+/// from 128 of its points. If they overlap, it is minus the depth of the deepest point of `first`
+/// in `second`; for plates whose spines cross, it is minus the sum of both end radii.
 double gap(const Outline& first, const Outline& second);
 
-/// Distance of the outline from an obstacle [L]; < 0 if a part of it is behind the obstacle.
+/// Distance of the outline from an obstacle [L]; < 0 if a part of it is behind the obstacle. Of an
+/// ellipse it is searched, likewise.
 double gap(const PlanePosition& obstacle, const Outline& outline);
 
 /// Outline of particle k in the plane, or of a sphere on the axis with its centre at (0, z).

@@ -48,7 +48,8 @@ class Simulation {
   /// `setting` has no fluid (for a fluid there is FluidSimulation). `state` is what read_restart()
   /// returned, or a state of which only the particles are set; their dimension is 2 or 3. `threads`
   /// >= 1 is the number of threads. Throws Error(kBadInput) if membranes of a state that has done
-  /// steps do not fit the setting (check_shapes() in membrane.hpp).
+  /// steps do not fit the setting (check_shapes() in membrane.hpp); nothing else of the setting and
+  /// the state is checked, such as masses > 0.
   Simulation(Setting setting, State state, int threads);
   ~Simulation();
   Simulation(Simulation&&) noexcept;  ///< the moved simulation must not be used afterwards

@@ -35,11 +35,12 @@ using ParticlesRunner =
 /// to points().rows() - 1, which is not checked.
 class ParticlesSweep {
  public:
-  /// Reads the case. Throws Error(kBadInput) if the first or the last row gives no valid case, and
-  /// Error(kWrongUsage) if nothing is varied and there are no draws, if a key is varied twice or
-  /// changes nothing, if there are random samples but no varied key, if there are more than 1e12
-  /// rows, if there are draws but the case has no [arrangement], or if the seed of the last draw
-  /// exceeds 2^31 - 1. Points::first_draw becomes arrangement.seed of the case.
+  /// Reads the case. Throws Error(kBadInput) if the case cannot be read or is wrong, or the first
+  /// or the last row gives no valid case, and Error(kWrongUsage) if nothing is varied and there are
+  /// no draws, if a key is varied twice or changes nothing, if there are random samples but no
+  /// varied key, if draws make more than 1e12 rows, if there are draws but the case has no
+  /// [arrangement], or if the seed of the last draw exceeds 2^31 - 1. Points::first_draw becomes
+  /// arrangement.seed of the case.
   ParticlesSweep(const std::filesystem::path& case_path, sweep::Points points);
 
   /// The points, with the number of draws at each and the seed of the first draw.

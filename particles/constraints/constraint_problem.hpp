@@ -78,7 +78,8 @@ template <int D>
 RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const double* displacement,
                               const double* turn);
 
-/// The unit of a rigid body, whose motion without contacts and links is `free`.
+/// The unit of a rigid body, whose motion without contacts and links, mobilities and their inverses
+/// are those of `free`.
 template <int D>
 RigidUnit<D> unit_of_body(const BodyStep& free);
 
@@ -239,8 +240,8 @@ struct ContactTangents {
   double capacity = 0;   ///< ConstraintBlock::capacity [M L/T]
 };
 
-/// The tangents of a contact in a step from time `begin` to `end` [T]. Contact::obstacle is a place
-/// in `obstacles`. The caller sets `capacity`, which is 0 in the result.
+/// The tangents of a contact in a step from time `begin` to `end` > begin [T]. Contact::obstacle is
+/// a place in `obstacles`. The caller sets `capacity`, which is 0 in the result.
 template <int D>
 ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& particles,
                                std::span<const Plane> obstacles, double begin, double end);

@@ -84,8 +84,9 @@ struct DiscDomain {
 /// periodic side is no wall and has no number.
 struct BoxDomain {
   /// Corner with the smallest coordinates [L]; in two dimensions both third components are 0.
-  std::array<double, 3> from{}, to{};  ///< the opposite corner [L], > `from` in each component
-  std::array<bool, 3> periodic{};      ///< whether the domain is periodic along x, y and z
+  std::array<double, 3> from{},
+      to{};                        ///< the opposite corner [L], > `from` along each axis of space
+  std::array<bool, 3> periodic{};  ///< whether the domain is periodic along x, y and z
 
   /// Number of dimensions, 2 or 3.
   std::size_t dimension() const { return to[2] > from[2] ? 3 : 2; }

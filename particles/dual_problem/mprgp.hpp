@@ -78,7 +78,8 @@ class Mprgp {
     refresh();
   }
 
-  /// Makes a new factor for the preconditioner. Returns false if it cannot be made.
+  /// Makes a new factor for the preconditioner. Returns false if it cannot be made; the caller may
+  /// go on without it.
   bool factorise() {
     restart_ = true;
     return preconditioner_.factorise();

@@ -40,8 +40,9 @@ struct VtpContent {
       angular_velocities;      ///< of each disc [1/T]
   /// Unit quaternions (w, x, y, z) of spheres in space; empty if they do not turn.
   std::vector<double> orientations;
-  /// In the order of contacts_of(): first pairs of particles, then particles at obstacles. Errors
-  /// of gamma, normals and branches are not in the file and keep their defaults.
+  /// In the order of contacts_of(): first pairs of particles, then particles at obstacles; with the
+  /// numbers of particles in `radii`, not their ids; empty if there are none. Errors of gamma,
+  /// normals and branches are not in the file and keep their defaults.
   std::vector<CurrentContact> contacts;
 };
 

@@ -110,7 +110,7 @@ struct Links {
   std::size_t force_count(int dimension) const {
     return place_of_membrane(membranes.size(), dimension);
   }
-  /// Number of forces of one hinge in State::link_forces.
+  /// Number of forces of one hinge in State::link_forces; `dimension` is 1 to 3.
   static std::size_t forces_of_hinge(int dimension) {
     return static_cast<std::size_t>(dimension) + (dimension == 2 ? 1 : 0);
   }

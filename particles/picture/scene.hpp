@@ -167,7 +167,7 @@ inline constexpr const char* kFrictionWords =
 using Polygon = std::vector<Vector>;  ///< corners in order [L]; two corners: a line
 
 /// The part of a convex polygon or of a line with normal.(x - point) >= 0; empty if there is none.
-/// `normal` may have any length > 0.
+/// `point` is on the boundary [L], and `normal` may have any length > 0.
 Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& normal);
 
 /// The part of a convex polygon or line in the box and on the free side (that of the particles) of

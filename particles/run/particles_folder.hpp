@@ -40,7 +40,8 @@ struct FrameKind {
 inline constexpr FrameKind kFrameFile{"particles", ".vtp"}, kFlowFile{"flow", ".vtu"},
     kLinksFile{"links", ".vtp"};
 
-/// The name of the file of frame `number`, from 0, such as particles_00000.vtp.
+/// The name of the file of frame `number`, from 0, such as particles_00000.vtp; at least five
+/// digits.
 std::string frame_name(const FrameKind& kind, std::uint64_t number);
 
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame, but

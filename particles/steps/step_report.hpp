@@ -70,7 +70,8 @@ struct StepReport {
   /// Largest overlap -d after the step, divided by the mean radius [1]. The true overlap is at most
   /// as large, because no gap is smaller than its linearised gap.
   double largest_overlap = 0;
-  /// Number of parts into which the step was divided, 1 to 256, where particles move fast.
+  /// Number of parts into which the step was divided, 1 to 256, where particles move fast; 1 if no
+  /// time was left for a step.
   int parts = 0;
   /// Number of contacts whose particles move around each other too far for linearised gaps, even in
   /// the smallest parts of the step (kLargestTurn in contact.hpp).

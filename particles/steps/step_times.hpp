@@ -16,9 +16,10 @@
 namespace viscontact::particles {
 
 /// The times > 0 of a case at which a step must end (Euler scheme) or have its middle (leapfrog
-/// scheme) [T], increasing, each once. With the leapfrog scheme they are those at which a force or
-/// torque jumps. With the Euler scheme they are those at which the velocity of a plane jumps, if
-/// solids rebound: a plane moves evenly in a step. Otherwise there are none.
+/// scheme) [T], increasing, each once; empty if there are none. With the leapfrog scheme they are
+/// those at which a force or torque jumps. With the Euler scheme they are those at which the
+/// velocity of a plane jumps, if solids rebound: a plane moves evenly in a step. Otherwise there
+/// are none.
 std::vector<double> jump_times(const Setting& setting);
 
 /// The end of the step that begins at `time` with the leapfrog scheme [T]. Without a jump near, it

@@ -50,7 +50,8 @@ void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& requ
 
 /// Submits a Slurm job with the tasks that have rows to compute (array_job.hpp, which says what is
 /// thrown), or none if no row is missing. Also throws Error(kBadInput) if the file of the rows
-/// cannot be written. `options` are the words of the command line that determine the rows, such as
+/// exists and is no regular file, and Error(kWrongUsage) if ArrayRequest::options has an open
+/// quotation mark. `options` are the words of the command line that determine the rows, such as
 /// --draws and its number.
 void submit_sweep(const ParticlesSweep& sweep, const pipeline::ArrayRequest& request,
                   const std::vector<std::string>& options);
