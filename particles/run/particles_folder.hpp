@@ -94,7 +94,7 @@ struct StepTotals {
 
   double averaged_time = 0;  ///< time over which the next two means are taken [T]; 0: no means
   /// Means over time of FluidStepReport::dissipation [M L^2/T^3], in two dimensions [M L/T^3], and
-  /// ::apparent_viscosity [1], whose values are taken as constant over their step.
+  /// FluidStepReport::apparent_viscosity [1], whose values are taken as constant over their step.
   double mean_dissipation = 0, mean_apparent_viscosity = 0;
 
   /// Adds a step. The means begin at the time `average_from` [T].
