@@ -23,12 +23,12 @@ enum class ContactFriction : std::int8_t {
 /// A contact as files show it. gamma is minus the impulse that the fluid film between both surfaces
 /// has absorbed; a contact with gamma < 0 is glued.
 struct CurrentContact {
-  std::int32_t first;      ///< a particle, or -1 - k for obstacle k of obstacles_of()
-  std::int32_t second;     ///< number of a particle
-  double gap;              ///< [L]
+  std::int32_t first;      ///< number of a particle, or -1 - k for obstacle k of obstacles_of()
+  std::int32_t second;     ///< number of a particle, its place in Particles, from 0
+  double gap;              ///< [L], < 0 if the two overlap
   double gamma;            ///< Pair::gamma [M L/T], of discs in a fluid [M/T]; <= 0
-  double gamma_error = 0;  ///< Pair::gamma_error, in the unit of gamma
-  std::int32_t image = 0;  ///< Pair::image
+  double gamma_error = 0;  ///< estimate of the error of gamma, in its unit, >= 0
+  std::int32_t image = 0;  ///< periodic image of `second` that meets `first`, -13 to 13; 0: itself
   ContactFriction friction = ContactFriction::kNone;  ///< in the last step
   /// Mean normal force in the last step [M L/T^2], of discs in a fluid per length: that of solids
   /// and film together, > 0 where it pushes the bodies apart.
@@ -37,6 +37,7 @@ struct CurrentContact {
   // The next members are not in VTK files.
   Vector normal{};  ///< unit normal from `first` to `second`
   /// Vector [L] to the centre of `second` from that of `first` or the nearest point of an obstacle.
+  /// Components beyond the dimension are 0.
   Vector branch{};
   /// Numbers that laws remember of the pair and files show (pair_memory.hpp), often none.
   [[no_unique_address]] ShownMemory shown{};
@@ -52,7 +53,7 @@ std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
 /// fluid.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
-/// Largest Pair::gamma_error of all pairs, in the unit of gamma, >= 0.
+/// Largest Pair::gamma_error of all pairs, in the unit of gamma, >= 0; 0 without pairs.
 double largest_gamma_error(const State& state);
 
 /// Largest overlap of two particles, or of a particle and an obstacle, divided by the mean radius;

@@ -56,7 +56,7 @@ struct WallVelocity {
   /// Which velocity the wall has.
   enum class Kind {
     kConstant,   ///< `value` everywhere
-    kParabolic,  ///< along the inward normal; value[0] is the speed in the middle of the wall
+    kParabolic,  ///< along the inward normal; value[0] is the speed in the middle of the wall [L/T]
     kOpen,       ///< no stress acts on this side, and fluid flows through it freely
   };
   Kind kind = Kind::kConstant;  ///< which velocity the wall has
@@ -66,12 +66,12 @@ struct WallVelocity {
   PiecewiseConstant pieces{};
   /// If the period [T] is > 0, the velocity is multiplied by 1 + amplitude sin(2 pi time/period).
   double period = 0;
-  double amplitude = 0;  ///< without dimension
+  double amplitude = 0;  ///< [1], any number; without a period it is not used
 
   /// True if the velocity depends on time.
   bool depends_on_time() const { return !pieces.pieces.empty() || period > 0; }
-  /// The numbers of `value` at `time` [T]; if `to` > `from`, pieces are averaged between both
-  /// times.
+  /// The numbers of `value` at `time` [T], in its unit; if `to` > `from` [T], pieces are averaged
+  /// between both times.
   std::array<double, 2> at(double time, double from = 0, double to = 0) const;
 };
 
@@ -105,7 +105,7 @@ struct Fluid {
   std::array<double, 2> pressure_gradient{};
   /// If the period [T] is > 0, the gradient is multiplied by 1 + amplitude sin(2 pi time/period).
   double gradient_period = 0;
-  double gradient_amplitude = 0;  ///< without dimension
+  double gradient_amplitude = 0;  ///< [1], any number; without a period it is not used
   /// How particles are kept rigid; kRigid needs FluidMesh::kFitted.
   RigidConstraint constraint = RigidConstraint::kPenalty;
   /// The penalty > 0 of docs/physics.md (6.1), without dimension; used by kPenalty only. Velocities
@@ -116,7 +116,9 @@ struct Fluid {
   /// velocities have relative errors of some 1e-4 at gaps of 0.1 radii and more (docs/fluid.md).
   int edges_per_particle = 24;
   Coupling coupling = Coupling::kConstrained;  ///< how contact acts on the particles
-  double threshold_gap = 0;  ///< gap at which contact is made [L], >= 0: D_c of docs/physics.md
+  /// Gap at which contact is made [L], >= 0: D_c of docs/physics.md. While a case is read, 0 stands
+  /// for a default that is set later.
+  double threshold_gap = 0;
   /// Velocities of the walls, or of a cell that is periodic both ways.
   std::variant<LinearFlow, SideVelocities> boundary;
   /// Command of a flow solver of the user's own, with its arguments; empty: FreeFEM.
@@ -138,9 +140,10 @@ struct Fluid {
   /// The lines on which flow and pressure are measured.
   std::vector<Probe> probes{};
 
-  /// The pressure gradient at `time` [T].
+  /// The pressure gradient at `time` [T], x and y [M/(L^2 T^2)].
   std::array<double, 2> pressure_gradient_at(double time) const;
-  /// True if both particles are beads of one membrane; they then make no contact with each other.
+  /// True if both particles, given by their numbers, are beads of one membrane; they then make no
+  /// contact with each other.
   bool are_of_one_membrane(std::int32_t first, std::int32_t second) const;
   /// True if the fluid has inertia.
   bool has_inertia() const { return density > 0; }
@@ -156,8 +159,8 @@ struct Fluid {
   double end_radius(std::size_t k, double radius) const {
     return is_plate(k) ? semi_axes[k][1] : radius;
   }
-  /// Area of particle k [L^2] without its cut area, or volume of a sphere on the axis [L^3].
-  /// `radius` [L] is used for discs and spheres only.
+  /// Area of particle k [L^2] without its cut area (`dimension` 2), or volume of a sphere on the
+  /// axis [L^3] (1). `radius` [L] is used for discs and spheres only.
   double size_of(int dimension, std::size_t k, double radius) const;
   /// Moment of inertia of particle k in the plane [M L^2], if it is homogeneous. It has this mass
   /// [M] and, if it is a disc, this radius [L].

@@ -37,7 +37,7 @@ struct Outline {
   /// vectors e_1, e_2 it is the point centre + a cos(t) e_1 + b sin(t) e_2. On a plate t is
   /// proportional to the length along the outline from the tip in the direction `angle`.
   std::array<double, 2> at(double t) const;
-  /// Length of the derivative of at() by t [L].
+  /// Length of the derivative of at() by t [L], > 0.
   double speed_at(double t) const;
   /// Radius of curvature at at(t) [L]: of an ellipse (a^2 sin^2 t + b^2 cos^2 t)^(3/2)/(a b), of a
   /// plate everywhere the radius of its ends.
@@ -47,7 +47,7 @@ struct Outline {
   /// Ends of the spine [L], the first in the direction `angle`. Both ends of a circle's are its
   /// centre.
   std::array<std::array<double, 2>, 2> spine() const;
-  /// Circumference of a circle or plate [L].
+  /// Circumference of a circle or plate [L]; it is wrong for an ellipse, without a check.
   double length() const;
 };
 
@@ -88,17 +88,20 @@ class SpineContacts {
 /// Distance of a point from the outline [L]; < 0 inside.
 double distance_to(const Outline& outline, const std::array<double, 2>& x);
 
-/// Distance between two outlines of which neither contains the other [L]. If they overlap, it is
-/// minus the depth of the deepest point of `first` in `second`; for plates whose spines cross, it
-/// is minus the sum of both end radii.
+/// Distance between two outlines of which neither contains the other [L]. It is exact to rounding
+/// errors if one is a circle or both are plates; otherwise the minimum over one ellipse is searched
+/// from 128 of its points. If they overlap, it is minus the depth of the deepest point of `first`
+/// in `second`; for plates whose spines cross, it is minus the sum of both end radii.
 double gap(const Outline& first, const Outline& second);
 
-/// Distance of the outline from an obstacle [L]; < 0 if a part of it is behind the obstacle.
+/// Distance of the outline from an obstacle [L]; < 0 if a part of it is behind the obstacle. Of an
+/// ellipse it is searched, likewise.
 double gap(const PlanePosition& obstacle, const Outline& outline);
 
 /// Outline of particle k in the plane, or of a sphere on the axis with its centre at (0, z).
-/// `angles` are those of all particles [rad], used for ellipses and plates only. `shift` [L] is
-/// added to the centre, as for a periodic image.
+/// `angles` are those of all particles [rad], used for ellipses and plates only; without these they
+/// may be empty. Particle numbers count from 0 and are not checked. `shift` [L] is added to the
+/// centre, as for a periodic image.
 Outline outline_of(const Fluid& fluid, const Particles& particles, std::span<const double> angles,
                    std::size_t k, const Vector& shift = {});
 
@@ -117,13 +120,13 @@ struct Chord {
   double wedge = 0;
 };
 
-/// The chord at which disc `other` cuts disc k; none if their circles do not meet. Periodic images
-/// are not considered. If k and `other` are exchanged, the ends are the same bits.
+/// The chord at which disc `other` cuts disc k; none if their circles touch or do not meet.
+/// Periodic images are not considered. If k and `other` are exchanged, the ends are the same bits.
 std::optional<Chord> chord_of(const Particles& particles, std::size_t k, std::size_t other);
 
 /// The chords at which discs of its body cut disc k, in the order of their `middle`, without those
-/// whose arc is within the arc of another chord. None if particle k is an ellipse or plate, and
-/// with RigidConstraint::kPenalty, because discs may not overlap then.
+/// whose arc is within the arc of another chord. None if particle k is in no body, or an ellipse or
+/// plate, and with RigidConstraint::kPenalty, because discs may not overlap then.
 std::vector<Chord> chords_of(const Fluid& fluid, const Particles& particles, std::size_t k);
 
 /// Fluid::cut_areas for these particles [L^2]: for each particle the sum of Chord::area over its

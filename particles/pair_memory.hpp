@@ -3,8 +3,8 @@
 // restart file, contacts.csv, final_contacts.csv and the VTK files take their names from there. To
 // add a number, add a row to kMemoryFields and a place to Remembered, with the unit in its comment.
 // Names must not change, because restart files contain them. A pair loses its memory when its gamma
-// is 0 and it leaves the lists of close pairs. All contact laws and solvers use this file; nothing
-// is thrown.
+// is 0 and it leaves the lists of close pairs. All contact laws and solvers use this file. Nothing
+// is checked (fields, numbers of rows) or thrown.
 #pragma once
 
 #include <algorithm>
@@ -97,7 +97,7 @@ class PairMemories {
   /// In place of the number of a row: the pair has no row.
   static constexpr std::int32_t kNone = -1;
 
-  /// The memory with number `row` (Pair::memory); zeros if it is kNone.
+  /// The memory with number `row` (Pair::memory), from 0; zeros if it is kNone.
   const PairMemory& of(std::int32_t row) const {
     static constexpr PairMemory kZeros{};
     return row == kNone ? kZeros : rows_[static_cast<std::size_t>(row)];

@@ -1,8 +1,9 @@
 // The particles of a simulation: rigid discs or spheres, and how they turn. Lengths, masses and
 // times are in any consistent units; turns and angles are in radians. The restart file stores these
 // arrays as they are (io/restart.cpp), so that a change of their layout needs a new version of that
-// file. A change must keep quaternions at length 1. All of particles/ uses this file; nothing is
-// checked or thrown.
+// file. A change must keep quaternions at length 1. All of particles/ uses this file. Nothing is
+// checked or thrown: numbers of particles must be < count(), and arrays as long as stated. The
+// number of a particle is its place in the arrays, from 0; its id is its name in the user's files.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,7 @@
 
 namespace viscontact::particles {
 
-/// Index in an array of the particle with number `number` >= 0.
+/// The number of a particle, >= 0, as the type of an index in an array.
 constexpr std::size_t index_of(std::int32_t number) { return static_cast<std::size_t>(number); }
 
 /// The particles as flat arrays. Entry k of `radii`, `masses` and `ids` belongs to particle k, and
@@ -28,10 +29,10 @@ struct Particles {
   /// 2: discs, 3: spheres, 1: spheres on the axis z of a cylinder. z is component 0 of a Vector.
   int dimension = 2;
   std::vector<double> positions;   ///< of the centres [L]
-  std::vector<double> velocities;  ///< [L/T]
+  std::vector<double> velocities;  ///< of the centres [L/T]
   std::vector<double> radii;       ///< [L], > 0
   std::vector<double> masses;      ///< [M], of discs in a fluid [M/L]; > 0, in a fluid >= 0
-  /// Number of each particle in files, >= 0; no two are equal. Empty: particle k has the id k.
+  /// Id of each particle, >= 0; no two are equal. Empty: particle k has the id k.
   std::vector<std::int32_t> ids{};
   // The next four arrays describe rotation. They are empty if nothing in the case depends on
   // rotation (docs/particles.md), and for particles on an axis.
@@ -41,7 +42,8 @@ struct Particles {
   std::vector<double> orientations{};
   /// Angular velocities [1/T]: one for each disc, counter-clockwise; three for each sphere.
   std::vector<double> angular_velocities{};
-  std::vector<double> inertias{};  ///< [M L^2], of discs in a fluid [M L]; > 0, in a fluid >= 0
+  /// One for each particle: [M L^2], of discs in a fluid [M L]; > 0, in a fluid >= 0.
+  std::vector<double> inertias{};
   /// The periodic cell, which says how images of particles are shifted. A simulation takes it from
   /// its setting; the restart file does not store it.
   PeriodicCell cell{};
@@ -83,26 +85,28 @@ inline std::size_t ids_left(const Particles& particles) {
                                   largest_id(particles));
 }
 
-/// If `ids` is not empty but shorter than count(), the last particles get the largest id so far
-/// plus 1, 2, ... ids_left() must be at least their number.
+/// If `ids` is not empty but shorter than count(), the particles without an id get the largest id
+/// so far plus 1, 2, ... ids_left() must be at least their number.
 inline void add_missing_ids(Particles& particles) {
   if (particles.ids.empty()) return;
   auto largest = largest_id(particles);
   while (particles.ids.size() < particles.count()) particles.ids.push_back(++largest);
 }
 
-/// Area of a disc (dimension 2) [L^2], volume of a sphere (otherwise) [L^3].
+/// Area of a disc (dimension 2) [L^2], volume of a sphere (dimension 1 or 3) [L^3].
 inline double size_of_particle(int dimension, double radius) {
   constexpr double kPi = 3.141592653589793;
   return dimension == 2 ? kPi * radius * radius : 4 * kPi / 3 * radius * radius * radius;
 }
 
-/// Moment of inertia of a homogeneous disc or sphere about its centre [M L^2].
+/// Moment of inertia about its centre [M L^2] of a homogeneous disc (dimension 2), m r^2/2, or
+/// sphere (3), 2 m r^2/5. For dimension 1 it returns that of a disc, which is meaningless: spheres
+/// on an axis do not turn, and nothing calls it for them.
 inline double homogeneous_inertia(int dimension, double mass, double radius) {
   return (dimension == 3 ? 0.4 : 0.5) * mass * radius * radius;
 }
 
-/// Area of an ellipse [L^2].
+/// Area of an ellipse with these semi-axes [L], >= 0; [L^2].
 inline double size_of_ellipse(const std::array<double, 2>& semi_axes) {
   return size_of_particle(2, 1) * semi_axes[0] * semi_axes[1];
 }
@@ -112,7 +116,8 @@ inline double homogeneous_inertia_of_ellipse(double mass, const std::array<doubl
   return mass / 4 * (semi_axes[0] * semi_axes[0] + semi_axes[1] * semi_axes[1]);
 }
 
-/// Area [L^2] of a plate of the length 2 semi_axes[0] with round ends of the radius semi_axes[1].
+/// Area [L^2] of a plate of the length 2 semi_axes[0] with round ends of the radius semi_axes[1]
+/// [L], > 0 and at most semi_axes[0].
 inline double size_of_plate(const std::array<double, 2>& semi_axes) {
   const auto [a, b] = semi_axes;
   return size_of_particle(2, b) + 4 * (a - b) * b;
@@ -129,9 +134,10 @@ inline double homogeneous_inertia_of_plate(double mass, const std::array<double,
   return mass / (discs + rectangle) * (rectangle * of_rectangle + discs * of_discs);
 }
 
-/// Extends the four arrays of the rotation to all particles, so that all can turn. The new entries
-/// are those of particles at rest in the orientation of the start, with the moment of inertia of a
-/// homogeneous disc or sphere. The dimension is 2 or 3.
+/// Extends `angular_velocities`, `inertias` and, for discs, `angles`, for spheres `orientations` to
+/// all particles, so that all can turn. Entries that exist stay. The new ones are those of
+/// particles at rest in the orientation of the start, with the homogeneous_inertia(). The dimension
+/// is 2 or 3.
 void add_rotation(Particles& particles);
 
 /// Mean radius [L], the unit of residuals and overlaps; 1 if there are no particles.
@@ -148,10 +154,10 @@ inline double mean_radius(const Particles& particles) {
 using Quaternion = std::array<double, 4>;
 
 /// The orientation after `from` and a rotation by |turn| [rad] about the direction of `turn`, whose
-/// components are along the fixed axes. The result has length 1.
+/// components are along the fixed axes. The result has length 1; it is NaN if `from` is 0.
 Quaternion turned(const Quaternion& from, const Vector& turn);
 
-/// The vector `a` after the rotation `q`, a quaternion of length 1.
+/// The vector `a`, of any unit, after the rotation `q`, a quaternion of length 1.
 Vector rotated(const Quaternion& q, const Vector& a);
 
 /// Number of components of a rotation: 1 for discs, 3 for spheres.

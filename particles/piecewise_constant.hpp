@@ -24,7 +24,7 @@ struct PiecewiseConstant {
   Vector integral(double t) const;
   /// Mean over the times from `from` to `to` [T]; needs 0 <= from < to.
   Vector mean(double from, double to) const;
-  /// Value at time t [T]; where two pieces meet, that of the later one.
+  /// Value at time t >= 0 [T]; where two pieces meet, that of the later one.
   Vector value(double t) const;
   /// The first end of a piece after time t [T]; infinite if no piece ends after t.
   double next_end(double t) const;

@@ -1,9 +1,9 @@
 // What moves the particles of a simulation, how their motion is computed, and how accurately: the
-// content of a case file. Nothing is checked here; particles/case checks the values. The
-// simulations (simulation.hpp, fluid/, membranes/) and the files in io/, picture/ and run/ read it.
-// Lengths, masses and times are in any consistent units; masses and forces of discs in a fluid are
-// per length. A change of a default of SolverSettings changes the results of every case that does
-// not set it.
+// content of a case file. Nothing is checked or thrown here; particles/case checks the values. The
+// number of a particle is its place in Particles, from 0. The simulations (simulation.hpp, fluid/,
+// membranes/) and the files in io/, picture/ and run/ read it. Lengths, masses and times are in any
+// consistent units; masses and forces of discs in a fluid are per length. A change of a default of
+// SolverSettings changes the results of every case that does not set it.
 #pragma once
 
 #include <algorithm>
@@ -107,13 +107,13 @@ inline Vector added_torque(const Setting& setting, std::size_t k, int dimension)
   return {0, 0, setting.added_torques[k]};
 }
 
-/// Setting::added_forces, extended by zeros to one entry for each velocity component.
+/// Setting::added_forces [M L/T^2], extended by zeros to one entry for each velocity component.
 inline std::span<double> added_forces_for(const Particles& particles, Setting& setting) {
   setting.added_forces.resize(particles.velocities.size());
   return setting.added_forces;
 }
 
-/// Setting::added_torques, likewise; empty if the particles do not turn.
+/// Setting::added_torques [M L^2/T^2], likewise; empty if the particles do not turn.
 inline std::span<double> added_torques_for(const Particles& particles, Setting& setting) {
   setting.added_torques.resize(particles.angular_velocities.size());
   return setting.added_torques;

@@ -48,7 +48,8 @@ class Simulation {
   /// `setting` has no fluid (for a fluid there is FluidSimulation). `state` is what read_restart()
   /// returned, or a state of which only the particles are set; their dimension is 2 or 3. `threads`
   /// >= 1 is the number of threads. Throws Error(kBadInput) if membranes of a state that has done
-  /// steps do not fit the setting (check_shapes() in membrane.hpp).
+  /// steps do not fit the setting (check_shapes() in membrane.hpp); nothing else of the setting and
+  /// the state is checked, such as masses > 0.
   Simulation(Setting setting, State state, int threads);
   ~Simulation();
   Simulation(Simulation&&) noexcept;  ///< the moved simulation must not be used afterwards
@@ -60,7 +61,8 @@ class Simulation {
   /// The step has the length h = Setting::time_step, except near times at which a force or the
   /// velocity of a plane jumps (step_times.hpp). If `end` [T] is earlier than the end of this step
   /// by more than a millionth of h, the step ends at `end`. If less than a millionth of h is left
-  /// until `end`, no step is made: rounding errors of the times would cause tiny steps.
+  /// until `end`, no step is made (the report has the present time and no contacts): rounding
+  /// errors of the times would cause tiny steps.
   ///
   /// A step in which two touching particles pass each other by more than half the sum of their
   /// radii (kLargestTurn in contact.hpp) is computed in two halves, and these again, up to

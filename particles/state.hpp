@@ -1,7 +1,8 @@
 // State of a simulation: everything, besides the case, that its future depends on. Lengths, masses
 // and times are in any consistent units. The simulations change it, the files in io/ and run/ show
 // it, and the restart file (io/restart.cpp) stores it bit for bit; a change of Pair or State must
-// keep old restart files readable. Nothing is checked here.
+// keep old restart files readable. Nothing is checked or thrown here. The number of a particle is
+// its place in State::particles, from 0.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +19,7 @@ namespace viscontact::particles {
 /// gamma is minus the impulse that the fluid film between both surfaces has absorbed. It falls
 /// while the film is pressed, down to gamma_min, at which the solids touch (film_law.hpp).
 struct Pair {
-  std::int32_t first = 0;   ///< a particle, or -1 - k for obstacle k of obstacles_of()
+  std::int32_t first = 0;   ///< number of a particle, or -1 - k for obstacle k of obstacles_of()
   std::int32_t second = 0;  ///< number of a particle, > first
   double gamma = 0;         ///< gamma_min <= gamma <= 0 [M L/T]
   /// Impulse of the contact in the last step [M L/T], > 0 where it pushes, and at least the gamma
@@ -62,7 +63,7 @@ struct SourceProgress {
 struct State {
   Particles particles;     ///< their places, sizes, masses and motions
   double time = 0;         ///< [T]
-  std::int64_t steps = 0;  ///< number of steps done
+  std::int64_t steps = 0;  ///< number of steps done, >= 0
   /// The velocities are those at `time` - velocity_lag [T], >= 0; not 0 only with
   /// Scheme::kLeapfrog.
   double velocity_lag = 0;

@@ -42,7 +42,7 @@ inline Vector point_of(const double* values, std::size_t k, int dimension) {
   return {at[0], dimension > 1 ? at[1] : 0.0, dimension > 2 ? at[2] : 0.0};
 }
 
-/// The larger of two numbers, or NaN if one of them is not a number.
+/// The larger of two numbers of one unit, or NaN if one of them is not a number.
 inline double largest_or_nan(double a, double b) { return a != a || b <= a ? a : b; }
 
 }  // namespace viscontact::particles

@@ -15,7 +15,7 @@ namespace viscontact::particles {
 
 /// The particles that are to be placed, and the gaps that they must have.
 struct Arrangement {
-  std::vector<double> radii;  ///< of the particles [L], > 0; at least one
+  std::vector<double> radii;  ///< of the particles [L], > 0; at least one (not checked)
   double smallest_gap = 0;    ///< between two particles, and between one and a wall [L], >= 0
   /// Seed of the random numbers: the same seed gives the same arrangement, bit for bit.
   std::uint64_t seed = 1;
@@ -26,8 +26,8 @@ double size_of(const Arrangement& asked, int dimension);
 
 /// Places new particles in the domain, which must be a disc or a box; periodic sides are no walls.
 /// They are spheres if the box has three dimensions, otherwise discs. `present` are the particles
-/// that are in the domain already and stay where they are. Returns the coordinates of the new
-/// centres [L], 2 or 3 for each particle, in the order of `asked.radii`.
+/// that are in the domain already and stay where they are; gaps among them are not checked. Returns
+/// the coordinates of the new centres [L], 2 or 3 for each particle, in the order of `asked.radii`.
 ///
 /// All gaps of a new particle, to other particles (also across periodic sides) and to walls, are at
 /// least `smallest_gap`. The arrangement is a sample of the equilibrium of hard discs or spheres
@@ -44,8 +44,9 @@ double size_of(const Arrangement& asked, int dimension);
 /// less than a second. On every machine with IEEE 754 arithmetic the same arguments give the same
 /// bits.
 ///
-/// Throws Error(kBadInput) if the particles do not fit or no arrangement is found. The message has
-/// the number of particles and their area or volume fraction; the caller adds file and line. Throws
+/// Throws Error(kBadInput) if the particles do not fit, or if step 2 fails for ten random
+/// beginnings, which can happen although an arrangement exists. The message has the number of
+/// particles and their area or volume fraction; the caller adds file and line. Throws
 /// std::bad_variant_access if `domain` is neither a disc nor a box.
 std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
                             const Particles& present);

@@ -26,9 +26,10 @@ struct Source {
   double begin = 0;               ///< time of the first particle [T], >= 0
   double end = 0;                 ///< last time at which a particle is due [T], > `begin`
   std::size_t largest_count = 0;  ///< largest number of particles in all, >= 1
-  std::uint64_t seed = 1;         ///< seed of radii and places
+  std::uint64_t seed = 1;         ///< seed of radii and places; any number
 
-  /// The number of particles, 0 to `largest_count`, that are due up to the time `time` [T].
+  /// The number of particles, 0 to `largest_count`, that are due up to the time `time` [T]: 0
+  /// before `begin`, 1 at `begin`, and constant after `end`.
   std::size_t due(double time) const;
 };
 
@@ -65,8 +66,8 @@ struct WaitingParticles {
   double radius;       ///< of the first of them, for which no place was free [L], > 0
 };
 
-/// The waiting particles in this state, of the sources that have any. `sources` are those of the
-/// case file, in the order of State::sources.
+/// The waiting particles in this state, of the sources that have any; empty if none waits.
+/// `sources` are those of the case file, in the order of State::sources.
 std::vector<WaitingParticles> waiting_particles(const std::vector<Source>& sources,
                                                 const State& state);
 

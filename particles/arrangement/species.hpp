@@ -51,10 +51,11 @@ struct DrawnParticle {
 /// n, the number of particles of each species is its share of n, rounded up or down.
 class DrawnSpecies {
  public:
-  /// `dimension` is 2 for discs and 3 for spheres; `species` must not be empty; any seed.
+  /// `dimension` is 2 for discs and 3 for spheres; `species` must not be empty (not checked, next()
+  /// would read beyond its end); any seed.
   DrawnSpecies(std::vector<Species> species, int dimension, std::uint64_t seed);
 
-  DrawnParticle next();  ///< the next particle
+  DrawnParticle next();  ///< the next particle; the sequence has no end
 
  private:
   std::vector<Species> species_;
@@ -63,11 +64,11 @@ class DrawnSpecies {
   SplitMix64 random_;
 };
 
-/// The next `count` particles of a sequence.
+/// The next `count` >= 0 particles of a sequence.
 std::vector<DrawnParticle> drawn(DrawnSpecies species, std::size_t count);
 
 /// The next particles of a sequence, as many as bring the sum of their areas (dimension 2) or
-/// volumes (3) nearest to `size` [L^2, L^3], but at least 1 and at most `largest_count`.
+/// volumes (3) nearest to `size` [L^2, L^3], but at least 1 and at most `largest_count` >= 1.
 std::vector<DrawnParticle> drawn_to_size(DrawnSpecies species, int dimension, double size,
                                          std::size_t largest_count);
 

@@ -1,11 +1,12 @@
 // Rigid bodies of several discs or spheres, which keep their places in the body, and their motion
 // in a time step, docs/physics.md (5.11). Lengths, masses and times are in any consistent units.
 // `dimension` is 2 (discs) or 3 (spheres); for discs only the third component of turns, torques and
-// angular momenta is used. Nothing is checked or thrown here; particles/case checks the bodies.
-// Used in simulation.hpp, particles.hpp, constraints/, dual_problem/, fluid/, impacts/ and links/.
-// io/restart.cpp stores BodyMotion in restart files, which take the rest of RigidBody from the case
-// file; a change must keep that. Without force, torque and constraints,
-// momentum and angular momentum must stay constant to rounding.
+// angular momenta is used. Nothing is checked or thrown here; particles/case checks the bodies. The
+// number of a particle or body is its place in its array, from 0. Used in simulation.hpp,
+// particles.hpp, constraints/, dual_problem/, fluid/, impacts/ and links/. io/restart.cpp stores
+// BodyMotion in restart files, which take the rest of RigidBody from the case file; a change must
+// keep that. Without force, torque and constraints, momentum and angular momentum must stay
+// constant to rounding.
 #pragma once
 
 #include <array>
@@ -24,7 +25,7 @@ struct Particles;
 /// A matrix of three rows and columns, row by row.
 using Matrix3 = std::array<double, 9>;
 
-/// Product of a matrix and a vector.
+/// Product of a matrix and a vector; its unit is the product of their units.
 inline Vector operator*(const Matrix3& a, const Vector& x) {
   return {a[0] * x[0] + a[1] * x[1] + a[2] * x[2], a[3] * x[0] + a[4] * x[1] + a[5] * x[2],
           a[6] * x[0] + a[7] * x[1] + a[8] * x[2]};
@@ -48,8 +49,10 @@ struct BodyMotion {
 /// "At the start" is when add_rigid_body() makes it.
 struct RigidBody : BodyMotion {
   std::vector<std::int32_t> members;  ///< numbers of particles, increasing, at least one
-  std::vector<Vector> offsets;  ///< vectors from `centre` to the members' centres, at the start [L]
-  /// Angles of discs at the start [rad]. Not used for spheres, which have the body's orientation.
+  /// For each member the vector from `centre` to its centre at the start [L].
+  std::vector<Vector> offsets;
+  /// Angle of each member at the start [rad]. Not used for spheres, which have the body's
+  /// orientation.
   std::vector<double> member_angles;
   double mass = 0;  ///< [M], > 0; >= 0 in a fluid
   /// Moment of inertia about the centre, with the orientation at the start [M L^2], positive
@@ -105,33 +108,36 @@ struct AmbiguousImages {
   double distance = 0;   ///< the largest distance between neighbours, which occurs repeatedly [L]
 };
 
-/// The first such axis for a body of these members, which need not exist yet; std::nullopt if the
-/// choice is unique along each axis, or if the cell is not periodic.
+/// The first such axis for a body of these members, at least one; the body need not exist yet.
+/// std::nullopt if the choice is unique along each axis, or if the cell is not periodic.
 std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
                                                 const std::vector<std::int32_t>& members);
 
 /// Diameter of the circle or sphere about the centre of a body that contains its members [L].
 double diameter(const RigidBody& body, const Particles& particles);
 
-/// Numbers of periods from the position of member number `m` to its image in the body.
+/// Numbers of periods from the position of member number `m` (from 0) to its image in the body; 0
+/// along axes without a period.
 Periods periods_of_member(const RigidBody& body, std::size_t m, const Particles& particles);
 
 /// Vector from the centre of a body to the centre of its member number `m` [L].
 Vector present_offset(const RigidBody& body, std::size_t m, int dimension);
 
-/// The number of a particle, from 0, among the members of its body.
+/// The place of a particle, from 0, among the members of its body; the number of members if it is
+/// none.
 std::size_t member_number(const RigidBody& body, std::int32_t particle);
 
 /// Vector from the centre of its body to the centre of a particle [L]; 0 without a body.
 Vector offset_in_body(const Particles& particles, std::int32_t particle);
 
-/// The present value of a vector that is fixed to the body and was `at_start` at the start.
+/// The present value of a vector, of any unit, that is fixed to the body and was `at_start` at the
+/// start.
 Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension);
 
 /// The present moment of inertia about the centre [M L^2]; of discs only the last entry counts.
 Matrix3 present_inertia(const RigidBody& body, int dimension);
 
-/// Sets the angular velocity from the angular momentum, unless the last entry of inertia is 0.
+/// Sets the angular velocity from the angular momentum. It stays if the last entry of inertia is 0.
 void update_angular_velocity(RigidBody& body, int dimension);
 
 /// The masses of the members [M], scaled so that their sum is the mass of the body. If no member
@@ -142,7 +148,8 @@ std::vector<double> member_masses(const RigidBody& body, const Particles& partic
 /// bodies. In a periodic cell that is not sheared, centres of bodies are first moved into it.
 void place_members(Particles& particles);
 
-/// Inverse of a symmetric positive definite matrix; of a singular one infinite or NaN.
+/// Inverse of a symmetric positive definite matrix, in the inverse of its unit; the entries of that
+/// of a singular matrix are infinite or NaN.
 Matrix3 inverse_of(const Matrix3& a);
 
 /// Mean force on a body in a step, and mean torque about its centre.
@@ -168,11 +175,13 @@ struct BodyStep {
 };
 
 /// The motion of a body without contacts and links in a step of length `h` > 0 [T]. Its mass and
-/// inertia must be > 0. `load` changes its momentum by the load times `kick` [T], which is h, or
-/// another time with the leapfrog scheme (Simulation::kick_length()).
+/// inertia must be > 0; with 0 the result is infinite or NaN. `load` changes its momentum by the
+/// load times `kick` [T], which is h, or another time with the leapfrog scheme
+/// (Simulation::kick_length()).
 ///
 /// For spheres the turn is that of the implicit midpoint rule: h w = h I^-1 L, with the angular
-/// momentum L and the moment of inertia I after half of the turn.
+/// momentum L and the moment of inertia I after half of the turn. If its iteration does not
+/// converge in 50 steps (turns of more than about half a radian), the last value is taken.
 BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double kick,
                    int dimension);
 

@@ -41,13 +41,13 @@ struct ParticlesCase {
   std::optional<case_file::SweepRequest> sweep;
 };
 
-/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
-/// value and what is allowed. Also throws if there is neither a particle nor a source; if, at the
-/// start, two particles overlap or a particle is on the wrong side of a plane by more than
-/// solver.tolerance mean radii; if a radius is less than a hundred times that length; if a
-/// coordinate exceeds largest_resolved_distance() in magnitude; or if a particle is outside the
-/// domain or touches its own periodic image. A case with a fluid has further conditions
-/// (check_fluid_start() in particles_sections.hpp).
+/// Reads and checks a case file. Throws Error(kBadInput) if the file cannot be read or is no TOML,
+/// or, with the file, the line, the key, its value and what is allowed, for a wrong key. Also
+/// throws if there is neither a particle nor a source; if, at the start, two particles overlap or a
+/// particle is on the wrong side of a plane by more than solver.tolerance mean radii; if a radius
+/// is less than a hundred times that length; if a coordinate exceeds largest_resolved_distance() in
+/// magnitude; or if a particle is outside the domain or touches its own periodic image. A case with
+/// a fluid has further conditions (check_fluid_start() in particles_sections.hpp).
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
 /// What docs/case-file.md says about the keys of each section.
@@ -55,7 +55,8 @@ std::vector<case_file::KeyTable> tables_of_particles_case();
 
 /// The text of the case file at `path` with the root table `root`, with absolute paths of the files
 /// that it names, so that a file with this text may be in any folder. Cases that differ only in
-/// comments and layout give equal texts.
+/// comments and layout give equal texts. Throws Error(kBadInput) if fluid.solver is not a list of
+/// texts.
 std::string text_for_any_folder(const case_file::TomlSection& root,
                                 const std::filesystem::path& path);
 
@@ -63,7 +64,8 @@ std::string text_for_any_folder(const case_file::TomlSection& root,
 
 namespace viscontact::case_file {
 
-/// The case of many particles whose root table is `root` (case_template.hpp).
+/// The case of many particles whose root table is `root` (case_template.hpp). Throws as
+/// read_particles_case().
 template <>
 particles::ParticlesCase case_of_root(const TomlSection& root, std::string text,
                                       const std::filesystem::path& path);

@@ -1,10 +1,11 @@
 // Reads the sections of a case of many particles, a TOML file of the user (particles_case.hpp).
 // Only sources in particles/case/ and particles/membranes/ include this file. The sections are
-// those of docs/case-file.md, "Many particles". Each function throws Error(kBadInput) with file,
-// line, key and what is allowed if a key is unknown, missing or has a wrong value. Lengths, masses
-// and times are in the units of the case. particles_case.cpp calls the functions in an order in
-// which each finds what its comment says it needs. A change must keep accepting users' cases, and
-// the tables of docs/case-file.md must be made again from the texts of the keys.
+// those of docs/case-file.md, "Many particles". Each function that reads or checks something throws
+// Error(kBadInput) with file, line, key and what is allowed if a key is unknown, missing or has a
+// wrong value; the other functions throw nothing. Numbers of particles count from 0. Lengths,
+// masses and times are in the units of the case. particles_case.cpp calls the functions in an order
+// in which each finds what its comment says it needs. A change must keep accepting users' cases,
+// and the tables of docs/case-file.md must be made again from the texts of the keys.
 #pragma once
 
 #include <array>
@@ -39,8 +40,9 @@ inline constexpr Allowed kModeratelyPositiveOr0 = {
     [](double v) { return v == 0 || (v >= 1 / kLargestNumber && v <= kLargestNumber); },
     "0, or from 1e-100 to 1e100"};
 
-/// Reads an array with one number for each dimension of space into `place`; other components become
-/// 0. In a case with dimension 1 a number without brackets is read, too.
+/// Reads an array with one number for each dimension of space, in the unit of the key, into
+/// `place`; other components become 0. In a case with dimension 1 a number without brackets is
+/// read, too. Throws for another count of numbers, and for one above 1e100 in magnitude.
 void read_vector(const case_file::TomlSection& section, std::string_view key, Vector& place,
                  int dimension);
 
@@ -48,11 +50,11 @@ void read_vector(const case_file::TomlSection& section, std::string_view key, Ve
 
 /// A vector, read by read_vector().
 case_file::KeyValue vector(Vector& place, const int& dimension);
-/// A constant vector, or a list of pieces { until, value } in order of time, which must last until
-/// `end_time` [T].
+/// A constant vector, or a list of pieces { until, value } with increasing times `until` > 0, which
+/// must last until `end_time` [T]. The last piece is extended a little beyond it.
 case_file::KeyValue pieces(PiecewiseConstant& place, const int& dimension, const double& end_time);
-/// A torque or an angular velocity: for discs a number, which becomes component 2, for spheres a
-/// vector.
+/// A torque [M L^2/T^2] or an angular velocity [1/T]: for discs a number, which becomes component
+/// 2, for spheres a vector.
 case_file::KeyValue turn(Vector& place, const int& dimension);
 /// A constant torque or angular velocity, or a list of pieces { until, value }, which must last
 /// until `end_time` [T].
@@ -191,7 +193,8 @@ class ParticleIds {
   explicit ParticleIds(const ParticlesCase& c);
 
   /// The number of the particle with the id `id`, which is a value of `key`. Throws for an id that
-  /// does not exist; the message is "KEY VERB ID ...", with a verb such as "is" or "contains".
+  /// does not exist or is not whole; the message is "KEY VERB ID ...", with a verb such as "is" or
+  /// "contains".
   std::int32_t number(const case_file::TomlSection& section, std::string_view key, double id,
                       std::string_view verb) const;
 

@@ -22,8 +22,8 @@ inline const char* fraction_column(const ParticlesCase& c) {
   return c.particles.dimension == 3 ? "volume_fraction" : "area_fraction";
 }
 
-/// The points of the section [sweep] of a case of particles. Throws Error(kBadInput) if the case is
-/// wrong or a range in [sweep] is not valid.
+/// The points of the section [sweep] of a case of particles; nothing is varied if the case has no
+/// such section. Throws Error(kBadInput) if the case is wrong or a range in [sweep] is not valid.
 sweep::Points planned_particles(const std::filesystem::path& case_path);
 
 /// Runs the case of row `index`, from 0. It is called by several threads at once. If only this run
@@ -31,12 +31,15 @@ sweep::Points planned_particles(const std::filesystem::path& case_path);
 using ParticlesRunner =
     std::function<sweep::RowResults(std::uint64_t index, const StopToken& stop)>;
 
-/// The points of a sweep of particles, and the cases of its rows. Row `index` < points().rows().
+/// The points of a sweep of particles, and the cases of its rows. `index` is the number of a row, 0
+/// to points().rows() - 1, which is not checked.
 class ParticlesSweep {
  public:
-  /// Reads the case. Throws Error(kBadInput) if the first or the last row gives no valid case, and
-  /// Error(kWrongUsage) if nothing is varied, if a key is varied twice or changes nothing, or if
-  /// there are draws but the case has no [arrangement]. Points::first_draw becomes
+  /// Reads the case. Throws Error(kBadInput) if the case cannot be read or is wrong, or the first
+  /// or the last row gives no valid case, and Error(kWrongUsage) if nothing is varied and there are
+  /// no draws, if a key is varied twice or changes nothing, if there are random samples but no
+  /// varied key, if draws make more than 1e12 rows, if there are draws but the case has no
+  /// [arrangement], or if the seed of the last draw exceeds 2^31 - 1. Points::first_draw becomes
   /// arrangement.seed of the case.
   ParticlesSweep(const std::filesystem::path& case_path, sweep::Points points);
 
@@ -62,11 +65,13 @@ class ParticlesSweep {
   const std::filesystem::path& particles_file() const { return particles_file_; }
 
   /// Hash (SHA-256) of everything that determines the results of row `index`: `version`, that of
-  /// Viscontact, the case, and the CSV file of particles.
+  /// Viscontact, the case, and the CSV file of particles. Throws Error(kBadInput) if this file
+  /// cannot be read.
   std::string identity(std::uint64_t index, const std::string& version) const;
 
   /// The sweep in the form that sweep/study.hpp computes and writes; `run` computes its rows.
-  /// `version` is that of Viscontact.
+  /// `version` is that of Viscontact. Throws Error(kBadInput) if the case or its CSV file of
+  /// particles cannot be read.
   sweep::Study study(const std::string& version, ParticlesRunner run) const;
 
  private:
@@ -79,8 +84,9 @@ class ParticlesSweep {
 /// The table of means of a finished file of rows: for each point of the sweep its varied keys, the
 /// number of draws that succeeded, the number of those that failed, and, for each column of
 /// results, COLUMN.mean and COLUMN.standard_error over the draws that succeeded. The standard error
-/// is the standard deviation (with n - 1) over the root of n; it is empty if n < 2. Throws
-/// Error(kBadInput) if the file cannot be read or has other rows than the sweep.
+/// is the standard deviation (with n - 1) over the root of n; it is empty if n < 2. Units are those
+/// of the columns. Throws Error(kBadInput) if the file cannot be read or has other rows than the
+/// sweep.
 std::string table_of_means(const ParticlesSweep& sweep, const std::filesystem::path& path);
 
 /// The path of the table of means beside a file of rows: "rows.csv" gives "rows_means.csv".

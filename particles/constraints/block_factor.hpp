@@ -1,7 +1,8 @@
 // Sparse LU factorisation of a matrix of small dense blocks with a symmetric pattern (BlockFactor),
 // and the matrices of contacts and links that it factorises (UnitMatrix). A row of blocks belongs
 // to a body: a particle, or a rigid body of several. Units are any consistent ones. A singular
-// matrix makes factorise() return false; nothing is thrown. Used by constraint_system.cpp,
+// matrix makes factorise() return false; nothing else is checked (numbers of bodies, edges, blocks
+// and rows, the order of calls), and nothing is thrown. Used by constraint_system.cpp,
 // interior_points.hpp and proximal_step.hpp. Results depend on the order of sums.
 #pragma once
 
@@ -56,9 +57,11 @@ class BlockFactor {
   bool is_below(std::size_t edge, std::size_t from) const { return edges_[edge].later == from; }
 
   /// Replaces A by its factors. Returns false, with unusable factors, if a block on the diagonal
-  /// becomes singular or infinite, or, for a symmetric A, is not positive definite.
+  /// becomes singular, infinite or NaN, or, for a symmetric A, is not positive definite. True if
+  /// there are no bodies.
   bool factorise();
-  /// Sign of the determinant of A, 1 or -1. Needs a factorise() that returned true.
+  /// Sign of the determinant of A, 1 or -1; 1 if A is symmetric. Needs a factorise() that returned
+  /// true.
   int sign_of_determinant() const { return sign_; }
 
   /// Replaces `values`, one Vec for each body, by A^-1 times them. Needs a factorise() that
@@ -107,14 +110,16 @@ class UnitMatrix {
   UnitMatrix(const ConstraintProblem<D>& problem, bool is_symmetric);
 
   void set_to_masses();  ///< sets the matrix to M/h
-  /// Adds weight * row^T other, for two rows of constraint block `b`, with a weight [M/T] (for rows
-  /// of angles [M L^2/T]). If the matrix is symmetric, other^T row must be added, too.
+  /// Adds weight * row^T other, for two rows of constraint block `b`, by their places in
+  /// ConstraintProblem::rows, with a weight [M/T] (for rows of angles [M L^2/T]). If the matrix is
+  /// symmetric, other^T row must be added, too.
   void add_product(std::size_t b, std::size_t row, std::size_t other, double weight);
   /// Replaces the matrix by its factors, as BlockFactor::factorise(), and returns its result.
   bool factorise() { return factor_.factorise(); }
   /// Sign of its determinant, 1 or -1. Needs a factorise() that returned true.
   int sign_of_determinant() const { return factor_.sign_of_determinant(); }
-  /// Replaces the impulses on all units by the motions that they cause. Needs factorise().
+  /// Replaces the impulses on all units, one Motion for each, by the motions that they cause. Needs
+  /// a factorise() that returned true.
   void solve(std::span<Motion<D>> values) const { factor_.solve(values); }
   /// The motions of solve() as a new array.
   std::vector<Motion<D>> solution_of(std::span<const Motion<D>> impulses) const {

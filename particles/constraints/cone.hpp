@@ -23,7 +23,7 @@ namespace viscontact::particles {
 /// A point of a cone of up to three dimensions; components beyond the dimension are 0.
 using ConePoint = std::array<double, 3>;
 
-/// Sum of the products of the components.
+/// Sum of the products of the components, in the product of both units.
 inline double inner(const ConePoint& x, const ConePoint& y) {
   return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
@@ -57,7 +57,7 @@ struct InnerPoint {
   double inside = 0;
 };
 
-/// The largest t > 0 with u + t d in the second-order cone; infinity if all of them are in it.
+/// The largest t > 0 [1] with u + t d in the second-order cone; infinity if all of them are in it.
 inline double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
   const auto& x = u.x;
   double length = std::numeric_limits<double>::infinity();

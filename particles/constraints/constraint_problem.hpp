@@ -5,10 +5,10 @@
 // the length of the step, M are the masses m and moments of inertia I, u the velocities and w the
 // angular velocities, J the coefficients of all rows, p the impulses of the rows. Lengths [L],
 // masses [M] and times [T] are in any consistent units; a row of angles has [rad] in place of [L],
-// and [M L^2/T] in place of [M L/T]. Nothing is thrown. constraint_system.cpp (the steps), impacts/
-// (collisions) and fluid/fluid_friction.cpp make such problems, and the other files of constraints/
-// solve them. A change must keep that contacts without friction obey (5.4), and the angular
-// momentum of each pair.
+// and [M L^2/T] in place of [M L/T]. Nothing is checked or thrown. constraint_system.cpp (the
+// steps), impacts/ (collisions) and fluid/fluid_friction.cpp make such problems, and the other
+// files of constraints/ solve them. A change must keep that contacts without friction obey (5.4),
+// and the angular momentum of each pair.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ struct RigidUnit {
   static constexpr auto kTurnDirections = static_cast<std::size_t>(kTurns<D>);
   /// Number of entries of the matrix that takes a moment to a rotation.
   static constexpr std::size_t kTurnEntries = kTurnDirections * kTurnDirections;
-  Motion<D> free{};     ///< motion in the step without contacts and links, h (u*, w*)
+  Motion<D> free{};     ///< motion in the step without contacts and links, h (u*, w*) [L, rad]
   double mobility = 0;  ///< h/m [T/M], > 0
   std::array<double, kTurnEntries> turn_mobility{};          ///< h I^-1 [T/(M L^2)], row by row
   double inverse_mobility = 0;                               ///< m/h [M/T]
@@ -78,7 +78,8 @@ template <int D>
 RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const double* displacement,
                               const double* turn);
 
-/// The unit of a rigid body, whose motion without contacts and links is `free`.
+/// The unit of a rigid body, whose motion without contacts and links, mobilities and their inverses
+/// are those of `free`.
 template <int D>
 RigidUnit<D> unit_of_body(const BodyStep& free);
 
@@ -168,11 +169,11 @@ struct ConstraintProblem {
     parts.insert(parts.end(), of_row.begin(), of_row.end());
     impulses.push_back(impulse);
   }
-  /// The parts of row `r`.
+  /// The parts of row `r`, from 0 to rows.size() - 1.
   std::span<const RowPart<D>> parts_of(std::size_t r) const {
     return std::span(parts).subspan(rows[r].first_part, rows[r].parts);
   }
-  /// Value of row `r` for the motions `y`, without its offset [L].
+  /// Value of row `r` for the motions `y` of all units, without its offset [L].
   double product(std::size_t r, std::span<const Motion<D>> y) const {
     double sum = 0;
     for (const auto& [unit, coefficients] : parts_of(r)) {
@@ -181,7 +182,8 @@ struct ConstraintProblem {
     }
     return sum;
   }
-  /// Adds the impulses that the impulse `p` of row `r` exerts on its units, J^T p, to `to`.
+  /// Adds the impulses that the impulse `p` of row `r` exerts on its units, J^T p, to `to`, which
+  /// has one entry for each unit.
   void add_impulse(std::size_t r, double p, std::span<Motion<D>> to) const {
     for (const auto& [unit, coefficients] : parts_of(r)) {
       auto& impulse = to[static_cast<std::size_t>(unit)];
@@ -201,7 +203,8 @@ std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
 template <int D>
 void give_loads(ConstraintProblem<D>& problem);
 
-/// The mobility of each row, its change by a unit impulse on it: diagonal of J h M^-1 J^T [T/M].
+/// The mobility of each row, its change by a unit impulse on it: diagonal of J h M^-1 J^T [T/M], >=
+/// 0, in the order of the rows; of rows of angles [T/(M L^2)].
 template <int D>
 std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
 
@@ -237,8 +240,8 @@ struct ContactTangents {
   double capacity = 0;   ///< ConstraintBlock::capacity [M L/T]
 };
 
-/// The tangents of a contact in a step from time `begin` to `end` [T]. Contact::obstacle is a place
-/// in `obstacles`. The caller sets `capacity`, which is 0 in the result.
+/// The tangents of a contact in a step from time `begin` to `end` > begin [T]. Contact::obstacle is
+/// a place in `obstacles`. The caller sets `capacity`, which is 0 in the result.
 template <int D>
 ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& particles,
                                std::span<const Plane> obstacles, double begin, double end);

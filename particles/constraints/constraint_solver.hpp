@@ -17,8 +17,8 @@ template <int D>
 struct ConstraintSolution {
   /// Number of iterations, and the largest residual of a block divided by its allowed residual [1].
   SolverResult result;
-  std::vector<Motion<D>> motions;        ///< displacements [L] and turns [rad] of all units
-  std::vector<BlockResidual> residuals;  ///< residuals of all blocks [L]
+  std::vector<Motion<D>> motions;  ///< displacements [L] and turns [rad] of all units, in order
+  std::vector<BlockResidual> residuals;  ///< residuals of all blocks, in order [L]
 };
 
 /// The method with which a solution begins.
@@ -33,7 +33,8 @@ enum class ConstraintStart {
 
 /// Improves problem.impulses [M L/T] until the residual of each block is allowed, or until about
 /// `max_iterations` > 0 sweeps, factorisations and solutions with factors are done. Returns, and
-/// leaves in problem.impulses, the iterate with the smallest residual.
+/// leaves in problem.impulses, the iterate with the smallest residual. Each given_load may be
+/// changed, too (below).
 ///
 /// Gauss-Seidel sweeps are made first, as long as each reduces the residual fast. For Coulomb's
 /// law, steps of the proximal method (proximal_step.hpp) follow. A convex problem (is_convex) is

@@ -81,21 +81,23 @@ class ConstraintSystem {
   /// True if solve() did not solve Coulomb's law, and given loads bound the friction.
   bool has_given_up() const { return has_given_up_; }
 
-  /// Writes friction of contact `c`, and the impulse that its solids carry, to memory [M L/T].
+  /// Writes friction of contact `c`, and the impulse that its solids carry, to memory [M L/T]. This
+  /// and the next functions need solve().
   void remember(std::size_t c, PairMemory& memory) const {
     memory.set_friction(frictions_[c]);
     memory[Remembered::kCarried] = carried_[c];
   }
-  /// Residual of contact number `c` in the last solution [L].
+  /// Residual of contact number `c`, from 0 in the order of add(), in the last solution [L].
   const BlockResidual& residual(std::size_t c) const { return residuals_[c]; }
   /// Residual of link `l` of links() in the last solution [L]; of angles times the mean radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
   /// By how much the motion that violates the constraints of the last solve() least violates each
-  /// of them [L], angles times the mean radius, >= 0: first of all contacts, then of all links. That motion has
-  /// the least sum of v^2/w over the rows of rigid links and the negative gaps, with the value v
-  /// and the mobility w of a row. If some motion satisfies all of these constraints, the result is
-  /// 0 but for rounding errors. Otherwise they contradict each other: together the impulses v/w
-  /// move nothing (Farkas' lemma), and constraints without a part in this have 0.
+  /// of them [L], angles times the mean radius, >= 0: first of all contacts, then of all links.
+  /// That motion has the least sum of v^2/w over the rows of rigid links and the negative gaps,
+  /// with the value v and the mobility w of a row. If some motion satisfies all of these
+  /// constraints, the result is 0 but for rounding errors. Otherwise they contradict each other:
+  /// together the impulses v/w move nothing (Farkas' lemma), and constraints without a part in this
+  /// have 0.
   std::vector<double> least_violations() const;
 
  private:

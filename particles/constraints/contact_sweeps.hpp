@@ -18,11 +18,12 @@ namespace viscontact::particles {
 template <int D>
 class ContactSweeps {
  public:
-  /// `problem` must outlive this object.
+  /// `problem` must outlive this object, and its units, rows and blocks must not change.
   explicit ContactSweeps(ConstraintProblem<D>& problem);
 
   /// Improves problem.impulses [M L/T] by `count` >= 0 sweeps. `w` [T/M], > 0, are the
-  /// row_mobilities() of the problem; both tangential rows of a contact must have the same one.
+  /// row_mobilities() of the problem, one for each row; both tangential rows of a contact must have
+  /// the same one.
   void sweep(int count, const std::vector<double>& w);
 
  private:

@@ -43,10 +43,12 @@ class InteriorPoints {
 
   /// Solves the problem until its scaled violations are at most `accuracy`, in (0, 1), times the
   /// largest scaled value of a row with the least impulses. Stops before if rounding errors prevent
-  /// progress, or after `max_iterations`. Returns the number of iterations.
+  /// progress or the matrix cannot be factorised, or after `max_iterations`. Returns the number of
+  /// iterations, from which the caller cannot tell whether the accuracy is reached.
   int solve(double accuracy, int max_iterations);
 
-  /// Impulses of the rows with the smallest violations that the last solve() found [M L/T].
+  /// The impulses with the smallest violations that the last solve() found, one for each row [M
+  /// L/T].
   const std::vector<double>& impulses() const { return impulses_; }
 
  private:

@@ -1,7 +1,8 @@
 // One step of the proximal method for the impulses of the contacts with friction and links of a
 // time step, computed by Newton's method (constraint_problem.hpp defines problem, rows and units).
-// Lengths, masses and times are in any consistent units. Nothing is thrown; failed() tells whether
-// a step was solved. constraint_solver.cpp uses it. Results depend on the order of sums.
+// Lengths, masses and times are in any consistent units. Nothing is checked or thrown; failed()
+// tells whether a step was solved. constraint_solver.cpp uses it. Results depend on the order of
+// sums.
 #pragma once
 
 #include <array>
@@ -64,9 +65,9 @@ class ProximalStep {
   bool failed() const { return failed_; }
   /// True if the last solve() followed a path: no step of Newton's method reduced the error.
   bool followed_path() const { return paths_ > 0; }
-  /// Impulses of the rows that the last solve() found [M L/T].
+  /// Impulses that the last solve() found, one for each row [M L/T].
   const std::vector<double>& impulses() const { return projected_; }
-  /// Motions of the units that the last solve() found [L], [rad].
+  /// Motions that the last solve() found, one for each unit [L, rad].
   const std::vector<Motion<D>>& motions() const { return y_; }
 
  private:

@@ -1,9 +1,10 @@
 // Contact of two particles, or of a particle and an obstacle (plane or circle): its gap and normal,
 // docs/physics.md (5.1), and whether given displacements close the gap. Lengths, masses and times
 // are in any consistent units; D is the number of dimensions, 1 (spheres on an axis), 2 (discs) or
-// 3 (spheres). Nothing is checked or thrown. projection/, dual_problem/, constraints/, fluid/,
-// impacts/ and current_contacts.cpp use it. A change must keep that a gap of rounding errors counts
-// as 0.
+// 3 (spheres). The number of a particle or obstacle is its place in its array, from 0; arrays
+// `displacements` have D numbers [L] for each particle. Nothing is checked or thrown. projection/,
+// dual_problem/, constraints/, fluid/, impacts/ and current_contacts.cpp use it. A change must keep
+// that a gap of rounding errors counts as 0.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +28,7 @@ template <int D>
 struct Contact {
   std::int32_t first = -1;       ///< number of a particle; -1 if `second` meets an obstacle
   std::int32_t second = 0;       ///< number of a particle
-  std::array<double, D> normal;  ///< unit normal from `first` (or the obstacle) to `second`
+  std::array<double, D> normal;  ///< unit normal [1] from `first` (or the obstacle) to `second`
   /// Distance of the surfaces at the beginning of the step plus `tolerated` [L]. A plane is taken
   /// at its position at the end of the step.
   double gap = 0;
@@ -38,7 +39,7 @@ struct Contact {
   /// Largest residual with which the contact counts as converged [L], > 0.
   double allowed = 0;
   double tolerated = 0;    ///< overlap that the step does not remove [L], >= 0 (resolved())
-  std::int32_t image = 0;  ///< number of the periodic image of `second` that meets `first`
+  std::int32_t image = 0;  ///< periodic image of `second` that meets `first`, -13 to 13; 0: itself
   /// If `first` is negative: number of the obstacle, or -1 for a stop, a bound of a hinge's angle.
   std::int32_t obstacle = 0;
   /// Change of the gap per impulse of this contact [T/M]: without a fluid h (1/m_i + 1/m_j), with
@@ -58,7 +59,8 @@ inline double contact_residual(double gap_after, double slack) {
   return std::abs(std::min(gap_after, slack));
 }
 
-/// Vector from the centre of particle `first` to that of image `image` of particle `second` [L].
+/// Vector from the centre of particle `first` to that of image `image` (-13 to 13) of particle
+/// `second` [L].
 template <int D>
 std::array<double, D> separation(const Particles& p, std::int32_t first, std::int32_t second,
                                  std::int32_t image) {
@@ -72,7 +74,8 @@ std::array<double, D> separation(const Particles& p, std::int32_t first, std::in
   return x;
 }
 
-/// Contact of particle `pair.second` with a plane or circle at `place`.
+/// Contact of particle `pair.second` with a plane or circle at `place`, with its true gap; `w`,
+/// `allowed`, `tolerated` and `levers` keep their defaults.
 template <int D>
 Contact<D> contact_of(const Particles& p, const Pair& pair, const PlanePosition& place) {
   const auto j = index_of(pair.second);
@@ -85,7 +88,8 @@ Contact<D> contact_of(const Particles& p, const Pair& pair, const PlanePosition&
 }
 
 /// Contact of a pair with its true gap, < 0 if the two overlap; the obstacles are at `places`. If
-/// both centres coincide, the normal is the first axis, because every direction separates them.
+/// both centres coincide, the normal is the first axis, because every direction separates them. The
+/// members `w`, `allowed`, `tolerated` and `levers` keep their defaults.
 template <int D>
 Contact<D> contact_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
   if (pair.first < 0) return contact_of<D>(p, pair, places[pair.plane()]);
@@ -104,7 +108,7 @@ Contact<D> contact_of(const Particles& p, const Pair& pair, std::span<const Plan
 }
 
 /// Linearised gap [L] after the step: the gap at its beginning plus the relative displacement along
-/// the normal. `displacements` has D numbers for each particle [L].
+/// the normal.
 template <int D>
 double gap_after(const Contact<D>& contact, std::span<const double> displacements) {
   const double* wj = &displacements[index_of(contact.second) * D];

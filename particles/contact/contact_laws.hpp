@@ -28,7 +28,7 @@ struct PairRadii {
   double second = 0;  ///< of the second surface, which is that of a particle, > 0
 };
 
-/// The radii of two particles, or of an obstacle and a particle.
+/// The radii of two particles, or of an obstacle, a place in `obstacles`, and a particle.
 inline PairRadii radii_of(const Pair& pair, const Particles& particles,
                           std::span<const Plane> obstacles) {
   PairRadii radii;

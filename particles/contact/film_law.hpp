@@ -45,8 +45,8 @@ inline double impulse_of_film(FilmShape shape, double viscosity, double r_eff, d
 ///
 /// where lambda is the force of the contact, > 0 where it pushes, p its impulse in a step of length
 /// h, and gamma^n the value of gamma before the step. Either gamma_min is set, or both viscosity
-/// and roughness, or none of the three (smooth particles, whose solids never touch). With gamma_min
-/// = 0 there is no film, and contact is plain inelastic contact.
+/// and roughness (which is not checked), or none of the three (smooth particles, whose solids never
+/// touch). With gamma_min = 0 there is no film, and contact is plain inelastic contact.
 struct FilmLaw {
   std::optional<double> gamma_min;  ///< of every pair, <= 0 [M L/T]; of discs in a fluid [M/T]
   std::optional<double> viscosity;  ///< mu [M/(L T)], > 0
@@ -58,7 +58,8 @@ struct FilmLaw {
   std::optional<double> begins_at{};
 
   /// The effective radius r_eff = r_i r_j/(r_i + r_j) [L], with the radius `r_i` > 0 of a particle.
-  /// `r_j` is infinite for a plane, and minus the radius of a round wall around the particle.
+  /// `r_j` is infinite for a plane, and minus the radius of a round wall around the particle. If
+  /// this wall has the radius of the particle, the result is infinite.
   static double effective_radius(double r_i, double r_j) { return r_i / (1 + r_i / r_j); }
 
   /// gamma_min of a pair, <= 0, in the unit of gamma_min; minus infinity for smooth particles. With

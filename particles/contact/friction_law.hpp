@@ -43,8 +43,8 @@ struct FrictionCone {
   double tangential = 1;    ///< p_t of the point over the given p_t, 0 to 1
 
   /// The point of the cone nearest to the impulses p_s = `p_s`, of any sign, and |p_t| = `length`
-  /// >= 0 [M L/T], in the norm sqrt(w_n p_s^2 + w_t |p_t|^2). Only the ratio of the weights w_n,
-  /// w_t > 0 matters; they are the contact's mobilities [T/M].
+  /// >= 0 [M L/T], in the norm sqrt(w_n p_s^2 + w_t |p_t|^2). `mu_s` >= 0 [1]. Only the ratio of
+  /// the weights w_n, w_t > 0 matters; they are the contact's mobilities [T/M].
   static FrictionCone nearest(double mu_s, double p_s, double length, double w_n, double w_t) {
     if (length <= mu_s * p_s) return {Part::kInside, p_s, 1};
     const double load = (w_n * p_s + w_t * mu_s * length) / (w_n + w_t * mu_s * mu_s);

@@ -32,7 +32,7 @@ struct RestitutionLaw {
   /// = gamma - gamma_min >= 0 [M L/T].
   static double solid_impulse(double p, double capacity) { return std::max(p - capacity, 0.0); }
 
-  /// gamma_c + e_d s [M L/T], the lower bound of p'.
+  /// gamma_c + e_d s [M L/T], the lower bound of p', for gamma_c <= 0 and s >= 0.
   double lowest_in_restitution(double gamma_c, double solid_impulse) const {
     return gamma_c + coefficient * solid_impulse;
   }

@@ -20,7 +20,7 @@ namespace viscontact::particles {
 /// it is a circle, whose inside |x - point| <= radius is the free side; then `normal` is not used.
 struct PlanePosition {
   Vector point;       ///< any point of the plane, or the centre of the circle [L]
-  Vector normal;      ///< unit normal into the free side
+  Vector normal;      ///< unit normal [1] into the free side
   double radius = 0;  ///< of the circle [L], > 0; 0: a plane
 
   bool is_curved() const { return radius > 0; }  ///< whether it is a circle
@@ -49,14 +49,15 @@ struct Plane {
 /// Positions of all planes at time t >= 0 [T], in the order of `planes`.
 std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t);
 
-/// Gap between a disc or sphere and a plane, or a circle around it [L]; < 0 if they overlap.
+/// Gap between a disc or sphere with this centre [L] and radius [L] > 0, and a plane or a circle
+/// around it [L]; < 0 if they overlap.
 inline double gap(const PlanePosition& plane, const Vector& centre, double radius) {
   if (plane.is_curved()) return plane.radius - norm(centre - plane.point) - radius;
   return dot(plane.normal, centre - plane.point) - radius;
 }
 
-/// Unit normal, into the free side, at the point of the plane or circle that is nearest to
-/// `centre`. In the centre of a circle the normal is the first axis.
+/// Unit normal [1], into the free side, at the point of the plane or circle that is nearest to
+/// `centre` [L]. In the centre of a circle the normal is the first axis.
 inline Vector normal_at(const PlanePosition& plane, const Vector& centre) {
   if (!plane.is_curved()) return plane.normal;
   const Vector inward = plane.point - centre;
@@ -83,8 +84,9 @@ struct DiscDomain {
 /// periodic side is no wall and has no number.
 struct BoxDomain {
   /// Corner with the smallest coordinates [L]; in two dimensions both third components are 0.
-  std::array<double, 3> from{}, to{};  ///< the opposite corner [L]
-  std::array<bool, 3> periodic{};      ///< whether the domain is periodic along x, y and z
+  std::array<double, 3> from{},
+      to{};                        ///< the opposite corner [L], > `from` along each axis of space
+  std::array<bool, 3> periodic{};  ///< whether the domain is periodic along x, y and z
 
   /// Number of dimensions, 2 or 3.
   std::size_t dimension() const { return to[2] > from[2] ? 3 : 2; }
@@ -112,8 +114,9 @@ inline std::array<double, 3> periods_of(const Domain& domain) {
   return periods;
 }
 
-/// The walls of a domain, at rest, in the order of their numbers in files. The side of a cylinder
-/// is replaced by a plane parallel to the axis at the distance of its radius.
+/// The walls of a domain, at rest, in the order of their numbers in files; empty without a domain.
+/// The side of a cylinder is replaced by a plane parallel to the axis at the distance of its
+/// radius.
 std::vector<Plane> obstacles_of(const Domain& domain);
 
 }  // namespace viscontact::particles

@@ -1,8 +1,8 @@
 // Periodic domains: the cell, which holds one copy of each particle, and the images of the
 // particles in the neighbouring cells. Lengths and times are in any consistent units. Nothing is
-// checked or thrown. Used in particles.hpp, setting.hpp, bodies/, membranes/, neighbours/, io/,
-// case/ and freefem_flow/membranes/. Restart files store numbers of images (image_number()), so
-// that a change must keep their meaning.
+// checked or thrown; numbers of images beyond -13 to 13 give wrong periods. Used in particles.hpp,
+// setting.hpp, bodies/, membranes/, neighbours/, io/, case/ and freefem_flow/membranes/. Restart
+// files store numbers of images (image_number()), so that a change must keep their meaning.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct PeriodicCell {
   Vector lengths{};  ///< periods along x, y and z [L]; 0 where there is no period
   /// Mean gradient du/dx, du/dy, dv/dx, dv/dy of the velocity (u, v) of a fluid in the cell [1/T],
   /// in two dimensions only. An image moves relative to its particle with the velocity gradient
-  /// times shift, where the shift is the one at the start.
+  /// times shift, where the shift is the one at the start. Zeros without a fluid.
   std::array<double, 4> gradient{};
   double moved_for = 0;  ///< time since the start, when the shifts were along the axes [T], >= 0
 
@@ -100,7 +100,8 @@ inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
 }
 
 /// The inverse of the motion of the cell, applied to `apart` [L]: the motion has changed each shift
-/// of an image to (1 + moved_for gradient) times its value at the start.
+/// of an image to (1 + moved_for gradient) times its value at the start. Infinite or NaN if this
+/// matrix is singular.
 inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
   const double t = cell.is_sheared() ? cell.moved_for : 0;
   const auto& g = cell.gradient;
@@ -109,8 +110,9 @@ inline Vector before_the_motion(const PeriodicCell& cell, const Vector& apart) {
           ((1 + t * g[0]) * apart[1] - t * g[2] * apart[0]) / determinant, apart[2]};
 }
 
-/// The periods by which an image is shifted if its shift is the one nearest to `apart` [L]; 0 along
-/// an axis without a period. In a sheared cell, nearest is meant before the motion of the cell.
+/// The whole numbers of periods by which an image is shifted if its shift is the one nearest to
+/// `apart` [L]; 0 along an axis without a period. In a sheared cell, nearest is meant before the
+/// motion of the cell.
 inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
   const auto at_start = before_the_motion(cell, apart);
   Periods periods{};

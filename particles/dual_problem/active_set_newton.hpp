@@ -1,8 +1,8 @@
 // Newton's method for the dual problem of a time step: find scaled impulses z >= bound of the
 // contacts with a gradient W z + linear_term >= 0, such that one of the two is an equality for each
 // contact. dual_problem.hpp has the problem and its units. dual_solver.cpp and
-// fluid/contact_problem.cpp use the method; nothing is thrown. A change must keep that a call that
-// finds no solution leaves z as it was.
+// fluid/contact_problem.cpp use the method; nothing is checked or thrown. A change must keep that a
+// call that finds no solution leaves z as it was.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,8 @@ namespace viscontact::particles {
 ///
 /// The method converges fast near the solution and may cycle far from it. It stops after
 /// `max_iterations` solutions with the factor. If it has not converged then, or if factorise()
-/// returns false, problem.z is what it was before the call, and the returned residual is infinite.
+/// returns false, problem.z is what it was before the call, and the returned residual is infinite;
+/// otherwise it is at most 1.
 template <SolvableDualProblem Problem, class Factor>
 SolverResult active_set_newton(Problem& problem, Factor& factor, int max_iterations) {
   const auto start = problem.z;

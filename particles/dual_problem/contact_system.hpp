@@ -1,7 +1,8 @@
 // The contacts and particles of the problem that a time step solves, docs/physics.md (5.4), for the
-// impulses of contacts. Lengths, masses and times are in any consistent units. projection/ and
-// constraints/ use it; nothing is checked or thrown. A change must keep the order of contacts and
-// bodies, because rounding errors, and with redundant contacts also the impulses, depend on it.
+// impulses of contacts. Lengths, masses and times are in any consistent units. Numbers of
+// particles, bodies and contacts count from 0. projection/ and constraints/ use it; nothing is
+// checked or thrown. A change must keep the order of contacts and bodies, because rounding errors,
+// and with redundant contacts also the impulses, depend on it.
 #pragma once
 
 #include <cstddef>
@@ -54,7 +55,8 @@ class ContactSystem {
   std::int32_t body_of(std::int32_t particle) const { return body_of_[index_of(particle)]; }
   /// Displacement h u* of a body: D numbers [L].
   const double* free_displacement(std::size_t body) const { return &free_[body * D]; }
-  /// The body that represents the island of `body`; add() and connect() may change it.
+  /// The number of the body that represents the island of `body` >= 0; add() and connect() may
+  /// change it.
   std::int32_t island(std::int32_t body);
 
  private:

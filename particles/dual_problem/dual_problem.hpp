@@ -46,11 +46,12 @@ struct SolverResult {
 /// c is divided by sqrt(w). Both have the dimension of sqrt(w) times an impulse.
 class DualProblem {
  public:
+  // The arrays have one number for each contact; c < count() is the number of a contact.
   std::vector<double> z;            ///< scaled impulses z = sqrt(w) p
   std::vector<double> bound;        ///< lower bound of z: sqrt(w) gamma^n
   std::vector<double> linear_term;  ///< b/sqrt(w): the gradient at z = 0
-  std::vector<double> scale;        ///< sqrt(w)
-  std::vector<double> per_allowed;  ///< sqrt(w) over the allowed residual of the contact [L]
+  std::vector<double> scale;        ///< sqrt(w), > 0
+  std::vector<double> per_allowed;  ///< sqrt(w) over the allowed residual of the contact [L], > 0
 
   /// Number of contacts.
   std::size_t count() const { return z.size(); }

@@ -189,6 +189,7 @@ class FreeSetFactor {
   bool exists() const;
 
   /// Sets solved = (W + epsilon I)^-1 gradient for the contacts of the factor, 0 for all others.
+  /// Both arrays have one number for each contact.
   void solve(std::span<const double> gradient, std::span<double> solved) const;
 
   /// Applies the factor as a preconditioner, which is symmetric and positive definite on the
@@ -213,7 +214,8 @@ class FreeSetFactor {
 /// Improves the guess problem.z until all residuals are at most 1 or `max_iterations` are done. If
 /// contacts are redundant, the velocities determine only sums of their impulses; the single
 /// impulses then depend on the guess. `factor` may come from an earlier call for the same step,
-/// whose problem may have had fewer contacts. This function uses it and may replace it.
+/// whose problem may have had fewer contacts. This function uses it and may replace it. The
+/// returned SolverResult::residual is larger than 1 if the problem is not solved.
 template <int D>
 SolverResult solve_dual_problem(MassDualProblem<D>& problem, int max_iterations,
                                 FreeSetFactor<D>& factor);

@@ -2,8 +2,9 @@
 // "Minimizing quadratic functions subject to bound constraints with the rate of convergence and
 // finite termination"): minimises z^T W z/2 + b^T z over z >= bound, the scaled problem for the
 // impulses of contacts in a time step, whose quantities dual_problem.hpp explains. dual_solver.cpp
-// and fluid/contact_problem.cpp use it; nothing is thrown. A change must keep that sums are taken
-// in blocks of the thread pool, so that the results do not depend on the number of threads.
+// and fluid/contact_problem.cpp use it; nothing is checked or thrown. A change must keep that sums
+// are taken in blocks of the thread pool, so that the results do not depend on the number of
+// threads.
 #pragma once
 
 #include <Eigen/Core>
@@ -77,7 +78,8 @@ class Mprgp {
     refresh();
   }
 
-  /// Makes a new factor for the preconditioner. Returns false if it cannot be made.
+  /// Makes a new factor for the preconditioner. Returns false if it cannot be made; the caller may
+  /// go on without it.
   bool factorise() {
     restart_ = true;
     return preconditioner_.factorise();
@@ -86,7 +88,7 @@ class Mprgp {
   /// Number of conjugate gradient steps since contacts last became free or got to their bounds.
   int steps_between_same() const { return steps_between_same_; }
 
-  /// Makes one step. Returns the number of products with W that it took.
+  /// Makes one step. Returns the number of products with W that it took, >= 1.
   int step() {
     if (statistics_.chopped_square > statistics_.free_slope) return leave_bounds();
     if (restart_) start_directions();

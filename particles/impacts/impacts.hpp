@@ -2,7 +2,8 @@
 // the step: docs/physics.md (5.15) and (5.16). One blow has all contacts of connected particles
 // that are hit at one time. Afterwards the projection (projection/), the problem of the step for
 // the impulses of contacts, decides all remaining contacts without rebound. Lengths, masses and
-// times are in any consistent units. Nothing is thrown. simulation.cpp and projection/ use this
+// times are in any consistent units. Arrays named after particles or bodies are in their order; D
+// (2 or 3) is the dimension. Nothing is checked or thrown. simulation.cpp and projection/ use this
 // file. A change must keep that results depend on the order of the particles by rounding errors
 // only.
 #pragma once
@@ -37,10 +38,11 @@ struct ImpactStep {
   double h = 0;                      ///< length of the step [T], > 0
   double kick = 0;                   ///< time for which forces act on the velocities in it [T], > 0
   double touching = 0;               ///< gaps up to this one count as closed [L], > 0
-  std::span<double> displacements;   ///< h u* of all particles [L]
-  std::span<const double> mobilities;       ///< h/m of all particles of the mass m [T/M]
-  std::span<double> turns;                  ///< h w* [rad]; empty if no particle turns
-  std::span<const double> turn_mobilities;  ///< h/I of all particles of the inertia I [T/(M L^2)]
+  std::span<double> displacements;   ///< h u* of all particles [L], D numbers for each
+  std::span<const double> mobilities;  ///< h/m of all particles of the mass m [T/M], > 0
+  /// h w* of all particles [rad], 1 (discs) or 3 numbers for each; empty if no particle turns.
+  std::span<double> turns;
+  std::span<const double> turn_mobilities;  ///< h/I, I: inertias [T/(M L^2)], > 0; empty likewise
   std::span<BodyStep> bodies;               ///< motions of all rigid bodies
 };
 
@@ -73,17 +75,17 @@ class Impacts {
 
   /// The contacts of all blows in which solids touched, in order of time.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
-  /// Number of iterations of the solver in all blows.
+  /// Number of iterations of the solver in all blows, >= 0.
   int iterations() const { return iterations_; }
   /// Whether all blows were solved, to 1e-8 of the velocity of approach (strike.cpp).
   bool converged() const { return converged_; }
-  /// The particles that blows changed.
+  /// The numbers of the particles that blows changed.
   const std::vector<std::int32_t>& touched() const { return touched_; }
   /// True if a blow changed particle `k`; false for an obstacle.
   bool is_touched(std::int32_t k) const {
     return !flight_of_.empty() && k >= 0 && flight_of_[index_of(k)] >= 0;
   }
-  /// Displacement of a particle in the step with its blows but without the projection [L].
+  /// Displacement of particle `k` in the step with its blows but without the projection [L].
   Vector displacement(std::int32_t k) const;
   /// Adds to velocities and angular velocities, which are displacements and turns over h, what they
   /// lack: a blow at the time t_c that changes the velocity by d adds only (h - t_c) d to the

@@ -1,6 +1,7 @@
 // The record of a collision of two solids that rebound, for rebounds.csv. Lengths, masses and times
 // are in the units of the case file. impacts/ and fluid/ make it; particles/io and run/ write it,
-// and python/ returns it. A change must keep the columns of rebounds.csv.
+// and python/ returns it. Numbers of particles and obstacles count from 0. A change must keep the
+// columns of rebounds.csv.
 #pragma once
 
 #include <cstdint>

@@ -25,14 +25,16 @@ std::string write_contacts(const Particles& particles, std::span<const CurrentCo
 /// The line with the names of the columns of rebounds.csv.
 inline constexpr const char* kReboundsHeader =
     "time,first,second,approach_velocity,solid_impulse,velocity\n";
-/// The rows of rebounds.csv (rebound.hpp). first and second are as i and j in write_contacts().
+/// The rows of rebounds.csv (rebound.hpp), one for each of `rebounds`; empty without any. first and
+/// second are as i and j in write_contacts().
 std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds);
 
 /// Tables over time that a case may ask for (output.tables). A run in a fluid has the first two.
 inline constexpr auto kAskedTables =
     std::to_array<std::string_view>({"motion", "contacts", "walls", "stress"});
 
-/// The tables that `names`, some of kAskedTables, ask for, and in a fluid the first two:
+/// The tables that `names`, some of kAskedTables, ask for, and in a fluid the first two; other
+/// names are ignored:
 ///
 /// - motion.csv: time,id, the position, the angle of discs that turn, the velocity, and the angular
 ///   velocity of particles that turn, each with its components;

@@ -50,7 +50,8 @@ std::vector<TimeTable> time_tables(const Setting& setting, const Particles& part
 ///
 /// - kind: 0 hinge, 1 spring, 2 arm, 3 line of a membrane;
 /// - id: number of the link or membrane in its list of the case, from 0;
-/// - force: in the last step, on the body of a hinge or on the second particle [M L/T^2].
+/// - force: in the last step, on the body of a hinge or on the second particle [M L/T^2]; 0 before
+///   the first step.
 std::string write_links(const Setting& setting, const State& state);
 
 }  // namespace viscontact::particles

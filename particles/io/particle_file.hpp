@@ -1,6 +1,6 @@
 // Reads and writes particles as CSV files, and the rows of motion.csv. Lengths, masses and times
-// are in the units of the case; angles are in radians. case/ reads such files, io/ and run/ write
-// them. A change must keep the names of columns, which users' files have.
+// are in the units of the case; angles are in radians. Writing throws nothing. case/ reads such
+// files, io/ and run/ write them. A change must keep the names of columns, which users' files have.
 #pragma once
 
 #include <filesystem>
@@ -17,12 +17,13 @@ namespace viscontact::particles {
 /// Particles from a file, and where each stands in it.
 struct ParticleFile {
   Particles particles;     ///< in the order of the file
-  std::vector<int> lines;  ///< line of each particle, from 1
+  std::vector<int> lines;  ///< line of each particle in the file, from 1
 };
 
-/// Reads the columns x,y[,z],radius,mass and, if they exist, vx,vy[,vz] and id. Without velocities
-/// the particles are at rest; without `id`, or with ids 0, 1, ..., particles.ids is empty.
-/// final_particles.csv of a run can be read, too.
+/// `dimension` is 1 (spheres on an axis), 2 (discs) or 3 (spheres). Reads the columns
+/// x,y[,z],radius,mass and, if they exist, vx,vy[,vz] and id. Without velocities the particles are
+/// at rest; without `id`, or with ids 0, 1, ..., particles.ids is empty. final_particles.csv of a
+/// run can be read, too.
 ///
 /// On an axis (dimension 1) the columns are z,radius,mass and, if they exist, vz and id. In a fluid
 /// (`in_fluid`) discs have an angle and an angular velocity, which are 0 if their columns are

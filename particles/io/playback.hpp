@@ -28,7 +28,7 @@ struct Frame {
   std::vector<float> angles{};           ///< of each disc [rad]; empty if none turns
   /// Orientation of each sphere in space, a unit quaternion (w, x, y, z); empty if none turns.
   std::vector<float> orientations{};
-  std::vector<float> speeds{};  ///< of each particle [L/T]; empty: not known
+  std::vector<float> speeds{};  ///< of each particle [L/T], >= 0; empty: not known
   /// File of the flow around the particles (flow_vtk.hpp); empty if there is none. A picture reads
   /// the flows one after the other, because all of them together may be too large for the memory.
   std::filesystem::path flow{};
@@ -48,17 +48,18 @@ struct DrawnLinks {
 struct Playback {
   int dimension = 2;         ///< of space: 1, 2 or 3
   Units units{};             ///< words for the units of the case; may be empty
-  std::vector<float> radii;  ///< [L]
-  /// Masses [M], of discs in a fluid per length [M/L]; empty: not known.
+  std::vector<float> radii;  ///< of each particle [L], > 0
+  /// Mass of each particle [M], >= 0, of discs in a fluid per length [M/L]; empty: not known.
   std::vector<float> masses{};
   /// Semi-axes of each particle in the plane [L], the first along its angle; empty: no ellipses.
   std::vector<std::array<double, 2>> semi_axes{};
   /// For each particle 1 if it is a plate with round ends, else 0; empty: none is.
   std::vector<char> plates{};
-  std::vector<Frame> frames;        ///< in order of time, from the start on
-  bool is_in_fluid = false;         ///< whether the case has a fluid around the particles
-  std::vector<std::int32_t> ids{};  ///< as in Particles
-  PeriodicCell cell{};              ///< at the start
+  std::vector<Frame> frames;  ///< in order of time, from the start on
+  bool is_in_fluid = false;   ///< whether the case has a fluid around the particles
+  /// Id of each particle, >= 0; empty: particle k has the id k.
+  std::vector<std::int32_t> ids{};
+  PeriodicCell cell{};  ///< at the start
   /// Number of the rigid body of each particle, -1: none; empty if there are no bodies.
   std::vector<std::int32_t> bodies{};
   /// The links; empty if there are none.
@@ -74,7 +75,8 @@ inline PeriodicCell cell_at(const Playback& playback, const Frame& frame) {
   return cell;
 }
 
-/// Position of particle k in a frame [L]; other components than the first `dimension` are 0.
+/// Position of particle k (from 0) in a frame [L], NaN if it has not come yet; other components
+/// than the first `dimension` are 0.
 inline Vector position(const Playback& playback, const Frame& frame, std::size_t k) {
   Vector x{};
   const auto dimension = static_cast<std::size_t>(playback.dimension);

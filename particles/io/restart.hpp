@@ -1,6 +1,7 @@
 // Writes and reads the state of a simulation, bit for bit, so that a run can be continued. Numbers
-// are stored without conversion, in the units of the case. run/ uses it. A change must keep files
-// of all earlier versions readable, and a continued run equal to an uninterrupted one, bit for bit.
+// are stored without conversion, in the units of the case; write_restart() throws nothing. run/
+// uses it. A change must keep files of all earlier versions readable, and a continued run equal to
+// an uninterrupted one, bit for bit.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +18,8 @@ std::string write_restart(const State& state);
 
 /// Reads a restart file of version 1 to 11, also one that begins with lines of provenance. Of rigid
 /// bodies only the motion is set. Throws Error(kBadInput), which names the file, if the file cannot
-/// be read, is not a restart file, is damaged, or was written with another byte order.
+/// be read, is not a restart file, has another version, is damaged, or was written with another
+/// byte order. Whether it fits a case is not checked here but in run/particles_earlier_run.hpp.
 State read_restart(const std::filesystem::path& path);
 
 }  // namespace viscontact::particles

@@ -1,7 +1,8 @@
 // Writes and reads frames, the states of a simulation at the output times, as VTK files for
-// ParaView. Lengths, masses and times are in the units of the case. run/ uses it: a run that
-// continues, and pages, read the frames of a run again. A change must keep the names of the arrays,
-// and that read_vtp() and read_pvd() can read all files that were written before.
+// ParaView. Lengths, masses and times are in the units of the case. Writing throws nothing. run/
+// uses it: a run that continues, and pages, read the frames of a run again. A change must keep the
+// names of the arrays, and that read_vtp() and read_pvd() can read all files that were written
+// before.
 #pragma once
 
 #include <filesystem>
@@ -32,15 +33,16 @@ struct VtpContent {
   std::vector<double> positions;
   std::vector<double> radii;      ///< of each particle [L]
   std::vector<double> masses;     ///< of each particle [M]; empty if the file has none
-  std::vector<double> speeds;     ///< of each particle [L/T]
+  std::vector<double> speeds;     ///< of each particle [L/T], >= 0
   std::vector<std::int32_t> ids;  ///< of each particle; empty if the file has none
   // Counter-clockwise; empty for discs that do not turn, and for spheres.
   std::vector<double> angles,  ///< of each disc [rad]
       angular_velocities;      ///< of each disc [1/T]
   /// Unit quaternions (w, x, y, z) of spheres in space; empty if they do not turn.
   std::vector<double> orientations;
-  /// In the order of contacts_of(): first pairs of particles, then particles at obstacles. Errors
-  /// of gamma, normals and branches are not in the file and keep their defaults.
+  /// In the order of contacts_of(): first pairs of particles, then particles at obstacles; with the
+  /// numbers of particles in `radii`, not their ids; empty if there are none. Errors of gamma,
+  /// normals and branches are not in the file and keep their defaults.
   std::vector<CurrentContact> contacts;
 };
 

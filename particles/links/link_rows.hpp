@@ -2,9 +2,10 @@
 // particles and rigid bodies in a time step, docs/physics.md (5.12) to (5.14) and
 // membranes/necklace.hpp. Lengths, masses and times are in any consistent units. Equations of
 // displacements [L] have impulses [M L/T], equations of turns [rad] moments of impulses [M L^2/T];
-// where a member has two dimensions, the first is that of displacements. Nothing is checked or
-// thrown. constraints/ and fluid/ solve the equations; simulation.cpp, membranes/ and run/ use
-// them. A change must keep the order of forces in State::link_forces, which restart files store.
+// where a member has two dimensions, the first is that of displacements. Numbers and places count
+// from 0. Nothing is checked or thrown. constraints/ and fluid/ solve the equations;
+// simulation.cpp, membranes/ and run/ use them. A change must keep the order of forces in
+// State::link_forces, which restart files store.
 #pragma once
 
 #include <cstddef>
@@ -70,7 +71,7 @@ struct LinkEquations {
   bool is_spring() const {
     return kind == Kind::kTorsion || kind == Kind::kSpring || kind == Kind::kBend;
   }
-  /// The parts of the first row, one for each unit.
+  /// The parts of the first row, one for each unit. `rows` must not be empty.
   const std::vector<LinkPart>& parts() const { return rows.front().parts; }
 };
 
@@ -105,8 +106,8 @@ std::vector<LinkEquations> stop_equations(const Links& links, const Particles& p
 /// Numbers of periods from a particle to its image that belongs to its body; 0 without a body.
 Periods periods_in_unit(const Particles& particles, std::int32_t particle);
 
-/// Rate at which the sum of the parts of a row changes [L/T] because images move relative to their
-/// particles; 0 unless the cell is sheared.
+/// Rate at which the sum of the parts of a row changes [L/T, 1/T] because images move relative to
+/// their particles; 0 unless the cell is sheared.
 double image_rate(const LinkRow& row, const PeriodicCell& cell);
 
 /// Motion of a unit in a step.
@@ -125,13 +126,13 @@ double value_of(const LinkPart& part, const UnitMotion& motion);
 LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
                                const Particles& particles, std::span<const UnitMotion> motions);
 
-/// Value plus sum of the parts of each row of a link after these motions [L, rad]; of springs to
-/// first order, otherwise exactly.
+/// For each row of a link its value plus the sum of its parts after these motions [L, rad]; of
+/// springs to first order, otherwise exactly.
 std::vector<double> values_after(const LinkEquations& equations, const Links& links,
                                  const Particles& particles, const LinkTimes& times,
                                  std::span<const UnitMotion> motions);
 
-/// Extension of a spring (kSpring) after these motions [L].
+/// Extension of a spring (kSpring) after these motions [L], < 0 if it is compressed.
 double extension_after(const LinkEquations& spring, const Links& links, const Particles& particles,
                        std::span<const UnitMotion> motions);
 

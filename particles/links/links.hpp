@@ -21,7 +21,7 @@ namespace viscontact::particles {
 /// before the first point and after the last one.
 struct PiecewiseLinearLength {
   std::vector<std::array<double, 2>>
-      points;  ///< (time [T], length [L]), at least one; times increase
+      points;  ///< (time [T], length [L] > 0), at least one (not checked); times increase
   /// Period [T], larger than the last time minus the first time; between the last point and the
   /// first point of the next period the length is linear. 0: not periodic.
   double period = 0;
@@ -31,7 +31,7 @@ struct PiecewiseLinearLength {
 struct SinusoidalLength {
   double mean = 0,               ///< [L], > |amplitude|
       amplitude = 0;             ///< [L]
-  double angular_frequency = 0,  ///< [1/T]
+  double angular_frequency = 0,  ///< [1/T], of any sign; 0: constant
       phase = 0;                 ///< [rad]
 };
 
@@ -55,7 +55,7 @@ std::vector<double> decisive_times(const ArmLength& length, double end);
 
 /// A point that moves with a particle or with its rigid body.
 struct LinkedPoint {
-  /// Number of a particle. If it belongs to a rigid body, the point moves with the body.
+  /// Number of a particle, from 0. If it belongs to a rigid body, the point moves with the body.
   std::int32_t particle = 0;
   /// Vector to the point [L]: from the centre of the body, in its orientation at the start; or from
   /// the centre of a particle without a body, in the orientation in which its angle is 0.
@@ -110,7 +110,7 @@ struct Links {
   std::size_t force_count(int dimension) const {
     return place_of_membrane(membranes.size(), dimension);
   }
-  /// Number of forces of one hinge in State::link_forces.
+  /// Number of forces of one hinge in State::link_forces; `dimension` is 1 to 3.
   static std::size_t forces_of_hinge(int dimension) {
     return static_cast<std::size_t>(dimension) + (dimension == 2 ? 1 : 0);
   }

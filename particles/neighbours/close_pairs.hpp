@@ -16,7 +16,7 @@ namespace viscontact::particles {
 
 /// Two particles that are close to each other.
 struct ClosePair {
-  std::int32_t first,      ///< number of a particle, < second
+  std::int32_t first,      ///< number of a particle, its place in `extents`, < second
       second;              ///< number of a particle
   std::int32_t image = 0;  ///< number of the periodic image of `second`, -13 to 13 (periods.hpp)
   /// True if all members are equal.
@@ -25,7 +25,8 @@ struct ClosePair {
 
 /// All pairs of particles i < j with |x_i - x_j| < e_i + e_j, where x are the positions and e the
 /// extents, in order of first, then second. `positions` has `dimension` (1, 2 or 3) finite numbers
-/// for each particle [L], and `extents` one number > 0 [L].
+/// for each particle [L], and `extents` one number > 0 [L]; neither is checked. Empty if no pair is
+/// close.
 ///
 /// Particles whose extents are within the same factor of 2 share a grid, whose cells are twice as
 /// wide as the largest of these extents. Each particle looks for neighbours in its own grid and in

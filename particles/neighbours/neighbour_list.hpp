@@ -1,7 +1,7 @@
 // The neighbour list of a simulation: the pairs of particles that may touch soon, which is used in
 // many steps, and the particles near obstacles. Lengths are in the unit of the case file.
-// simulation.cpp, fluid/ and membranes/ use it. A change must keep the order of the pairs, because
-// the bits of a simulation depend on it.
+// simulation.cpp, fluid/ and membranes/ use it. Only rebuild_neighbour_list() throws. A change must
+// keep the order of the pairs, because the bits of a simulation depend on it.
 #pragma once
 
 #include <span>
@@ -19,9 +19,9 @@ namespace viscontact::particles {
 void wrap_into_cell(State& state);
 
 /// True if no pair outside state.pairs can touch after the particles have moved by `displacements`
-/// [L], a flat array: no particle is then further than its skin from its position when the list was
-/// made. The mean displacement of all particles does not count, because it brings no two particles
-/// closer together.
+/// [L], a flat array with as many numbers for each particle as there are dimensions: no particle is
+/// then further than its skin from its position when the list was made. The mean displacement of
+/// all particles does not count, because it brings no two particles closer together.
 bool neighbour_list_is_valid(const State& state, std::span<const double> displacements,
                              ThreadPool& pool);
 
@@ -36,8 +36,8 @@ bool neighbour_list_is_valid(const State& state, std::span<const double> displac
 void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool);
 
 /// Makes state.walls again: the pairs of an obstacle and a particle with a gap less than `margin`
-/// [L], or with gamma < 0, whose film still holds the two together. `planes` are the positions of
-/// the obstacles at the end of the step. Pairs keep their memory.
+/// >= 0 [L], or with gamma < 0, whose film still holds the two together. `planes` are the positions
+/// of the obstacles at the end of the step. Pairs keep their memory.
 void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, double margin,
                        ThreadPool& pool);
 

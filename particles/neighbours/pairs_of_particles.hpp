@@ -35,16 +35,17 @@ class PairsOfParticles {
     for_particles([&](std::size_t k, std::size_t f) { pairs_of_[next[k]++] = f; });
   }
 
-  /// The numbers of the pairs of a particle: places in State::pairs, continued by State::walls.
+  /// The numbers of the pairs of a particle, by its number >= 0: places in State::pairs, continued
+  /// by State::walls, in increasing order.
   std::span<const std::size_t> of(std::int32_t particle) const {
     const auto k = index_of(particle);
     return std::span(pairs_of_).subspan(offsets_[k], offsets_[k + 1] - offsets_[k]);
   }
 
   /// Returns the numbers `start` and those of all pairs that are connected with them through at
-  /// most `depth` pairs f for which may_close(f) is true. may_close is called at most once for each
-  /// pair. `start` may contain pairs of State::walls, but the search follows pairs of particles
-  /// only, because an obstacle does not pass an impact on.
+  /// most `depth` >= 0 pairs f for which may_close(f) is true. may_close is called at most once for
+  /// each pair. `start` may contain pairs of State::walls, but the search follows pairs of
+  /// particles only, because an obstacle does not pass an impact on.
   template <class Predicate>
   std::vector<std::size_t> connected(std::span<const std::size_t> start, int depth,
                                      const Predicate& may_close) const {

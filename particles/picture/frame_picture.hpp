@@ -1,8 +1,8 @@
 // Draws one frame of a motion of particles as SVG: the content of one panel of the still picture.
 // Lengths [L] are in the case's unit. Page units are those of the SVG, of which the still picture
-// is 1000 wide. Nothing is thrown. particles_picture.cpp draws its panels by frame_picture(), and
-// particles_page.cpp uses kFrictionColours. The scripts view.js and picture.js in
-// particles/picture/page draw the same on a web page, so a change must be made there, too.
+// is 1000 wide. Nothing is checked or thrown. particles_picture.cpp draws its panels by
+// frame_picture(), and particles_page.cpp uses kFrictionColours. The scripts view.js and picture.js
+// in particles/picture/page draw the same on a web page, so a change must be made there, too.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace viscontact::particles {
 /// Projects points of the motion [L] to coordinates in a panel [page units]: x to the right and y
 /// downwards from the panel's upper left corner.
 struct Projection {
-  /// Unit vectors of the motion that point to the right, upwards and to the reader.
+  /// Unit vectors [1] of the motion that point to the right, upwards and to the reader.
   Vector right{1, 0, 0}, up{0, 1, 0}, toward{0, 0, 1};
   double scale = 1;          ///< page units per length [1/L], > 0
   double left = 0, top = 0;  ///< coordinates of the panel's corner along `right` and `up` [L]

@@ -1,8 +1,9 @@
 // The numbers of the page that plays a motion of particles: chooses the frames, particles and
 // contacts that fit into the page, and encodes them and the flow as blocks of numbers. Lengths,
-// masses and times are in the units of the case. Nothing is thrown. particles_page.cpp writes the
-// blocks into the page. motion.js, colouring.js and flow.js in particles/picture/page read them, so
-// a change of their names or layout must be made there, too.
+// masses and times are in the units of the case. Nothing is checked or thrown; on a big-endian
+// machine the source does not compile (static_assert). particles_page.cpp writes the blocks into
+// the page. motion.js, colouring.js and flow.js in particles/picture/page read them, so a change of
+// their names or layout must be made there, too.
 #pragma once
 
 #include <array>
@@ -16,13 +17,13 @@
 
 namespace viscontact::particles {
 
-/// The bytes of a block of numbers, which are little-endian.
+/// The bytes of a block of numbers, which are little-endian; empty if the page has no such numbers.
 using Bytes = std::vector<unsigned char>;
 
 /// The blocks of a page: the id of the HTML element that holds a block, and the content.
 using Blocks = std::vector<std::pair<const char*, Bytes>>;
 
-/// The bytes in base64 (RFC 4648).
+/// The bytes in base64 (RFC 4648), less than 2^31 bytes; empty without bytes.
 std::string base64(const Bytes& bytes);
 
 /// The part of a motion that the page shows, and its encoding. Indices are those of the playback.

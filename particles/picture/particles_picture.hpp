@@ -14,8 +14,8 @@ namespace viscontact::particles {
 /// evenly spaced times, each once. `panels` is limited to 1 to 6 and to the number of frames. The
 /// first and the last frame are among them; a single panel shows the last. Particles are drawn as
 /// discs in motions in the plane, and as spheres in motions in space, which are seen from a little
-/// above with the third axis upwards. `title` is plain text. Throws Error(kBadInput), which names
-/// the file, if a frame's flow cannot be read.
+/// above with the third axis upwards. `title` is plain text, may be empty. Throws Error(kBadInput),
+/// which names the file, if a frame's flow cannot be read.
 std::string particles_picture(const Playback& original, const std::string& title, int panels);
 
 /// The text of one HTML page that loads nothing from elsewhere and plays the motion. The size of

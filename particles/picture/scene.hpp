@@ -39,7 +39,7 @@ struct ViewBox {
 
 /// The flow around the particles of a frame, at the points of FlowFrames::grid.
 struct FlowFrame {
-  std::size_t frame = 0;  ///< its index in Playback::frames
+  std::size_t frame = 0;  ///< its index in Playback::frames, from 0
   /// Speed [L/T] and pressure [M/(L T^2)] at each point of the grid; NaN where there is no flow.
   /// The mean of the pressure over the points outside the particles is 0, because the equations of
   /// a closed domain determine the pressure up to a constant only.
@@ -148,8 +148,8 @@ struct Scene {
 };
 
 /// The scene that shows the frames of `motion` with the indices `frames`, with those flows of the
-/// frames `flow_frames` that exist, on a grid of about `points` points. Throws Error(kBadInput),
-/// which names the file, if a flow cannot be read.
+/// frames `flow_frames` that exist, on a grid of about `points` points. Indices are not checked.
+/// Throws Error(kBadInput), which names the file, if a flow cannot be read.
 Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
                const std::vector<std::size_t>& flow_frames, std::size_t points);
 
@@ -166,7 +166,8 @@ inline constexpr const char* kFrictionWords =
 
 using Polygon = std::vector<Vector>;  ///< corners in order [L]; two corners: a line
 
-/// The part of a convex polygon or of a line with normal.(x - point) >= 0.
+/// The part of a convex polygon or of a line with normal.(x - point) >= 0; empty if there is none.
+/// `point` is on the boundary [L], and `normal` may have any length > 0.
 Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& normal);
 
 /// The part of a convex polygon or line in the box and on the free side (that of the particles) of

@@ -99,9 +99,9 @@ struct ProjectionResult {
   std::vector<std::string> unsolved_links;
   bool contact_contradicts = false;  ///< true: contacts may contradict these links
   std::vector<Pair*> pairs;          ///< the pairs in the projection, which solve() does not change
-  std::vector<double> impulses;      ///< of `pairs` [M L/T]
+  std::vector<double> impulses;      ///< one for each of `pairs` [M L/T], >= gamma before the step
   std::vector<PairMemory> memories;  ///< new memories of `pairs`; empty without add_constraints()
-  std::vector<std::int32_t> bodies;  ///< particles whose displacements the projection changed
+  std::vector<std::int32_t> bodies;  ///< numbers of the particles whose displacements it changed
 };
 
 /// Chooses the pairs that a film holds (gamma < 0, minus the impulse that the film has absorbed),
@@ -118,8 +118,9 @@ struct ProjectionResult {
 template <int D>
 class StepProjection {
  public:
-  /// All arguments must outlive this object. `displacements` [L]: h u* before solve(), then h v;
-  /// `mobilities`: h/m [T/M].
+  /// All arguments must outlive this object. `h` > 0 [T]; `planes`: all obstacles at the end of the
+  /// step; `displacements`: D numbers for each particle [L], h u* before solve(), then h v;
+  /// `mobilities`: h/m of each particle [T/M], > 0.
   StepProjection(State& state, double h, std::span<const PlanePosition> planes,
                  std::span<double> displacements, std::span<const double> mobilities,
                  ThreadPool& pool);

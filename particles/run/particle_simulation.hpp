@@ -20,20 +20,23 @@ namespace viscontact::particles {
 class ParticleSimulation {
  public:
   /// `threads` >= 1 is the number of threads; it is used without a fluid only. With a fluid,
-  /// `start_solver` starts the fluid solver, which ends if `stop` requests a stop; its errors are
-  /// thrown, and those of the constructors of the three simulations.
+  /// `start_solver` starts the fluid solver, which ends if `stop` requests a stop. Its errors are
+  /// thrown, here and below Error(kExternalProgram) if it cannot start, ends or answers with
+  /// anything but numbers, and Error(kInterrupted) if a stop was requested; also those of the
+  /// constructors of the three simulations, Error(kBadInput) if `state` does not fit the setting.
   ParticleSimulation(const Setting& setting, State state, int threads,
                      const StartFluidSolver& start_solver, const StopToken& stop);
 
   /// Computes a step that ends at the time `end` [T] at the latest. Throws Error(kNotConverged) if
   /// the step cannot be computed, and the errors of the fluid solver; see Simulation::step() and
-  /// FluidSimulation::step().
+  /// FluidSimulation::step(). If no time is left until `end`, no step is made.
   StepReport step(double end);
   const State& state() const;  ///< the state after the last step
   /// Forces on the particles [M L/T^2] that the caller may set; see Simulation::added_forces().
   /// Throws Error(kWrongUsage) if there is a fluid with membranes.
   std::span<double> added_forces();
-  std::span<double> added_torques();  ///< torques [M L^2/T^2], likewise
+  /// Torques [M L^2/T^2], likewise; empty if the particles do not turn.
+  std::span<double> added_torques();
   /// The particles with their velocities at the present time; see Simulation::reported_particles()
   /// and FluidSimulation::reported_particles().
   Particles reported_particles() const {
@@ -47,9 +50,10 @@ class ParticleSimulation {
     return in_fluid_ ? in_fluid_->rebounds() : dry_->rebounds();
   }
 
-  /// True if there is a fluid, which the functions below need.
+  /// True if there is a fluid, which the functions below need (not checked).
   bool has_fluid() const { return dry_ == nullptr; }
-  /// The flow around the particles where they were at the beginning of the last step.
+  /// The flow around the particles where they were at the beginning of the last step. Throws the
+  /// errors of the fluid solver.
   FlowField flow() { return membranes_ ? membranes_->flow() : in_fluid_->flow(); }
   /// The flow around the particles where they are now. Throws the errors of the fluid solver.
   FlowField flow_at_present() {
@@ -64,7 +68,8 @@ class ParticleSimulation {
   ForceErrors force_errors() const {
     return membranes_ ? ForceErrors{} : in_fluid_->force_errors();
   }
-  /// The state, with the flow of a fluid with inertia, for the restart file.
+  /// The state, with the flow of a fluid with inertia, for the restart file. Throws the errors of
+  /// the fluid solver.
   State state_to_save() { return membranes_ ? state() : in_fluid_->state_to_save(); }
   /// Number of unknowns on the last mesh; 0 if the solver does not say.
   std::size_t unknowns() const {

@@ -29,8 +29,8 @@ State first_state(const ParticlesCase& c, const std::string& restart);
 
 /// The run in the folder, if it was made from the same inputs by the same version of Viscontact, as
 /// `provenance` records both for this call, and the files of `log` are as the run has left them;
-/// otherwise nothing. If the folder has a restart.bin that cannot be used, a message on the
-/// terminal says why.
+/// otherwise, also if a file is damaged, nothing. Errors are not thrown: if the folder has a
+/// restart.bin that cannot be used, a message on the terminal says why.
 std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c,
                                            const std::filesystem::path& folder,
                                            const results::Provenance& provenance,

@@ -40,11 +40,13 @@ struct FrameKind {
 inline constexpr FrameKind kFrameFile{"particles", ".vtp"}, kFlowFile{"flow", ".vtu"},
     kLinksFile{"links", ".vtp"};
 
-/// The name of the file of frame `number`, from 0, such as particles_00000.vtp.
+/// The name of the file of frame `number`, from 0, such as particles_00000.vtp; at least five
+/// digits.
 std::string frame_name(const FrameKind& kind, std::uint64_t number);
 
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame, but
-/// Viscontact did not write it.
+/// Viscontact did not write it. The folder must exist, here and below; otherwise
+/// std::filesystem::filesystem_error is thrown.
 void check_results(const std::filesystem::path& folder);
 
 /// Throws Error(kBadInput) if a run into `folder` would overwrite one of its inputs: the case, its
@@ -53,10 +55,11 @@ void check_inputs_stay(const ParticlesCase& c, const std::filesystem::path& rest
                        const std::filesystem::path& folder);
 
 /// Removes all results and frames from the folder, so that it never contains files of two runs.
+/// Throws Error(kBadInput), which names the file, if one cannot be removed.
 void remove_results(const std::filesystem::path& folder);
 
 /// Removes the files of all frames but the first `frames`, all flows but the first `flows`, and
-/// files that a killed process has not finished.
+/// files that a killed process has not finished. Throws as remove_results().
 void remove_later_frames(const std::filesystem::path& folder, std::uint64_t frames,
                          std::uint64_t flows);
 
@@ -72,10 +75,10 @@ struct StepTotals {
   std::int64_t steps = 0, unconverged = 0, iterations = 0;
   /// Number of steps among `unconverged` whose StepReport::excess is above kStillAResult.
   std::int64_t failed = 0;
-  int most_iterations = 0;                           ///< largest number of iterations in one step
-  double first_time = 0, last_time = 0;              ///< at the start and after the last step [T]
-  double largest_residual = 0, largest_overlap = 0;  ///< in mean radii
-  double largest_impulse_residual = 0;               ///< StepReport::impulse_residual
+  int most_iterations = 0;               ///< largest number of iterations in a step, >= 0
+  double first_time = 0, last_time = 0;  ///< at the start and after the last step [T]
+  double largest_residual = 0, largest_overlap = 0;  ///< in mean radii [1], >= 0
+  double largest_impulse_residual = 0;               ///< of StepReport::impulse_residual [1], >= 0
   std::int64_t divided = 0;                          ///< number of divided steps
   std::int64_t unresolved = 0;                       ///< sum of StepReport::unresolved
   double seconds = 0;                                ///< of earlier calls; a saved record includes
@@ -89,9 +92,9 @@ struct StepTotals {
   RelativeErrors first_velocity_errors, last_velocity_errors;
   RelativeErrors first_force_errors, last_force_errors;
 
-  double averaged_time = 0;  ///< time over which the next two means are taken [T]
-  /// Means over time of FluidStepReport::dissipation and FluidStepReport::apparent_viscosity, whose
-  /// values are taken as constant over their step.
+  double averaged_time = 0;  ///< time over which the next two means are taken [T]; 0: no means
+  /// Means over time of FluidStepReport::dissipation [M L^2/T^3], in two dimensions [M L/T^3], and
+  /// FluidStepReport::apparent_viscosity [1], whose values are taken as constant over their step.
   double mean_dissipation = 0, mean_apparent_viscosity = 0;
 
   /// Adds a step. The means begin at the time `average_from` [T].
@@ -102,7 +105,7 @@ struct StepTotals {
 struct RunRecord {
   StepTotals totals;                     ///< sums over the steps
   std::uint64_t frames = 0, flows = 0;   ///< numbers of frames, and of frames whose flow is written
-  double last_frame = 0;                 ///< time of the last frame [T]
+  double last_frame = 0;                 ///< time of the last frame [T]; 0 without a frame
   std::uint64_t rebounds = 0;            ///< number of rows of rebounds.csv
   std::map<std::string, FileEnd> files;  ///< where these files end, by name
 };
@@ -120,7 +123,7 @@ std::string step_row(std::int64_t step, const StepReport& report,
 /// The comment line of restart.bin that contains the record after the step with the number `step`.
 std::string record_comment(const RunRecord& record, std::int64_t step);
 /// Reads that line from `head`, the first lines of the file `restart`. Throws Error(kBadInput),
-/// which names the file, if it has no such line.
+/// which names the file, if it has no such line or the line is damaged.
 RunRecord read_record(const std::string& head, const std::filesystem::path& restart);
 
 /// The text of run.json at the end of a run with these sums and this last state.

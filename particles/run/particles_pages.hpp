@@ -15,7 +15,7 @@ namespace viscontact::particles {
 /// that a run of the case has written into `folder`. Of a long run only every 2nd, 4th, ... frame
 /// is used, so that the memory is bounded. `provenance` is stored in both files. Throws
 /// Error(kBadInput), which names the file, if a file cannot be read or written or has other
-/// particles than the case.
+/// particles than the case, or if there is no frame.
 void write_pages(const ParticlesCase& c, const std::filesystem::path& folder,
                  const results::Provenance& provenance);
 

@@ -26,13 +26,14 @@ struct ParticlesRequest {
 /// Reads the case, simulates, and writes the files of docs/file-formats.md into the folder. If the
 /// folder has an interrupted run of the same inputs, this run continues; a finished run of the same
 /// inputs is left as it is; the files of any other run are removed at the beginning. Throws
-/// Error(kBadInput) before anything is written if the case or the restart file is wrong or a file
-/// must not be replaced. Throws Error(kBadInput) later if a file cannot be written; the same
-/// request then continues from the last restart.bin. Throws after everything is written:
+/// Error(kBadInput) before anything is written if the case or the restart file is wrong, a file
+/// must not be replaced, or another process uses the folder. Throws Error(kExternalProgram) if the
+/// fluid solver cannot be started. Throws Error(kBadInput) later if a file cannot be written; the
+/// same request then continues from the last restart.bin. Throws after everything is written:
 /// Error(kNotConverged) if a step missed the tolerances by more than the factor kStillAResult
-/// (particles_folder.hpp) or cannot be computed, Error(kInterrupted) if `stop` requested a stop.
-/// Throws Error(kWrongUsage) at the beginning if `hdf5` is true and the program was built without
-/// libhdf5.
+/// (particles_folder.hpp) or cannot be computed, Error(kExternalProgram) if the fluid solver failed
+/// in a step, Error(kInterrupted) if `stop` requested a stop. Throws Error(kWrongUsage) at the
+/// beginning if `hdf5` is true and the program was built without libhdf5.
 void run_particles(const ParticlesRequest& request);
 
 }  // namespace viscontact::particles

@@ -51,10 +51,10 @@ class RunLog {
   /// True if the case has a fluid and the flow of the last frame has not been written yet. The flow
   /// around the particles of a frame is computed in the next step.
   bool lacks_flow() const { return case_.setting.fluid && record_.flows < record_.frames; }
-  /// Writes the flow of the last frame.
+  /// Writes the flow of the last frame; needs lacks_flow() (not checked).
   void add_flow(const FlowField& flow);
 
-  /// Returns when all that was added is on the disk.
+  /// Returns when all that was added is on the disk. Throws if the disk reports an error.
   void sync();
 
   /// What has been written so far, with the places at which the files end.

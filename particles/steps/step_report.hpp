@@ -3,7 +3,8 @@
 // from the value that its condition demands; docs/particles.md, "The projection", says what is
 // allowed. Lengths, masses and times are in the units of the case file. simulation.cpp and
 // projection/ (particles with masses), fluid/ and membranes/ fill the report, and particles/run
-// writes it. A change must keep what the columns of steps.csv mean.
+// writes it. Only refuse_deep_overlap() throws. A change must keep what the columns of steps.csv
+// mean.
 #pragma once
 
 #include <array>
@@ -69,7 +70,8 @@ struct StepReport {
   /// Largest overlap -d after the step, divided by the mean radius [1]. The true overlap is at most
   /// as large, because no gap is smaller than its linearised gap.
   double largest_overlap = 0;
-  /// Number of parts into which the step was divided, 1 to 256, where particles move fast.
+  /// Number of parts into which the step was divided, 1 to 256, where particles move fast; 1 if no
+  /// time was left for a step.
   int parts = 0;
   /// Number of contacts whose particles move around each other too far for linearised gaps, even in
   /// the smallest parts of the step (kLargestTurn in contact.hpp).
@@ -90,7 +92,8 @@ struct StepResiduals {
   std::vector<double> impulse_errors;
 
   /// Takes a residual >= 0 into account; up to `allowed` > 0 is allowed, both [L]. Returns true and
-  /// sets `converged` to false if it is larger than allowed or not a number.
+  /// sets `converged` to false if it is larger than allowed or not a number; one that is not a
+  /// number leaves `largest` and `excess` as they are.
   bool take(double residual, double allowed);
   /// Takes the residual of an impulse into account. `at_work` >= 0 are the impulses at work, both
   /// [M L/T]; if they are 0, the residual is ignored.
@@ -99,7 +102,8 @@ struct StepResiduals {
   void take_gap(double gap, const Pair& pair);
 };
 
-/// Enters the residuals of a step, or of a part of it, in the report. `mean_radius` > 0 [L].
+/// Enters the residuals of a step, or of a part of it, in the report. `mean_radius` > 0 [L]. The
+/// excess is infinite if the step has not converged although no excess is above 1.
 void report_residuals(const StepResiduals& residuals, double mean_radius, StepReport& report);
 
 /// Throws Error(kNotConverged) if a step that ends at `time` [T] has not converged and leaves an

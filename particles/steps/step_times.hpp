@@ -16,9 +16,10 @@
 namespace viscontact::particles {
 
 /// The times > 0 of a case at which a step must end (Euler scheme) or have its middle (leapfrog
-/// scheme) [T], increasing, each once. With the leapfrog scheme they are those at which a force or
-/// torque jumps. With the Euler scheme they are those at which the velocity of a plane jumps, if
-/// solids rebound: a plane moves evenly in a step. Otherwise there are none.
+/// scheme) [T], increasing, each once; empty if there are none. With the leapfrog scheme they are
+/// those at which a force or torque jumps. With the Euler scheme they are those at which the
+/// velocity of a plane jumps, if solids rebound: a plane moves evenly in a step. Otherwise there
+/// are none.
 std::vector<double> jump_times(const Setting& setting);
 
 /// The end of the step that begins at `time` with the leapfrog scheme [T]. Without a jump near, it
@@ -45,8 +46,9 @@ struct StepInterval {
 /// The ends of all steps of a simulation.
 class StepGrid {
  public:
-  /// `time_step` > 0 is the length h of a step, and `jumps` are the jump_times(). With `leapfrog`,
-  /// steps are placed around them (leapfrog_step_end()); otherwise a step ends at each of them.
+  /// `time_step` > 0 is the length h of a step [T], and `jumps` are the jump_times(). With
+  /// `leapfrog`, steps are placed around them (leapfrog_step_end()); otherwise a step ends at each
+  /// of them.
   explicit StepGrid(double time_step, bool leapfrog = false, std::vector<double> jumps = {})
       : time_step_(time_step), leapfrog_(leapfrog), jumps_(std::move(jumps)) {}
 

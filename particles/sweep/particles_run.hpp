@@ -32,10 +32,13 @@ class ParticlesRuns {
   ParticlesRuns(const ParticlesSweep& sweep, const std::filesystem::path& output,
                 std::string version, int threads, bool keep_all, StartFluidSolver start_solver);
 
-  /// The results of row `index`, from 0, if its run has ended; else nothing. It is thread-safe.
+  /// The results of row `index`, from 0, if its run has ended; else nothing, also if result.json is
+  /// damaged or belongs to another case or version. It is thread-safe. Throws Error(kBadInput) if
+  /// result.json or the CSV file of particles cannot be read.
   std::optional<sweep::RowResults> ended(std::uint64_t index) const;
 
   /// True if the run of row `index` has ended without a failure. compute() then does not repeat it.
+  /// Throws as ended().
   bool has_succeeded(std::uint64_t index) const;
 
   /// Runs the case of row `index`, continues the run if it was interrupted, or takes the results of
@@ -45,7 +48,8 @@ class ParticlesRuns {
   /// written or another process computes the same row.
   sweep::RowResults compute(std::uint64_t index, const StopToken& stop) const;
 
-  /// The computing time of the run of row `index` [s]; 0 if it has not ended.
+  /// The computing time of the run of row `index` [s]; 0 if it has not ended or run.json is
+  /// damaged.
   double seconds(std::uint64_t index) const;
 
   const std::filesystem::path& folder() const { return folder_; }  ///< runs_folder() of the output

@@ -32,8 +32,9 @@ struct ParticlesSweepRequest {
 
 /// Computes the missing rows, and writes the file of the rows and, if there are draws, the table of
 /// means. A row that fails does not stop the others; the column `failure` says why it failed.
-/// Throws Error(kNotConverged) after all is written if every run failed, and Error(kInterrupted) if
-/// `stop` requests a stop; finished runs are kept.
+/// Throws Error(kNotConverged) after all is written if every run failed, Error(kInterrupted) if
+/// `stop` requests a stop, and Error(kBadInput) if a file cannot be read or written or another
+/// process computes the same row; finished runs are kept.
 void sweep_particles(const ParticlesSweep& sweep, const ParticlesSweepRequest& request);
 
 /// Computes the rows of one task, those whose number modulo `share.count` is `share.number`, into
@@ -43,12 +44,15 @@ void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& re
                     const pipeline::Share& share);
 
 /// Writes the tables from the runs that have ended, and runs nothing. Throws Error(kNotConverged)
-/// if rows are missing, with their number and the first one, or if every run failed.
+/// if rows are missing, with their number and the first one, or if every run failed, and
+/// Error(kBadInput) if a file cannot be read or written.
 void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request);
 
 /// Submits a Slurm job with the tasks that have rows to compute (array_job.hpp, which says what is
-/// thrown). `options` are the words of the command line that determine the rows, such as --draws
-/// and its number.
+/// thrown), or none if no row is missing. Also throws Error(kBadInput) if the file of the rows
+/// exists and is no regular file, and Error(kWrongUsage) if ArrayRequest::options has an open
+/// quotation mark. `options` are the words of the command line that determine the rows, such as
+/// --draws and its number.
 void submit_sweep(const ParticlesSweep& sweep, const pipeline::ArrayRequest& request,
                   const std::vector<std::string>& options);
 
