@@ -78,7 +78,8 @@ std::optional<double> leading_coefficient(const Tabulation& tabulation) {
   const double coefficient =
       lubrication::stokes_resistance(tabulation.viscosity, tabulation.radius) * tabulation.radius *
       geometry.leading_factor(tabulation.radius, tabulation.geometry_parameters);
-  if (!std::isfinite(coefficient)) return std::nullopt;  // too large for a table
+  // Not for a table: too large, or the gap does not close.
+  if (!std::isfinite(coefficient) || !(coefficient > 0)) return std::nullopt;
   return coefficient;
 }
 

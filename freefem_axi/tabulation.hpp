@@ -56,9 +56,9 @@ std::string geometry_in_words(const Tabulation& tabulation);
 /// sphere [1]; 0 if the neighbour is always at rest.
 double neighbour_ratio(const Tabulation& tabulation, lubrication::MotionKind motion);
 
-/// Lubrication theory's coefficient k [M L/T] in the resistance -F_lub/u0 = k/q + ... near contact;
-/// <= 0 if the neighbour moves away at least as fast as the sphere follows. Nothing if it is not
-/// known or too large for a double.
+/// Lubrication theory's coefficient k [M L/T] > 0 in the resistance -F_lub/u0 = k/q + ... near
+/// contact. Nothing if it is not known or too large for a double, or if the neighbour moves away at
+/// least as fast as the sphere follows, so that k <= 0.
 std::optional<double> leading_coefficient(const Tabulation& tabulation);
 
 /// The arguments of the FreeFEM script of the geometry for the row at the gap q = `gap` [L] and the

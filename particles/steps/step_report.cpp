@@ -17,7 +17,8 @@ namespace viscontact::particles {
 
 bool StepResiduals::take(double residual, double allowed) {
   largest = std::max(largest, residual);
-  excess = std::max(excess, residual / allowed);
+  excess = std::isnan(residual) ? std::numeric_limits<double>::infinity()
+                                : std::max(excess, residual / allowed);
   const bool beyond = !(residual <= allowed);
   if (beyond) converged = false;
   return beyond;

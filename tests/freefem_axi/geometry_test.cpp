@@ -182,7 +182,6 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Leading{"plane", {}, 1}, Leading{"free_surface", {}, 0.25},
                       Leading{"sphere", {1, 0, 0}, 0.25},   // r_eff = 1/2
                       Leading{"sphere", {1, -1, 0}, 0.5},   // approach at twice the velocity
-                      Leading{"sphere", {1, 1}, 0},         // no approach
                       Leading{"sphere", {3, 0}, 9.0 / 16},  // r_eff = 3/4
                       Leading{"cavity", {5}, 25.0 / 16}),   // r_eff = 5/4
     [](const auto& test) {
@@ -205,6 +204,11 @@ TEST(LeadingCoefficientInTheory, IsThatOfTheExactDragAtASmallGap) {
 
 TEST(RoughPlane, HasNoLeadingCoefficientThatIsKnown) {
   EXPECT_FALSE(leading_coefficient(tabulation_of("rough_plane", {0.01, 0.05})).has_value());
+}
+
+TEST(FleeingNeighbour, HasNoLeadingCoefficient) {
+  for (const double velocity_ratio : {1.0, 1.5})
+    EXPECT_FALSE(leading_coefficient(tabulation_of("sphere", {1, velocity_ratio, 0})).has_value());
 }
 
 TEST(Neighbour, HasAVelocityOnlyIfItIsASphere) {
