@@ -63,8 +63,8 @@ auto long_call(const Compute& compute) {
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 /// The values of `function` at all elements of an array, in an array of the same shape; for a
-/// number (an array without dimensions) a float. Throws what `function` throws. `function` must
-/// not touch objects of Python. Ctrl-C does not stop it.
+/// number (an array without dimensions) a float. Throws what `function` throws. `function` must not
+/// touch objects of Python. Ctrl-C does not stop it.
 template <class Function>
 py::object mapped(const Doubles& x, const Function& function) {
   if (x.ndim() == 0) return py::float_(function(*x.data()));

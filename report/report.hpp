@@ -16,9 +16,9 @@ namespace viscontact::report {
 /// folder. If gnuplot cannot be run, the user is warned, and there are no still pictures and no
 /// files in plots/; browsers draw the plots without gnuplot. Throws Error(kBadInput) if an input is
 /// missing or wrong or a file cannot be written, the error of check_report_files(),
-/// Error(kWrongUsage) if the variable SOURCE_DATE_EPOCH is no time,
-/// Error(kExternalProgram) if gnuplot fails, after the report is written without still pictures,
-/// and Error(kInterrupted) if `stop` requests a stop.
+/// Error(kWrongUsage) if the variable SOURCE_DATE_EPOCH is no time, Error(kExternalProgram) if
+/// gnuplot fails, after the report is written without still pictures, and Error(kInterrupted) if
+/// `stop` requests a stop.
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given = {}, const StopToken& stop = {});
 

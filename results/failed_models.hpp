@@ -34,9 +34,8 @@ std::vector<FailedModel> recorded_failures(const RunFolder& run, const CsvCommen
 std::string write_failed_models(const std::vector<FailedModel>& failed);
 
 /// The error that ends a simulation in which the models of `failed` (at least one, not checked)
-/// failed and
-/// `computed` other models (0 or more) were computed. The error names the case and has the kind and
-/// the reason of the first model that failed.
+/// failed and `computed` other models (0 or more) were computed. The error names the case and has
+/// the kind and the reason of the first model that failed.
 Error error_of(const std::vector<FailedModel>& failed, std::size_t computed,
                const std::filesystem::path& case_path);
 

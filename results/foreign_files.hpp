@@ -9,9 +9,10 @@
 
 namespace viscontact::results {
 
-/// The first MiB of a file, and of a longer PDF also the last MiB, behind the first. Every output of
-/// Viscontact has its provenance there, the record of how it was made. Throws Error(kBadInput) that
-/// names the path if the file cannot be opened; of an empty file or a folder the text is empty.
+/// The first MiB of a file, and of a longer PDF also the last MiB, behind the first. Every output
+/// of Viscontact has its provenance there, the record of how it was made. Throws Error(kBadInput)
+/// that names the path if the file cannot be opened; of an empty file or a folder the text is
+/// empty.
 std::string read_head(const std::filesystem::path& path);
 
 /// True if Viscontact wrote the file at `path`, which must exist. Only read_head() is searched,

@@ -38,8 +38,8 @@ class Descriptor {
   int descriptor_;
 };
 
-/// Writes all of `text` at the position of an open file. Returns false, with the reason in errno, if
-/// that fails (EBADF without a file); a part of the text may then have been written.
+/// Writes all of `text` at the position of an open file. Returns false, with the reason in errno,
+/// if that fails (EBADF without a file); a part of the text may then have been written.
 inline bool write_all(const Descriptor& file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = ::write(file.get(), text.data(), text.size());

@@ -34,8 +34,8 @@ void sync_file(const Descriptor& file, const std::filesystem::path& path);
 class LockedFolder {
  public:
   /// Throws Error(kBadInput), which names the path, if the folder cannot be made, or if another
-  /// process, or another object of this one, has locked it; then its message ends with `message`.
-  /// A folder that cannot be opened is no error here.
+  /// process, or another object of this one, has locked it; then its message ends with `message`. A
+  /// folder that cannot be opened is no error here.
   LockedFolder(std::filesystem::path path, const std::string& message);
   ~LockedFolder();
   LockedFolder(const LockedFolder&) = delete;

@@ -9,8 +9,7 @@
 // with the fields in the order of the file. Numbers have the units of S. Every error of reading is
 // an Error(kBadInput), which names the file, the line, the key and what is allowed there; writing
 // checks and throws nothing, and a NaN or infinity becomes null. lubrication/, motions/,
-// reduced_model/ and
-// swimmer/ use it for fits and comparisons; published files must stay readable.
+// reduced_model/ and swimmer/ use it for fits and comparisons; published files must stay readable.
 #pragma once
 
 #include <fmt/format.h>

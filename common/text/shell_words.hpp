@@ -9,8 +9,8 @@
 
 namespace viscontact {
 
-/// The words of a command line. Blanks, tabs and line ends separate words, except between ' or ".
-/// A backslash has no special meaning. '' is an empty word; a text of blanks has no word. Throws
+/// The words of a command line. Blanks, tabs and line ends separate words, except between ' or ". A
+/// backslash has no special meaning. '' is an empty word; a text of blanks has no word. Throws
 /// Error(kWrongUsage) if a quotation mark is not closed.
 std::vector<std::string> split_words(const std::string& text);
 

@@ -46,7 +46,7 @@ struct StreamLineSet {
 /// 2.2). psi solves these equations between neighbouring points of the grid by least squares.
 class StreamLines {
  public:
-  /// For flows on `grid`; `grid` has x >= 0 and flows are symmetric about x = 0 with `has_axis`.
+  /// For flows on `grid`. With `has_axis` they are symmetric about x = 0; then grid.x(0) >= 0.
   StreamLines(const Grid& grid, bool has_axis);
   ~StreamLines();
   StreamLines(StreamLines&&) noexcept;
@@ -54,8 +54,8 @@ class StreamLines {
   /// About `count` > 0 lines at equal steps of psi, with arrows outside the particles. There are
   /// none if nothing moves. `is_body` is 1 for each point of the grid in a particle, which hides
   /// it, otherwise 0; it and the lists of `flow` have grid.size() numbers, in its order. Flows
-  /// should be given in order of time, because the factor of the matrix is
-  /// used again as long as the fluid covers about the same points.
+  /// should be given in order of time, because the factor of the matrix is used again as long as
+  /// the fluid covers about the same points.
   StreamLineSet of(const FlowOnGrid& flow, const std::vector<char>& is_body, int count);
 
  private:

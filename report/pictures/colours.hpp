@@ -2,7 +2,8 @@
 // minus the impulse that the film of a contact has absorbed [M L/T], of discs in a fluid per length
 // [M/T]. The pages and pictures of report/, rolling/, swimmer/ and particles/ use them. A change
 // must keep that colour-blind readers can tell the colours apart. Nothing is checked or thrown; a
-// share beyond 0 or 1 gets the colour of that end, and no number may be NaN unless it is allowed.
+// share beyond 0 or 1 gets the colour of that end, and no number may be NaN, except in lists of
+// pressures.
 #pragma once
 
 #include <array>
@@ -105,11 +106,11 @@ struct PressureColours {
 PressureColours proportional_colours(const std::vector<double>& pressures);
 
 /// A scale for the pressures of pixels [M/(L T^2)], of which a few may be much larger than all
-/// others, and those that are not finite do not count. If the
-/// largest is more than three times the largest that remains without the highest 0.5 %, the scale
-/// ends at the latter, rounded up; likewise for the lowest. If such an end is cut, or if an end is
-/// more than ten times the pressure `usual` >= 0, the scale is linear below about `usual` and
-/// logarithmic beyond it. The limits are free choices.
+/// others, and those that are not finite do not count. If the largest is more than three times the
+/// largest that remains without the highest 0.5 %, the scale ends at the latter, rounded up;
+/// likewise for the lowest. If such an end is cut, or if an end is more than ten times the pressure
+/// `usual` >= 0, the scale is linear below about `usual` and logarithmic beyond it. The limits are
+/// free choices.
 PressureColours robust_colours(const std::vector<double>& pixels, double usual);
 
 }  // namespace viscontact::report
