@@ -66,7 +66,8 @@ class Simulation {
   ///
   /// A step in which two touching particles pass each other by more than half the sum of their
   /// radii (kLargestTurn in contact.hpp) is computed in two halves, and these again, up to
-  /// kMostHalvings times. StepReport::contacts and ::glued are those of the last part.
+  /// kMostHalvings times. The report then has the contacts, and the number of glued ones, of the
+  /// last part.
   ///
   /// Throws Error(kNotConverged) if a position or displacement exceeds largest_resolved_distance(),
   /// or a displacement what a period allows (rebuild_neighbour_list()), if the projection has not
