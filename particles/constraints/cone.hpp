@@ -1,8 +1,8 @@
-// The second-order cone (x_1^2 + x_2^2)^(1/2) <= x_0 of up to three dimensions, with the operations
+// The second-order cone (x_1^2 + x_2^2)^(1/2) <= x_0 of two and three dimensions, with the operations
 // that the method of interior points needs: products, the distance to the boundary, and the scaling
 // of Nesterov & Todd between a point of the cone and a dual point (Alizadeh & Goldfarb 2003,
 // "Second-order cone programming"; Vandenberghe 2010, "The CVXOPT linear and quadratic cone program
-// solvers"). In one dimension the cone is x_0 >= 0, in two |x_1| <= x_0.
+// solvers"). In two dimensions the cone is |x_1| <= x_0.
 //
 // All components of a point have the same unit, which the caller chooses: the root of [M L^2/T] in
 // interior_points.hpp, [M L/T] in constraint_solver.cpp. Only these two use this header. Nothing is
@@ -20,7 +20,7 @@
 
 namespace viscontact::particles {
 
-/// A point of a cone of up to three dimensions; components beyond the dimension are 0.
+/// A point of a cone of two or three dimensions; a component beyond the dimension is 0.
 using ConePoint = std::array<double, 3>;
 
 /// Sum of the products of the components, in the product of both units.
@@ -74,128 +74,125 @@ inline double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
   return length;
 }
 
-/// The scaling of a point u and a dual point r, both inside the second-order cone: the symmetric
-/// matrix W with W^-1 u = W r that maps the cone onto itself. W is diagonal in the following
-/// numbers: with a unit vector d in the plane of x_1 and x_2, and the vector d' at right angles to
-/// d in this plane, the numbers of a point x are x_0 + d.x, x_0 - d.x and d'.x. Near a solution one
-/// number of u and one of r are much smaller than the components. They are computed from
-/// InnerPoint::inside, so that they have a small relative error.
-class ConeScaling {
+/// The scaling of Nesterov & Todd between a point u and a dual point r, both inside a cone: the
+/// symmetric matrix W with W^-1 u = W r that maps the cone onto itself. W is diagonal in numbers that
+/// `Frame` computes from the coordinates of a point. Its first two numbers are those in which W
+/// differs most from a multiple of the identity: near a solution one of them is small in u and one
+/// in r, with a small relative error. A `Frame` is made from u and r and has numbers() of a point
+/// and of an InnerPoint, and its inverse point(). Both keep inner products.
+template <class Frame>
+class NesterovToddScaling {
  public:
-  ConeScaling() = default;  ///< W = I
+  NesterovToddScaling() = default;  ///< W = I
   /// W of a point `u` and a dual point `r`, both inside the cone.
-  ConeScaling(const InnerPoint& u, const InnerPoint& r) {
-    const double of_u = std::sqrt(u.inside * (u.x[0] + beside_axis(u.x)));
-    const double of_r = std::sqrt(r.inside * (r.x[0] + beside_axis(r.x)));
-    const ConePoint along{0, u.x[1] / of_u - r.x[1] / of_r, u.x[2] / of_u - r.x[2] / of_r};
-    const double length = beside_axis(along);
-    if (length > 0) direction_ = {0, along[1] / length, along[2] / length};
-    const auto of_point = numbers(u), of_dual = numbers(r);
-    for (std::size_t k = 0; k < 2; ++k) square_[k] = of_point[k] / of_dual[k];
+  NesterovToddScaling(const InnerPoint& u, const InnerPoint& r) : frame_(u, r) {
+    const auto of_u = frame_.numbers(u), of_r = frame_.numbers(r);
+    for (std::size_t k = 0; k < 2; ++k) square_[k] = of_u[k] / of_r[k];
     square_[2] = std::sqrt(square_[0] * square_[1]);
-    for (std::size_t k = 0; k < 3; ++k) scaled_[k] = std::sqrt(square_[k]) * of_dual[k];
+    for (std::size_t k = 0; k < 3; ++k) scaled_[k] = std::sqrt(square_[k]) * of_r[k];
   }
 
-  /// The numbers of the point with the components `x`.
-  ConePoint numbers(const ConePoint& x) const {
-    const double along = direction_[1] * x[1] + direction_[2] * x[2];
-    return {x[0] + along, x[0] - along, direction_[1] * x[2] - direction_[2] * x[1]};
-  }
-  /// The components of the point with the numbers `y`.
-  ConePoint point(const ConePoint& y) const {
-    const double along = (y[0] - y[1]) / 2;
-    return {(y[0] + y[1]) / 2, along * direction_[1] - y[2] * direction_[2],
-            along * direction_[2] + y[2] * direction_[1]};
-  }
-  /// The numbers of u, with all digits.
-  ConePoint numbers_of_u() const {
-    auto y = scaled_;
-    for (std::size_t k = 0; k < 3; ++k) y[k] *= std::sqrt(square_[k]);
-    return y;
-  }
-  /// W r = W^-1 u, as components.
+  /// The numbers of the point with the coordinates `x`.
+  ConePoint numbers(const ConePoint& x) const { return frame_.numbers(x); }
+  /// The coordinates of the point with the numbers `y`.
+  ConePoint point(const ConePoint& y) const { return frame_.point(y); }
+  /// The numbers of u.
+  ConePoint numbers_of_u() const { return multiplied(scaled_); }
+  /// The coordinates of W r = W^-1 u.
   ConePoint scaled() const { return point(scaled_); }
   /// The inner product u.r of the two points of the constructor.
-  double product_of_points() const { return inner(scaled(), scaled()); }
-  /// The numbers of W x, for the components `x`.
-  ConePoint times(const ConePoint& x) const {
-    auto y = numbers(x);
-    for (std::size_t k = 0; k < 3; ++k) y[k] *= std::sqrt(square_[k]);
-    return y;
-  }
-  /// The components of W^-1 x, for the components `x`.
+  double product_of_points() const { return inner(scaled_, scaled_); }
+  /// The numbers of W x, for the coordinates `x`.
+  ConePoint times(const ConePoint& x) const { return multiplied(numbers(x)); }
+  /// The coordinates of W^-1 x, for the coordinates `x`.
   ConePoint divide(const ConePoint& x) const {
     auto y = numbers(x);
     for (std::size_t k = 0; k < 3; ++k) y[k] /= std::sqrt(square_[k]);
     return point(y);
   }
-
-  /// The components of (W^2 + shift I)^-1 times the point with the numbers `y`, shift >= 0.
+  /// The coordinates of (W^2 + shift I)^-1 times the point with the numbers `y`, shift >= 0.
   ConePoint solve(double shift, const ConePoint& y) const {
     return point(
         {y[0] / (square_[0] + shift), y[1] / (square_[1] + shift), y[2] / (square_[2] + shift)});
   }
-  /// (W^2 + shift I)^-1 for components, row by row, shift >= 0.
-  std::array<ConePoint, 3> inverse_square(double shift) const {
-    const double along = 1 / (square_[0] + shift), against = 1 / (square_[1] + shift);
-    auto inverse = beside((along + against) / 2, 1 / (square_[2] + shift));
-    inverse[0][0] = (along + against) / 2;
-    for (std::size_t k = 1; k < 3; ++k)
-      inverse[0][k] = inverse[k][0] = (along - against) / 2 * direction_[k];
-    return inverse;
-  }
-  /// The components of the solution z, with z_0 = 0, of rows 1 and 2 of (W^2 + shift I) z = the
-  /// point with the numbers `y`, shift >= 0.
+  /// The coordinates of the point z with the component z_0 = 0 that solves all rows of (W^2 + shift
+  /// I) z = the point with the numbers `y` but that of component 0, shift >= 0.
   ConePoint solve_beside(double shift, const ConePoint& y) const {
     const double along = (y[0] - y[1]) / (square_[0] + square_[1] + 2 * shift);
     return point({along, -along, y[2] / (square_[2] + shift)});
   }
-  /// The matrix of solve_beside() for components: rows and columns 1 and 2 are the inverse of these
-  /// rows and columns of W^2 + shift I; row and column 0 are 0.
-  std::array<ConePoint, 3> inverse_square_beside(double shift) const {
-    return beside(2 / (square_[0] + square_[1] + 2 * shift), 1 / (square_[2] + shift));
-  }
-  /// The du_0 with which the second number of W^2 dr + du is goal[1]; `goal` are numbers.
+  /// The component 0 of du with which the second number of W^2 dr + du is goal[1]. `goal` are
+  /// numbers, `dr` coordinates, and `du` coordinates of the point whose component 0 is 0.
   double first_change(const ConePoint& goal, const ConePoint& dr, const ConePoint& du) const {
-    return goal[1] - square_[1] * numbers(dr)[1] - numbers(ConePoint{0, du[1], du[2]})[1];
+    return std::numbers::sqrt2 * (goal[1] - square_[1] * numbers(dr)[1] - numbers(du)[1]);
   }
 
  private:
-  // The numbers of a point. The smaller one of x_0 + d.x and x_0 - d.x is InnerPoint::inside plus
-  // (d'.x)^2/(b + |d.x|) = b - |d.x|, with the distance b from the axis.
-  ConePoint numbers(const InnerPoint& of) const {
-    auto y = numbers(of.x);
-    const double beside = beside_axis(of.x);
-    const double along = direction_[1] * of.x[1] + direction_[2] * of.x[2];
-    y[along < 0 ? 0 : 1] = of.inside + (beside > 0 ? y[2] * y[2] / (beside + std::abs(along)) : 0);
+  ConePoint multiplied(ConePoint y) const {
+    for (std::size_t k = 0; k < 3; ++k) y[k] *= std::sqrt(square_[k]);
     return y;
   }
-  // The matrix whose rows and columns 1 and 2 have the eigenvalue `along` for the vector d, and
-  // `across` for d'; row and column 0 are 0.
-  std::array<ConePoint, 3> beside(double along, double across) const {
-    std::array<ConePoint, 3> matrix{};
-    for (std::size_t k = 1; k < 3; ++k)
-      for (std::size_t l = 1; l < 3; ++l)
-        matrix[k][l] = (along - across) * direction_[k] * direction_[l] + (k == l ? across : 0);
-    return matrix;
+
+  Frame frame_;
+  ConePoint square_{1, 1, 1};  // squares of the factors by which W multiplies the numbers
+  ConePoint scaled_{};         // numbers of W r
+};
+
+/// The frame of NesterovToddScaling for a second-order cone: with a unit vector d in the plane of
+/// x_1 and x_2, and the vector d' at right angles to d in this plane, the numbers of a point x are
+/// (x_0 + d.x)/2^0.5, (x_0 - d.x)/2^0.5 and d'.x.
+class DirectionOfScaling {
+ public:
+  DirectionOfScaling() = default;  ///< d = (1, 0)
+  /// The d for which W of these points is diagonal.
+  DirectionOfScaling(const InnerPoint& u, const InnerPoint& r) {
+    const double of_u = std::sqrt(u.inside * (u.x[0] + beside_axis(u.x)));
+    const double of_r = std::sqrt(r.inside * (r.x[0] + beside_axis(r.x)));
+    const ConePoint along{0, u.x[1] / of_u - r.x[1] / of_r, u.x[2] / of_u - r.x[2] / of_r};
+    const double length = beside_axis(along);
+    if (length > 0) direction_ = {along[1] / length, along[2] / length};
+  }
+  /// The numbers of a point.
+  ConePoint numbers(const ConePoint& x) const {
+    const double along = along_direction(x);
+    return {(x[0] + along) * kHalfRoot, (x[0] - along) * kHalfRoot,
+            direction_[0] * x[2] - direction_[1] * x[1]};
+  }
+  /// The numbers of a point inside the cone. The smaller one of x_0 + d.x and x_0 - d.x is
+  /// InnerPoint::inside plus (d'.x)^2/(b + |d.x|) = b - |d.x|, with the distance b from the axis.
+  ConePoint numbers(const InnerPoint& of) const {
+    auto y = numbers(of.x);
+    const double beside = beside_axis(of.x), along = along_direction(of.x);
+    const double left = beside > 0 ? y[2] * y[2] / (beside + std::abs(along)) : 0;
+    y[along < 0 ? 0 : 1] = (of.inside + left) * kHalfRoot;
+    return y;
+  }
+  /// The point with the numbers `y`.
+  ConePoint point(const ConePoint& y) const {
+    const double along = (y[0] - y[1]) * kHalfRoot;
+    return {(y[0] + y[1]) * kHalfRoot, along * direction_[0] - y[2] * direction_[1],
+            along * direction_[1] + y[2] * direction_[0]};
   }
 
-  ConePoint direction_{0, 1, 0};  // d
-  ConePoint square_{1, 1, 1};     // squares of the factors by which W multiplies the numbers
-  ConePoint scaled_{1, 1, 0};     // numbers of W r
+ private:
+  static constexpr double kHalfRoot = std::numbers::sqrt2 / 2;
+  double along_direction(const ConePoint& x) const {
+    return direction_[0] * x[1] + direction_[1] * x[2];
+  }
+  std::array<double, 2> direction_{1, 0};  // d
 };
 
 /// The operations of interior_points.hpp on a cone of three dimensions (contacts of spheres).
 struct SecondOrderCone {
-  using Scaling = ConeScaling;  ///< scaling of Nesterov & Todd
+  using Scaling = NesterovToddScaling<DirectionOfScaling>;  ///< of two points
   /// The product of the cone, jordan_product().
   static ConePoint product(const ConePoint& x, const ConePoint& y) { return jordan_product(x, y); }
   /// The y with product(x, y) = z, jordan_quotient().
   static ConePoint quotient(const ConePoint& z, const ConePoint& x) {
     return jordan_quotient(z, x);
   }
-  /// The largest t > 0 with u + t d in the cone. The last argument is for LinearCones only.
-  static double length_to_boundary(const InnerPoint& u, const ConePoint& d, std::size_t) {
+  /// The largest t > 0 with u + t d in the cone; infinity if all of them are in it.
+  static double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
     return particles::length_to_boundary(u, d);
   }
   /// Adds t d to a point, which must stay inside the cone, without loss of digits of `inside`.
@@ -206,8 +203,8 @@ struct SecondOrderCone {
     const double sum = before + beside_axis(u.x);
     u.inside += t * (d[0] - (sum > 0 ? twice / sum : 0));
   }
-  /// The unit of the product, product(unit, x) = x. The argument is for LinearCones only.
-  static ConePoint unit(std::size_t) { return {1, 0, 0}; }
+  /// The unit of the product, product(kUnit, x) = x.
+  static constexpr ConePoint kUnit{1, 0, 0};
   /// An estimate of the dual point at the solution, where u.r = 0, from points u and r near it. It
   /// is 0 if u is farther from the boundary than r is large; otherwise it is r.
   static ConePoint without_open_part(const ConePoint& u, const ConePoint& r) {
@@ -217,90 +214,36 @@ struct SecondOrderCone {
   static ConePoint coordinates(const ConePoint& x) { return x; }
 };
 
-/// The operations of SecondOrderCone for cones of one and two dimensions (contacts of discs). In
-/// two dimensions, |x_1| <= x_0, points have the coordinates (x_0 + x_1)/2^0.5 and (x_0 -
-/// x_1)/2^0.5. Both are > 0 inside the cone, and have small relative errors also near the boundary.
-/// In one dimension the coordinate is x_0. Other coordinates are 0.
+/// The operations of SecondOrderCone for the cone of two dimensions |x_1| <= x_0 (contacts of discs),
+/// which is two linear conditions. Points have the coordinates (x_0 + x_1)/2^0.5, (x_0 - x_1)/2^0.5
+/// and 0. The first two are > 0 inside the cone, and have small relative errors also near the
+/// boundary.
 struct LinearCones {
-  /// The functions of ConeScaling for points given by coordinates, which are also their numbers. W
-  /// is diagonal in them: the squares of its entries are the ratios of the coordinates of u and r.
-  class Scaling {
-   public:
-    Scaling() = default;  ///< W = I
-    /// W of a point `u` and a dual point `r`, both inside the cone.
-    Scaling(const InnerPoint& u, const InnerPoint& r) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        square_[k] = r.x[k] > 0 ? u.x[k] / r.x[k] : 1;
-        scaled_[k] = std::sqrt(u.x[k] * r.x[k]);
-      }
-    }
-    /// The numbers of the point with the coordinates `x`: the same.
+  /// The frame of NesterovToddScaling: the numbers of a point are its coordinates.
+  struct Coordinates {
+    Coordinates() = default;
+    /// All points have the same frame.
+    Coordinates(const InnerPoint&, const InnerPoint&) {}
+    /// The numbers of a point.
     static ConePoint numbers(const ConePoint& x) { return x; }
-    /// The coordinates of the point with the numbers `y`: the same.
+    /// The numbers of a point inside the cone.
+    static ConePoint numbers(const InnerPoint& of) { return of.x; }
+    /// The point with the numbers `y`.
     static ConePoint point(const ConePoint& y) { return y; }
-    /// The numbers of u.
-    ConePoint numbers_of_u() const { return times(scaled_); }
-    /// W r = W^-1 u.
-    ConePoint scaled() const { return scaled_; }
-    /// The inner product u.r of the two points of the constructor.
-    double product_of_points() const { return inner(scaled_, scaled_); }
-    /// W x.
-    ConePoint times(const ConePoint& x) const {
-      ConePoint y;
-      for (std::size_t k = 0; k < 3; ++k) y[k] = std::sqrt(square_[k]) * x[k];
-      return y;
-    }
-    /// W^-1 x.
-    ConePoint divide(const ConePoint& x) const {
-      ConePoint y;
-      for (std::size_t k = 0; k < 3; ++k) y[k] = x[k] / std::sqrt(square_[k]);
-      return y;
-    }
-    /// (W^2 + shift I)^-1 x, shift >= 0.
-    ConePoint solve(double shift, const ConePoint& x) const {
-      return {x[0] / (square_[0] + shift), x[1] / (square_[1] + shift),
-              x[2] / (square_[2] + shift)};
-    }
-    /// (W^2 + shift I)^-1 for coordinates, row by row, shift >= 0.
-    std::array<ConePoint, 3> inverse_square(double shift) const {
-      std::array<ConePoint, 3> inverse{};
-      for (std::size_t k = 0; k < 3; ++k) inverse[k][k] = 1 / (square_[k] + shift);
-      return inverse;
-    }
-    /// As ConeScaling::solve_beside(), with coordinates in place of components and numbers.
-    ConePoint solve_beside(double shift, const ConePoint& x) const {
-      const double along = (x[0] - x[1]) / (square_[0] + square_[1] + 2 * shift);
-      return {along, -along, 0};
-    }
-    /// As ConeScaling::inverse_square_beside(): a matrix for components, not for coordinates.
-    std::array<ConePoint, 3> inverse_square_beside(double shift) const {
-      std::array<ConePoint, 3> inverse{};
-      inverse[1][1] = 2 / (square_[0] + square_[1] + 2 * shift);
-      return inverse;
-    }
-    /// As ConeScaling::first_change(), but `goal` and `dr` are coordinates.
-    double first_change(const ConePoint& goal, const ConePoint& dr, const ConePoint& du) const {
-      return std::numbers::sqrt2 * (goal[1] - square_[1] * dr[1]) + du[1];
-    }
-
-   private:
-    ConePoint square_{1, 1, 1}, scaled_{};  // the diagonal of W^2; W r
   };
+  using Scaling = NesterovToddScaling<Coordinates>;  ///< of two points
   /// The products of the coordinates, one by one.
   static ConePoint product(const ConePoint& x, const ConePoint& y) {
     return {x[0] * y[0], x[1] * y[1], x[2] * y[2]};
   }
-  /// The y with product(x, y) = z; 0 for coordinates that the cone does not have.
+  /// The y with product(x, y) = z.
   static ConePoint quotient(const ConePoint& z, const ConePoint& x) {
-    ConePoint y{};
-    for (std::size_t k = 0; k < 3; ++k)
-      if (x[k] != 0) y[k] = z[k] / x[k];
-    return y;
+    return {z[0] / x[0], z[1] / x[1], 0};
   }
-  /// The largest t > 0 with u + t d in the cone of 1 or 2 coordinates, `rows`; or infinity.
-  static double length_to_boundary(const InnerPoint& u, const ConePoint& d, std::size_t rows) {
+  /// The largest t > 0 with u + t d in the cone; infinity if all of them are in it.
+  static double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
     double length = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < rows; ++k)
+    for (std::size_t k = 0; k < 2; ++k)
       if (d[k] < 0) length = std::min(length, -u.x[k] / d[k]);
     return length;
   }
@@ -308,8 +251,8 @@ struct LinearCones {
   static void move(InnerPoint& u, double t, const ConePoint& d) {
     for (std::size_t k = 0; k < 3; ++k) u.x[k] += t * d[k];
   }
-  /// The unit of the product in a cone with `rows` coordinates: each of them is 1.
-  static ConePoint unit(std::size_t rows) { return {1, rows > 1 ? 1.0 : 0.0, 0}; }
+  /// The unit of the product: each coordinate is 1.
+  static constexpr ConePoint kUnit{1, 1, 0};
   /// An estimate of the dual point at the solution, where in each coordinate u or r is 0, from
   /// points u and r near it: each coordinate of r that is smaller than that of u is set to 0.
   static ConePoint without_open_part(const ConePoint& u, const ConePoint& r) {
@@ -317,7 +260,7 @@ struct LinearCones {
     for (std::size_t k = 0; k < 3; ++k) left[k] = u[k] > r[k] ? 0 : r[k];
     return left;
   }
-  /// The coordinates of a point with these components in two dimensions. The same function computes
+  /// The coordinates of a point with these components. The same function computes
   /// components from coordinates, because it is its own inverse.
   static ConePoint coordinates(const ConePoint& x) {
     const double half = std::numbers::sqrt2 / 2;

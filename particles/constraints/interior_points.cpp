@@ -152,7 +152,7 @@ double InteriorPoints<D>::measure() {
   for (auto& part : cones_) {
     add_impulse(part, part.r.x, error_);
     part.error = values(part, true, y_);
-    for (std::size_t k = 0; k < dimension(part); ++k) part.error[k] -= part.u.x[k];
+    for (std::size_t k = 0; k < 3; ++k) part.error[k] -= part.u.x[k];
     if (part.is_bound_given) {
       // The component z of u has no row and therefore no error.
       auto components = Cone::coordinates(part.error);
@@ -174,53 +174,15 @@ double InteriorPoints<D>::measure() {
 
 /// Sets the weight of a part in the matrix from its present point, and the goal of the predictor.
 template <int D>
-void InteriorPoints<D>::set_scaling(Single& part) {
+void InteriorPoints<D>::begin_predictor(Single& part) {
   part.goal = -part.u;
   part.weight = 1 / ((part.is_equation ? part.compliance : part.u / part.r) + kRegularisation);
 }
 
 template <int D>
-void InteriorPoints<D>::set_scaling(Cones& part) {
+void InteriorPoints<D>::begin_predictor(Cones& part) {
   part.goal = part.scaling.numbers_of_u();
   for (double& number : part.goal) number = -number;
-}
-
-/// Converts a matrix for components of points to one for coordinates (cone.hpp), or back.
-template <int D>
-std::array<ConePoint, 3> InteriorPoints<D>::in_other_coordinates(
-    const std::array<ConePoint, 3>& matrix) {
-  std::array<ConePoint, 3> half{}, result{};
-  for (std::size_t k = 0; k < 3; ++k) half[k] = Cone::coordinates(matrix[k]);
-  for (std::size_t l = 0; l < 3; ++l) {
-    const auto column = Cone::coordinates({half[0][l], half[1][l], half[2][l]});
-    for (std::size_t k = 0; k < 3; ++k) result[k][l] = column[k];
-  }
-  return result;
-}
-
-/// Assembles and factorises the matrix at the present point, and sets the goals of the predictor.
-/// Returns false if the matrix is singular.
-template <int D>
-bool InteriorPoints<D>::factorise() {
-  matrix_.set_to_masses();
-  for (auto& part : singles_) {
-    set_scaling(part);
-    matrix_.add_product(part.block, part.row, part.row, part.weight * part.scale * part.scale);
-  }
-  for (auto& part : cones_) {
-    set_scaling(part);
-    const auto weights = part.is_bound_given
-                             ? part.scaling.inverse_square_beside(kRegularisation)
-                             : in_other_coordinates(part.scaling.inverse_square(kRegularisation));
-    for (std::size_t k = 0; k < part.rows; ++k)
-      for (std::size_t l = 0; l < part.rows; ++l) {
-        const std::size_t i = part.first + k, j = part.first + l;
-        if (weights[i][j] != 0)
-          matrix_.add_product(part.block, part.row + k, part.row + l,
-                              weights[i][j] * part.scale[i] * part.scale[j]);
-      }
-  }
-  return matrix_.factorise();
 }
 
 /// The change dr of r with which (W^2 + kRegularisation I) dr has these numbers (cone.hpp); if a
@@ -229,6 +191,31 @@ template <int D>
 ConePoint InteriorPoints<D>::change_of_r(const Cones& part, const ConePoint& numbers) {
   return part.is_bound_given ? part.scaling.solve_beside(kRegularisation, numbers)
                              : part.scaling.solve(kRegularisation, numbers);
+}
+
+/// Assembles and factorises the matrix at the present point, and sets the goals of the predictor.
+/// Returns false if the matrix is singular.
+template <int D>
+bool InteriorPoints<D>::factorise() {
+  matrix_.set_to_masses();
+  for (auto& part : singles_) {
+    begin_predictor(part);
+    matrix_.add_product(part.block, part.row, part.row, part.weight * part.scale * part.scale);
+  }
+  for (auto& part : cones_) {
+    begin_predictor(part);
+    for (std::size_t k = 0; k < part.rows; ++k) {
+      // The impulses of the rows that remove a displacement of row k.
+      ConePoint displacement{};
+      displacement[part.first + k] = part.scale[part.first + k];
+      const auto impulse = impulse_of(
+          part, change_of_r(part, part.scaling.numbers(Cone::coordinates(displacement))));
+      for (std::size_t l = 0; l < part.rows; ++l)
+        if (const double weight = impulse[part.first + l]; weight != 0)
+          matrix_.add_product(part.block, part.row + k, part.row + l, weight);
+    }
+  }
+  return matrix_.factorise();
 }
 
 /// Sets the changes of y, u and r with which, to first order, all errors become 0 and the goals are
@@ -259,7 +246,7 @@ void InteriorPoints<D>::find_direction(int solutions) {
     for (auto& part : cones_) {
       const auto moved = values(part, false, right_);
       const auto less = change_of_r(part, part.scaling.numbers(moved));
-      for (std::size_t k = 0; k < dimension(part); ++k) {
+      for (std::size_t k = 0; k < 3; ++k) {
         part.change_of_u[k] += moved[k];
         part.change_of_r[k] -= less[k];
       }
@@ -281,13 +268,14 @@ void InteriorPoints<D>::find_direction(int solutions) {
   }
   for (auto& part : singles_) part.change_of_u += kRegularisation * part.change_of_r;
   for (auto& part : cones_) {
-    for (std::size_t k = 0; k < dimension(part); ++k)
+    for (std::size_t k = 0; k < 3; ++k)
       part.change_of_u[k] += kRegularisation * part.change_of_r[k];
     if (!part.is_bound_given) continue;
     // The change of z follows from the second number of W^2 dr + du, which must be that of the
     // goal. The first number is much larger near a solution, so that digits would be lost.
     auto change = Cone::coordinates(part.change_of_u);
-    change[0] = part.scaling.first_change(part.goal, part.change_of_r, change);
+    change[0] = 0;
+    change[0] = part.scaling.first_change(part.goal, part.change_of_r, Cone::coordinates(change));
     part.change_of_u = Cone::coordinates(change);
   }
 }
@@ -302,8 +290,8 @@ double InteriorPoints<D>::length_to_boundary() const {
     if (part.r + length * part.change_of_r < 0) length = -part.r / part.change_of_r;
   }
   for (const auto& part : cones_)
-    length = std::min({length, Cone::length_to_boundary(part.u, part.change_of_u, dimension(part)),
-                       Cone::length_to_boundary(part.r, part.change_of_r, dimension(part))});
+    length = std::min({length, Cone::length_to_boundary(part.u, part.change_of_u),
+                       Cone::length_to_boundary(part.r, part.change_of_r)});
   return length;
 }
 
@@ -330,7 +318,7 @@ void InteriorPoints<D>::set_corrector(double gap_before, double length) {
     const auto square = Cone::product(scaled, scaled);
     const auto second = Cone::product(part.scaling.divide(part.change_of_u),
                                       part.scaling.point(part.scaling.times(part.change_of_r)));
-    ConePoint goal = Cone::unit(dimension(part));
+    ConePoint goal = Cone::kUnit;
     for (std::size_t k = 0; k < 3; ++k) goal[k] = centre * goal[k] - square[k] - second[k];
     part.goal = part.scaling.times(Cone::quotient(goal, scaled));
   }
@@ -379,7 +367,7 @@ void InteriorPoints<D>::start(double size) {
     degree_ += part.is_equation ? 0 : 1;
   }
   for (auto& part : cones_) {
-    const auto unit = Cone::unit(dimension(part));
+    const auto unit = Cone::kUnit;
     degree_ += inner(unit, unit);
     double share = 1;
     if (part.is_bound_given) share = part.scaled_bound / (Cone::coordinates(unit)[0] * size);

@@ -85,18 +85,15 @@ class InteriorPoints {
     ConePoint goal{};         // what W^2 change_of_r + change_of_u is to be, as its numbers
     typename Cone::Scaling scaling;
   };
-  // Number of components of u and r.
-  static std::size_t dimension(const Cones& part) { return part.first + part.rows; }
   void set_parts();
   void start(double size);
   ConePoint impulse_of(const Cones& part, const ConePoint& r) const;
   ConePoint values(const Cones& part, bool with_offset, const std::vector<Motion<D>>& y) const;
   void add_impulse(const Cones& part, const ConePoint& r, std::vector<Motion<D>>& to) const;
   double value(const Single& part, const std::vector<Motion<D>>& y) const;
-  static void set_scaling(Single& part);
-  static void set_scaling(Cones& part);
+  static void begin_predictor(Single& part);
+  static void begin_predictor(Cones& part);
   static ConePoint change_of_r(const Cones& part, const ConePoint& numbers);
-  static std::array<ConePoint, 3> in_other_coordinates(const std::array<ConePoint, 3>& matrix);
   double largest_value() const;
   double measure();
   bool factorise();

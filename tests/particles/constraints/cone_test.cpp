@@ -30,7 +30,7 @@ TEST(SecondOrderCone, KeepsTheDigitsOfProductsNearTheBoundary) {
     const InnerPoint dual{{r + j, -r * std::cos(angle + turned), -r * std::sin(angle + turned)}, j};
     const double half = std::sin(turned / 2);
     const double product = i * r + j * u + i * j + 2 * u * r * half * half;
-    const ConeScaling scaling(point, dual);
+    const SecondOrderCone::Scaling scaling(point, dual);
     // Both angles are rounded by some 1e-16.
     constexpr double kAngle = 1e-14;
     EXPECT_NEAR(scaling.product_of_points(), product,
