@@ -64,6 +64,13 @@ WallShift fit_wall_shift(const lubrication::MotionTable& rough,
     most = std::min(most, largest - row.gap);
   }
 
+  if (!(least <= most))
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("no shift of the wall brings all gaps of the table into the fit's interval "
+                    "[{}, {}]; give a table with fewer gaps or a fit of more",
+                    smallest, largest));
+
   // Gauss-Newton starts at the median of the shifts that single rows need, within the bounds.
   auto shifts = result.rows;
   std::ranges::sort(shifts, {}, &ShiftedRow::shift);

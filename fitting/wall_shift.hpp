@@ -37,9 +37,9 @@ struct WallShift {
 /// Fits q_s >= 0 in R_rough(q) = R_smooth(q + q_s): minimises the sum over the rows of `rough` of
 /// (R_smooth(q + q_s)/R_rough(q) - 1)^2. All q + q_s are in the fitted interval of `smooth`. Throws
 /// Error(kBadInput) if `smooth` has a formula for gaps outside this interval (OutsideInterval), if
-/// viscosity or radius of table and smooth force differ, or if a resistance of the table is not one
-/// of the smooth force in its interval; Error(kNotConverged) after 100 steps of the iteration. Not
-/// checked: that there is a row, and that one shift can bring all gaps into the interval.
+/// viscosity or radius of table and smooth force differ, if a resistance of the table is not one of
+/// the smooth force in its interval, or if no shift brings all gaps into the interval;
+/// Error(kNotConverged) after 100 steps of the iteration. Not checked: that there is a row.
 WallShift fit_wall_shift(const lubrication::MotionTable& rough,
                          const lubrication::LubricationForce& smooth);
 
