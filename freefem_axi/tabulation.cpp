@@ -1,6 +1,7 @@
 // Computes the force on a sphere at one gap and velocity: makes the arguments of a FreeFEM script,
 // runs it and reads the result. Numbers are in the units of the case, except that FreeFEM writes
-// the force in the units of solve_scale(). A row without a result is an Error(kExternalProgram). A
+// the force in the units of solve_scale(); tabulation.hpp has their dimensions. A row without a
+// result is an Error(kExternalProgram), a force beyond the range of a double Error(kBadInput). A
 // change must agree with the flags in scripts/sphere_arguments.idp and the output of row.idp.
 #include "viscontact/freefem_axi/tabulation.hpp"
 
@@ -78,7 +79,7 @@ std::optional<double> leading_coefficient(const Tabulation& tabulation) {
   const double coefficient =
       lubrication::stokes_resistance(tabulation.viscosity, tabulation.radius) * tabulation.radius *
       geometry.leading_factor(tabulation.radius, tabulation.geometry_parameters);
-  // Not for a table: too large, or the gap does not close.
+  // A table cannot hold an infinite k, and has none if the neighbour moves away (k <= 0).
   if (!std::isfinite(coefficient) || !(coefficient > 0)) return std::nullopt;
   return coefficient;
 }
@@ -103,6 +104,7 @@ std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
 }
 
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) {
+  // Any limits far from those of a double would do: products of these numbers stay normal.
   constexpr double kLeast = 1e-9, kMost = 1e9;
   const double speed = std::abs(reference_velocity);
   const auto is_ordinary = [](double value) { return value >= kLeast && value <= kMost; };

@@ -1,7 +1,9 @@
 // The names, bases and values of the resistances of a sphere beside a body at rest, and the keys of
 // their file (docs/file-formats.md): an object for each resistance, with the keys of a fit file.
-// Numbers are in the units of the fit. An unknown name, a missing resistance and a fault of the
-// file are an Error(kBadInput). A change must keep published files readable.
+// Numbers are in the units of the fit; pair_fit.hpp has their dimensions and ranges. An unknown name,
+// a missing resistance and a fault of the file are an Error(kBadInput); terms of a fit are known,
+// because its reader checks them. A change must keep published files readable, and pair_entries() in
+// the order of PairEntry.
 #include "viscontact/motions/pair_fit.hpp"
 
 #include <fmt/format.h>
@@ -128,7 +130,7 @@ namespace {
 const std::string kPairFit = "pair fit";
 
 /// Throws Error(kBadInput) if an entry was fitted for another sphere, fluid or neighbour than those
-/// of `fit`. `name` is its key.
+/// of `fit`, or is not for the velocity -1. `name` is its key.
 void check_same_pair(const JsonFields& json, const std::string& name, const lubrication::Fit& entry,
                      const PairFit& fit) {
   const auto differs = [&](const char* key) {

@@ -35,7 +35,8 @@ void add(std::string& text, const Vector& x, int dimension) {
     (text += ',') += format_number(x[d]);
 }
 
-/// Names of the columns with forces and memories, which follow those of gamma.
+/// Names of the columns of the contact force, and of the history variables of the contact laws
+/// (kMemoryFields), which follow the columns of gamma, the impulse that its film has absorbed.
 std::string force_columns(int dimension) {
   auto text = ",normal_force" + (dimension == 1 ? "" : components("tangential_force_", dimension));
   for (const auto& field : kMemoryFields)

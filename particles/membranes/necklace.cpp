@@ -1,5 +1,6 @@
 // Geometry of the polygon through the particles (beads) of a membrane; necklace.hpp has the shapes
-// and units of all arrays. Nothing is checked or thrown. membrane.cpp and necklace_rows.cpp use it.
+// and units of all arrays. Nothing is thrown; restore_necklace() returns false where it does not
+// converge. membrane.cpp and necklace_rows.cpp use it.
 // A change must keep that area_gradient() is the derivative of area_of().
 #include "viscontact/particles/membranes/necklace.hpp"
 
@@ -11,7 +12,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// Position of bead k, where k counts around the polygon, from -N.
+/// Position of bead k, counted around the polygon, k >= -n for n beads.
 Eigen::Vector2d bead(const Eigen::VectorXd& necklace, Eigen::Index k) {
   const auto n = necklace.size() / 2;
   const auto i = (k + n) % n;

@@ -83,11 +83,13 @@ void RunLog::resume(const RunRecord& record) {
 
 void RunLog::add_step(const StepReport& report, const State& state,
                       std::span<const Rebound> rebounds) {
-  constexpr std::int64_t kMostRows = 1000000, kThen = 1000;
+  // Free choices that bound the size of the tables: after kMostRows steps one step in kOneIn has a
+  // row, and after kMostRebounds rebounds no further one has.
+  constexpr std::int64_t kMostRows = 1000000, kOneIn = 1000;
   constexpr std::uint64_t kMostRebounds = 1000000;
   record_.totals.add(report, case_.average_from);
   const auto steps = record_.totals.steps;
-  if (steps <= kMostRows || steps % kThen == 0 || !report.converged) {
+  if (steps <= kMostRows || steps % kOneIn == 0 || !report.converged) {
     files_.at("steps.csv").append(step_row(state.steps, report, case_.setting.fluid));
     if (!report.fluid.probes.empty())
       files_.at("probes.csv").append(probe_rows(report.fluid, case_.setting.fluid->probes));
