@@ -4,7 +4,8 @@
 // it the goal of a corrector, whose change of u, r and the motions y is made. u and r are scaled to
 // the unit L (M/T)^(1/2); y are the motions of all units, z the additional unknown of a contact
 // with a given bound of its friction. Nothing is thrown; the caller must measure the residuals.
-// Used by constraint_solver.cpp. A change of the order of sums changes results by rounding errors.
+// Used by constraint_solver.cpp. The constants change how long a solution takes, and results within
+// the tolerances; a change of the order of sums changes results by rounding errors.
 #include "viscontact/particles/constraints/interior_points.hpp"
 
 #include <algorithm>

@@ -3,8 +3,9 @@
 // before and after the step [M L/T], y the motions of particles and bodies, y* those without
 // impulses, M/h masses over the length of a time step, b + J y the values of the rows (gaps, slips
 // and equations of links) [L] with the coefficients J, rho [M/T] stiffnesses of the rows. Nothing
-// is thrown; failed() tells whether a step was solved. Used by constraint_solver.cpp. A change of
-// the order of sums changes results by rounding errors.
+// is thrown; failed() tells whether a step was solved. Used by constraint_solver.cpp. The constants
+// change how long a solution takes, and results within the tolerances; a change of the order of
+// sums changes results by rounding errors.
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 #include <algorithm>
