@@ -1,6 +1,7 @@
-// Finds the contacts and overlaps of a state (current_contacts.hpp), in the units of the case.
-// Nothing is checked or thrown. A change must keep the order of contacts, because io/vtk_reader.cpp
-// returns the contacts of a file in the same order. Used by io/, run/ and python/.
+// Finds the contacts and overlaps of a state (current_contacts.hpp, which has the dimensions and
+// ranges), in the units of the case. Nothing is checked or thrown. A change must keep the order of
+// contacts, because io/vtk_reader.cpp returns the contacts of a file in the same order. Used by
+// io/, run/ and python/.
 #include "viscontact/particles/current_contacts.hpp"
 
 #include <algorithm>

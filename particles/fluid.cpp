@@ -1,7 +1,7 @@
 // Computes velocities of walls and pressure gradients that depend on time, and sizes and moments of
-// inertia of particles (fluid.hpp), in the units of the case. Nothing is checked or thrown. A
-// change must keep means over a step exact, so that as much fluid flows in as the case says. Used
-// by case/, fluid/ and freefem_flow/.
+// inertia of particles (fluid.hpp, which has the dimensions and ranges), in the units of the case.
+// Nothing is checked or thrown. A change must keep means over a step exact, so that as much fluid
+// flows in as the case says. Used by case/, fluid/, membranes/ and freefem_flow/.
 #include "viscontact/particles/fluid.hpp"
 
 #include <algorithm>

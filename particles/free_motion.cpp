@@ -2,9 +2,9 @@
 // without contacts and links; and the velocities at the present time, where those of the leapfrog
 // scheme are half a step behind. The velocities u* and angular velocities w* of this motion give
 // displacements h u* [L] and turns h w* [rad], docs/physics.md (5.3) and (5.10). `next` is the time
-// at the end of the step [T]. Numbers are in the units of the case. Nothing is checked or thrown.
-// simulation.cpp calls move_freely() at the beginning of each step; a change must set displacements
-// and turns of all particles, also of those in rigid bodies.
+// at the end of the step [T]. Numbers are in the units of the case; simulation.hpp has the shapes.
+// Nothing is checked or thrown. simulation.cpp calls move_freely() at the beginning of each step; a
+// change must set displacements and turns of all particles, also of those in rigid bodies.
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/simulation.hpp"
 

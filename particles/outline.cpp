@@ -1,8 +1,8 @@
 // Computes distances to and between circles, ellipses and plates, and the points at which circles
-// meet (outline.hpp). The spine of a plate is the line between the centres of its round ends, and
-// that of a circle its centre. Lengths are in the unit of the case. Nothing is checked or thrown. A
-// change must keep distances exact to rounding errors. Used by case/, fluid/, picture/ and
-// freefem_flow/.
+// meet (outline.hpp, which has the dimensions and ranges). The spine of a plate is the line between
+// the centres of its round ends, and that of a circle its centre. Lengths are in the unit of the
+// case. Nothing is checked or thrown. A change must keep distances exact to rounding errors. Used
+// by case/, fluid/, picture/ and freefem_flow/.
 #include "viscontact/particles/outline.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-// Exact integrals and means of a piecewise constant vector (piecewise_constant.hpp). The vector may
-// have any unit; times [T] are in the unit of the case. Nothing is checked or thrown. A change must
-// keep that the mean over times within one piece is the value of the piece to the last bit. Used by
-// all of particles/.
+// Exact integrals and means of a piecewise constant vector (piecewise_constant.hpp, which has the
+// ranges). The vector may have any unit; times [T] are in the unit of the case. Nothing is checked
+// or thrown. A change must keep that the mean over times within one piece is the value of the piece
+// to the last bit. Used by all of particles/.
 #include "viscontact/particles/piecewise_constant.hpp"
 
 #include <algorithm>

@@ -1,8 +1,9 @@
 // Computes the steps of many particles (simulation.hpp), docs/physics.md (5.3): motion without
 // contacts (free_motion.cpp), projection, new gamma, new positions; and divides steps with fast
 // particles. Numbers are in the units of the case; h [T] is the length of a step or of a part of
-// it. Errors are those of Simulation::step(). A change must keep that, if a step throws, the state
-// is that before the step. Used by run/, sweep/ and python/.
+// it. simulation.hpp has the shapes. The constructor throws Error(kBadInput) for a state with other
+// membranes, step() Error(kNotConverged). A change must keep that, if a step throws, the state is
+// that before the step. Used by run/, sweep/ and python/.
 #include "viscontact/particles/simulation.hpp"
 
 #include <fmt/format.h>
@@ -327,7 +328,7 @@ void Simulation::examine(const ProjectionResult& projected, double next) const {
       std::max(projected.link_residual, -residuals.smallest_gap) <= kBroken * mean_radius_)
     return;
   std::string names;
-  constexpr std::size_t kMostNames = 6;
+  constexpr std::size_t kMostNames = 6;  // in the message; a free choice
   const auto& all = projected.unsolved_links;
   for (std::size_t k = 0; k < std::min(all.size(), kMostNames); ++k)
     names += fmt::format("{}{}", names.empty() ? "" : ", ", all[k]);

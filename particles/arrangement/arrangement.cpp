@@ -1,9 +1,10 @@
 // Places discs or spheres at random in a disc or box such that all gaps have at least a given
-// length; arrangement.hpp describes the method. Lengths are in the unit of the case file. Throws
-// Error(kBadInput) if the particles do not fit. particles/case and particles/sweep use it. A change
-// must keep the arrangement of each seed bit for bit on every machine. Therefore only + - * / and
-// sqrt may be used, and the compiler must not fuse a product and a sum into one operation
-// (-ffp-contract=off in CMakeLists.txt).
+// length; arrangement.hpp describes the method and has the dimensions and ranges. Lengths are in
+// the unit of the case file. Throws Error(kBadInput) if the particles do not fit, and
+// std::bad_variant_access if the domain is neither a disc nor a box. particles/case and
+// particles/sweep use it. A change must keep the arrangement of each seed bit for bit on every
+// machine. Therefore only + - * / and sqrt may be used, and the compiler must not fuse a product
+// and a sum into one operation (-ffp-contract=off in CMakeLists.txt).
 #include "viscontact/particles/arrangement/arrangement.hpp"
 
 #include <fmt/format.h>
@@ -392,7 +393,8 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
     fixed.push_back({present.position(k), present.radii[k]});
   SplitMix64 random(asked.seed);
   // push_apart() can fail although an arrangement exists. All particles then get new random places.
-  // Larger numbers find more of the dense arrangements, but change those that seeds give.
+  // The numbers are free choices: larger ones find more of the dense arrangements, but change those
+  // that seeds give.
   constexpr int kBeginnings = 10, kTries = 1000, kRounds = 2000;
   for (int beginning = 0; beginning < kBeginnings; ++beginning) {
     PlacedParticles placed(places, falling, gap, fixed);

@@ -1,8 +1,9 @@
 // Decides when the particles that a source adds to a simulation are due, and where they appear
-// (source.hpp). Lengths, masses and times are in the units of the case file; nothing is thrown.
-// simulation.cpp and particles/run use it. A change must keep the due times and places bit for bit,
-// because users repeat runs by their seeds. Therefore the compiler must not fuse a product and a
-// sum into one operation (-ffp-contract=off in CMakeLists.txt).
+// (source.hpp, which has the dimensions and ranges). Lengths, masses and times are in the units of
+// the case file; nothing is checked or thrown. simulation.cpp and particles/run use it. A change
+// must keep the due times and places bit for bit, because users repeat runs by their seeds.
+// Therefore the compiler must not fuse a product and a sum into one operation (-ffp-contract=off in
+// CMakeLists.txt).
 #include "viscontact/particles/arrangement/source.hpp"
 
 #include <algorithm>

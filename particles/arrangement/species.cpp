@@ -1,8 +1,9 @@
-// Draws the species, radius and mass of one particle after the other (species.hpp). Nothing is
-// checked or thrown. particles/case and source.cpp use it. A change must keep the radii of each
-// seed bit for bit on every machine. Therefore the compiler must not fuse a product and a sum into
-// one operation (-ffp-contract=off in CMakeLists.txt), and only + - * / sqrt, floor, frexp and
-// ldexp may be used; exp and log of the C library differ between versions.
+// Draws the species, radius and mass of one particle after the other (species.hpp, which has the
+// dimensions and ranges), in the units of the case. Nothing is checked or thrown. particles/case
+// and source.cpp use it. A change must keep hash_of(), whose values restart files store, and the
+// radii of each seed bit for bit on every machine. Therefore the compiler must not fuse a product
+// and a sum into one operation (-ffp-contract=off in CMakeLists.txt), and only + - * / sqrt, floor,
+// frexp and ldexp may be used; exp and log of the C library differ between versions.
 #include "viscontact/particles/arrangement/species.hpp"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ constexpr double kLog2 = 0.6931471805599453;
 double portable_log(double x) {
   int exponent = 0;
   double mantissa = std::frexp(x, &exponent);  // from 0.5 to 1
-  if (mantissa < 0.7071067811865476) {
+  if (mantissa < 0.7071067811865476) {         // sqrt(1/2)
     mantissa *= 2;
     --exponent;
   }
@@ -89,7 +90,7 @@ DrawnParticle DrawnSpecies::next() {
     shares += species_[s].share;
     total += static_cast<double>(counts_[s]);
   }
-  constexpr double kRounding = 1e-9;
+  constexpr double kRounding = 1e-9;  // free, above rounding errors; a change may alter draws
   const double farthest =
       1 - 0.5 / static_cast<double>(std::max<std::size_t>(species_.size(), 2) - 1);
   std::size_t next = 0;

@@ -1,8 +1,10 @@
 // Makes rigid bodies of several discs or spheres, and moves them in a time step; rigid_bodies.hpp
-// has the equations, the units and who uses them. Nothing is checked or thrown: if the iteration
-// for the turn of a body does not converge, its last value is taken. A change must keep that a body
-// that crosses no side of a periodic cell has the same bits as without periods, and that the
-// angular momentum stays constant to rounding without a torque.
+// has the equations, dimensions and ranges. Lengths, masses and times are in any consistent units.
+// simulation.cpp, free_motion.cpp, case/, constraints/, fluid/, impacts/ and links/ use it. Nothing
+// is checked or thrown: if the iteration for the turn of a body does not converge, its last value
+// is taken. A change must keep that a body that crosses no side of a periodic cell has the same
+// bits as without periods, and that the angular momentum stays constant to rounding without a
+// torque.
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 
 #include <algorithm>
@@ -297,7 +299,7 @@ Vector midpoint_turn(const RigidBody& body, const Vector& angular_momentum, doub
   // enough for turns up to 0.5. A step in which a body turns by a radian does not resolve the
   // motion, so that its iteration need not converge.
   constexpr int kMost = 50;
-  constexpr double kExact = 4 * std::numeric_limits<double>::epsilon();
+  constexpr double kExact = 4 * std::numeric_limits<double>::epsilon();  // some rounding errors
   for (int n = 0; n < kMost; ++n) {
     RigidBody middle = body;
     middle.orientation = turned(body.orientation, 0.5 * turn);

@@ -1,8 +1,9 @@
 // Reads the section [arrangement] of a case of many particles, which places particles at random,
 // and the species (kinds) of particles that arrangements and sources have (particles_sections.hpp).
-// Lengths, masses and times are in the units of the case. A wrong value is an Error(kBadInput) with
-// its line. A change must keep keys and defaults, which users' cases rely on. Used by
-// particle_tables.cpp and source_section.cpp.
+// Lengths, masses and times are in the units of the case; arrangement.hpp and species.hpp have
+// their dimensions and ranges. A wrong value is an Error(kBadInput) with its line. A change must
+// keep keys and defaults, which users' cases rely on. Used by particle_tables.cpp and
+// source_section.cpp.
 #include <algorithm>
 #include <limits>
 #include <string_view>

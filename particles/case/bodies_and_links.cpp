@@ -1,8 +1,8 @@
 // Reads and checks the tables [[body]], [[hinge]], [[spring]] and [[arm]] of a case of many
 // particles (particles_sections.hpp): rigid bodies, and links that hold particles and bodies.
-// Lengths, masses and times are in the units of the case. A wrong value is an Error(kBadInput) with
-// its line. A change must keep keys and defaults, which users' cases rely on. Used by
-// particles_case.cpp.
+// Lengths, masses and times are in the units of the case; rigid_bodies.hpp and links.hpp have their
+// dimensions and ranges. A wrong value is an Error(kBadInput) with its line. A change must keep
+// keys and defaults, which users' cases rely on. Used by particles_case.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

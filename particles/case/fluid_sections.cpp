@@ -1,7 +1,8 @@
 // Reads the sections [domain], [fluid] and [[probe]] of a case of many particles
-// (particles_sections.hpp). Lengths, masses and times are in the units of the case. A wrong value
-// is an Error(kBadInput) with its line. A change must keep keys and defaults, which users' cases
-// rely on. Used by particles_case.cpp.
+// (particles_sections.hpp). Lengths, masses and times are in the units of the case; domain.hpp and
+// fluid.hpp have their dimensions and ranges. A wrong value is an Error(kBadInput) with its line. A
+// change must keep keys and defaults, which users' cases rely on, and the order of kSides, which is
+// that of SideVelocities. Used by particles_case.cpp.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -107,6 +108,7 @@ void check_shape(const case_file::TomlSection& section, int dimension) {
                       : "it must be a disc = { centre, radius } or a box = { from, to, periodic }");
 }
 
+// At the lower bound velocities have rounding errors of about 1e-16/penalty = 1e-4 (fluid.hpp).
 constexpr Allowed kPenalty = {[](double v) { return v >= 1e-12 && v <= 1; }, "from 1e-12 to 1"};
 constexpr Allowed kGap = {[](double v) { return v >= 0 && v <= kLargestNumber; },
                           "from 0 to 1e100"};
@@ -444,7 +446,7 @@ void probe_keys(case_file::Keys& keys, Probe& probe, const Domain& domain) {
   const auto side_of = [&](const std::array<double, 2>& x) {
     for (std::size_t d = 0; d < 2; ++d) {
       const double length = box->to[d] - box->from[d], other = box->to[1 - d] - box->from[1 - d];
-      constexpr double kRounding = 1e-9;
+      constexpr double kRounding = 1e-9;  // far above rounding errors; a free choice
       const bool is_beside = x[1 - d] < box->from[1 - d] - kRounding * other ||
                              x[1 - d] > box->to[1 - d] + kRounding * other;
       if (box->periodic[d] || is_beside) continue;

@@ -1,8 +1,9 @@
 // Checks whether the flow around the particles at the start of a case can be computed, and chooses
 // the default of fluid.threshold_gap, the gap at which contact is made (particles_sections.hpp).
-// Lengths, masses and times are in the units of the case. Each fault is an Error(kBadInput) with
-// the line of the particle or of the key. A change must keep accepting users' cases. Used by
-// particles_case.cpp.
+// Lengths, masses and times are in the units of the case; fluid.hpp and particles.hpp have their
+// dimensions and ranges. Each fault is an Error(kBadInput) with the line of the particle or of the
+// key. A change must keep accepting users' cases, and the limits that docs/fluid.md repeats. Used
+// by particles_case.cpp.
 #include <algorithm>
 #include <numbers>
 #include <numeric>
@@ -231,7 +232,7 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
   const auto& fluid = *c.setting.fluid;
   if (!fluid.has_inertia()) return;
   const auto& p = c.particles;
-  constexpr double kRounding = 1e-9;
+  constexpr double kRounding = 1e-9;  // far above rounding errors; a free choice
   for (std::size_t k = 0; k < p.count(); ++k) {
     if (is_driven(c, static_cast<std::int32_t>(k))) continue;
     if (!(p.masses[k] > 0))
@@ -305,7 +306,7 @@ void check_mean_flow(const case_file::TomlSection& root, const ParticlesCase& c)
                                "is 'fixed'; it must be \"fitted\" in a box that is periodic both "
                                "ways and sheared or strained, because a particle that the fixed "
                                "mesh cuts has a different velocity on the other side");
-  constexpr double kRounding = 1e-9;
+  constexpr double kRounding = 1e-9;  // far above rounding errors; a free choice
   root.section("viscous_contact")
       .require(c.end_time <= (1 + kRounding) * c.setting.time_step, "end_time",
                "is {}; it must be at most time_step, {}, in a box that is periodic both ways and "

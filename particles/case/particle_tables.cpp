@@ -1,7 +1,8 @@
 // Reads the particles of a case of many particles: the sections [particles] (a CSV file),
 // [[particle]] and [[force]] (particles_sections.hpp). Lengths, masses and times are in the units
-// of the case. A wrong value is an Error(kBadInput) with its line. A change must keep keys and
-// defaults, which users' cases rely on. Used by particles_case.cpp.
+// of the case; particles.hpp, fluid.hpp and setting.hpp have their dimensions and ranges. A wrong
+// value is an Error(kBadInput) with its line. A change must keep keys and defaults, which users'
+// cases rely on. Used by particles_case.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,8 +1,9 @@
 // Reads the case file of many particles (particles_case.hpp), and its sections [space],
 // [viscous_contact], [friction], [solver], [output], [[plane]] and [sweep]; the other sections have
-// sources of their own. Numbers are in the units of the case. A wrong value is an Error(kBadInput)
-// with its line. A change must keep keys and defaults, which users' cases rely on. Used by run/,
-// sweep/ and python/.
+// sources of their own. Numbers are in the units of the case; particles_case.hpp and setting.hpp
+// have their dimensions and ranges. A wrong value is an Error(kBadInput) with its line. A change
+// must keep keys and defaults, which users' cases rely on. Used by particles_study.cpp, run/,
+// sweep/, app/ and python/.
 #include "viscontact/particles/case/particles_case.hpp"
 
 #include <algorithm>
@@ -201,7 +202,7 @@ void plane_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
   keys.required("normal", vector(normal, dimension),
                 {"points to the side of the particles; its length is arbitrary, but not 0"});
   const double length = norm(normal);
-  keys.require(length > 1e-100, "normal",
+  keys.require(length > 1e-100, "normal",  // 1/length must be finite; a free choice
                "is 0; it must be a vector that points into the free side of the plane");
   plane.start.normal = (1 / length) * normal;
   keys.optional("velocity", pieces(plane.velocity, dimension, c.end_time), {"of the plane", "0"});
@@ -277,7 +278,7 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
     read_friction(root.section("friction"), c.particles.dimension, c.setting);
   if (root.has("solver"))
     case_file::read_keys(root.section("solver"), solver_keys, c.setting.solver);
-  c.frame_interval = c.end_time / 100;
+  c.frame_interval = c.end_time / 100;  // the default, a free choice
   if (root.has("output")) case_file::read_keys(root.section("output"), output_keys, c);
   if (root.has("plane"))
     for (const auto& section : root.sections("plane")) {

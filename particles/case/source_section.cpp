@@ -1,7 +1,8 @@
 // Reads the tables [[source]] of a case of many particles (particles_sections.hpp). A source adds
 // particles with random radii at random places during the run. Lengths, masses and times are in the
-// units of the case. A wrong value is an Error(kBadInput) with its line. A change must keep keys
-// and defaults, which users' cases rely on. Used by particle_tables.cpp.
+// units of the case; source.hpp and species.hpp have their dimensions and ranges. A wrong value is
+// an Error(kBadInput) with its line. A change must keep keys and defaults, which users' cases rely
+// on. Used by particle_tables.cpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>

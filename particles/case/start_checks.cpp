@@ -1,7 +1,8 @@
 // Checks the places and radii of the particles at the start of a case of many particles
-// (particles_sections.hpp). Lengths are in the unit of the case. Each fault is an Error(kBadInput).
-// A change must keep accepting users' cases, and messages must name the line of the CSV file,
-// because the file can be long. Used by particles_case.cpp and fluid_start_checks.cpp.
+// (particles_sections.hpp, which has the limits and their reasons). Lengths are in the unit of the
+// case; particles.hpp has the ranges. Each fault is an Error(kBadInput). A change must keep
+// accepting users' cases, and messages must name the line of the CSV file, because the file can be
+// long. Used by particles_case.cpp and fluid_start_checks.cpp.
 #include <algorithm>
 #include <variant>
 

@@ -1,7 +1,8 @@
 // Reads vectors and piecewise constant vectors from the keys of a case of many particles
 // (particles_sections.hpp). Vectors have the unit that the key says; times [T] are in the unit of
-// the case. A wrong value is an Error(kBadInput) with its line. The sources in particles/case/ use
-// it. A change must keep accepting users' cases.
+// the case. Components of vectors are at most 1e100 in magnitude. A wrong value is an
+// Error(kBadInput) with its line. The sources in particles/case/ and membranes/membrane_keys.cpp
+// use it. A change must keep accepting users' cases.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +39,7 @@ void read_constant_or_pieces(const case_file::TomlSection& section, std::string_
     piece.finish();
     before = until;
   }
-  section.require(before >= end_time * (1 - 1e-9), key,
+  section.require(before >= end_time * (1 - 1e-9), key,  // 1e-9: far above rounding errors
                   "ends at {}; it must reach viscous_contact.end_time, {}", before, end_time);
   // The last piece is extended a little beyond end_time, because rounding errors could let the last
   // step end after end_time, where the value would be 0.

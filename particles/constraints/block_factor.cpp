@@ -1,8 +1,9 @@
 // Sparse LU or Cholesky factorisation of a matrix of dense blocks of K x K numbers in any units,
-// and the assembly of such matrices for contacts and links (block_factor.hpp). The factorisation is
-// left-looking: it computes one column of L and row of U after the other, and subtracts from each
-// the products of all earlier ones. factorise() returns false for a singular matrix; nothing is
-// thrown or checked. Used by the other files of constraints/. Results depend on the order of sums.
+// and the assembly of such matrices for contacts and links (block_factor.hpp, which has the
+// shapes). The factorisation is left-looking: it computes one column of L and row of U after the
+// other, and subtracts from each the products of all earlier ones. factorise() returns false for a
+// singular matrix; nothing is thrown or checked. Used by constraint_system.cpp, interior_points.hpp
+// and proximal_step.hpp. A change of the order of sums changes results by rounding errors.
 #include "viscontact/particles/constraints/block_factor.hpp"
 
 #include <metis.h>

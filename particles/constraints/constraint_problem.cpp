@@ -1,8 +1,9 @@
-// The problem for the impulses of the contacts and links of a time step (constraint_problem.hpp):
-// motions for given impulses, mobilities, residuals, and the tangents and rows of contacts.
-// Lengths, masses and times are in any consistent units. Nothing is thrown. Used by constraints/,
-// impacts/ and fluid/fluid_friction.cpp. A change of residual_of() alters which steps count as
-// converged. Both arms of a contact must end at one point, to keep a pair's angular momentum.
+// The problem for the impulses of the contacts and links of a time step (constraint_problem.hpp,
+// which has the dimensions and ranges): motions for given impulses, mobilities, residuals, and the
+// tangents and rows of contacts. Lengths, masses and times are in any consistent units. Nothing is
+// thrown. Used by constraints/, impacts/ and fluid/fluid_friction.cpp. A change of residual_of()
+// alters which steps count as converged. Both arms of a contact must end at one point, to keep a
+// pair's angular momentum.
 #include "viscontact/particles/constraints/constraint_problem.hpp"
 
 #include <algorithm>

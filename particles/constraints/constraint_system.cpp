@@ -1,8 +1,9 @@
 // Makes and solves the problem for the impulses of the contacts, rigid bodies and links of a time
-// step, and finds constraints that contradict each other (constraint_system.hpp). Lengths [L],
-// masses [M] and times [T] are in any consistent units. Nothing is thrown; residual() tells whether
-// a step is solved. projection/ uses it. A change must keep that hinges and arms hold after finite
-// turns. A unit is a particle, or a rigid body of several.
+// step, and finds constraints that contradict each other (constraint_system.hpp, which has the
+// shapes and ranges). Lengths [L], masses [M] and times [T] are in any consistent units. Nothing is
+// thrown; residual() tells whether a step is solved. projection/ uses it. A change must keep that
+// hinges and arms hold after finite turns, and the order of the link forces, which restart files
+// store. A unit is a particle, or a rigid body of several.
 #include "viscontact/particles/constraints/constraint_system.hpp"
 
 #include <algorithm>
@@ -341,7 +342,7 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     const double change = correct(system, solution);
     result.residual += change;
     // If corrections grow kPatience times in succession, they diverge: the constraints contradict
-    // each other, or the step is too long.
+    // each other, or the step is too long. The number is a free choice.
     constexpr int kPatience = 3;
     growing = change < last_change ? 0 : growing + 1;
     last_change = change;
@@ -359,7 +360,8 @@ std::vector<double> ConstraintSystem<D>::least_violations() const {
   const auto& problem = problem_;
   // Proximal steps: each minimises the sum of v^2/(kEpsilon w) plus the square of the change of the
   // motions in the norm of M/h, masses over the step's length, which keeps the matrix regular. A
-  // step multiplies errors by about kEpsilon if the rows determine the motions well.
+  // step multiplies errors by about kEpsilon if the rows determine the motions well. The number of
+  // steps is a free choice.
   constexpr double kEpsilon = 1e-6;
   constexpr int kSteps = 30;
   const auto w = row_mobilities(problem);

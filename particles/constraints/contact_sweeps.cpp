@@ -1,7 +1,8 @@
 // Gauss-Seidel sweeps over the contacts and links of a time step (contact_sweeps.hpp): computes the
 // impulses [M L/T] of one of them after the other from the values v [L] and mobilities w [T/M] of
-// its rows. Units are any consistent ones. Nothing is checked or thrown. constraint_solver.cpp uses
-// it. A change of the order of sums changes results by rounding errors.
+// its rows; constraint_problem.hpp has the ranges. Units are any consistent ones. Nothing is
+// checked or thrown. constraint_solver.cpp uses it. A change of the order of sums changes results
+// by rounding errors.
 #include "viscontact/particles/constraints/contact_sweeps.hpp"
 
 #include <algorithm>

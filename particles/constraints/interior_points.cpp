@@ -1,9 +1,11 @@
 // Iterations of the interior-point method for convex problems of contacts with friction and links
-// (interior_points.hpp). Each iteration computes a predictor, whose goal is u.r = 0 for all pairs
-// of a displacement u and an impulse r, and from it the goal of a corrector, whose change of u, r
-// and the motions y is made. u and r are scaled to the unit L (M/T)^(1/2); y are the motions of all
-// units, z the additional unknown of a contact with a given bound of its friction. Nothing is
-// thrown. Used by constraint_solver.cpp. Results depend on the order of sums.
+// (interior_points.hpp; constraint_problem.hpp has dimensions and ranges). Each iteration computes
+// a predictor, whose goal is u.r = 0 for all pairs of a displacement u and an impulse r, and from
+// it the goal of a corrector, whose change of u, r and the motions y is made. u and r are scaled to
+// the unit L (M/T)^(1/2); y are the motions of all units, z the additional unknown of a contact
+// with a given bound of its friction. Nothing is thrown; the caller must measure the residuals.
+// Used by constraint_solver.cpp. The constants change how long a solution takes, and results within
+// the tolerances; a change of the order of sums changes results by rounding errors.
 #include "viscontact/particles/constraints/interior_points.hpp"
 
 #include <algorithm>

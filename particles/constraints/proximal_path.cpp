@@ -4,8 +4,9 @@
 // [M L/T], rho [M/T] stiffnesses of rows. On the path from the motions y_0 the error is (1 - share)
 // times that of y_0, and the solution is at share = 1. For discs only: the path consists of
 // straight pieces, on which no contact changes its branch (open, without friction, sticking,
-// slipping). Units are any consistent ones. Nothing is thrown. proximal_step.cpp uses it. Results
-// depend on the order of sums.
+// slipping). Units are any consistent ones; proximal_step.hpp and constraint_problem.hpp have the
+// ranges. Nothing is thrown. proximal_step.cpp uses it. A change of the order of sums changes
+// results by rounding errors.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
-// Motion of planes, and areas, volumes and walls of domains; domain.hpp has the units and who uses
-// them. The motion of a plane is a rotation about its pivot and then a translation. Nothing is
+// Motion of planes, and areas, volumes and walls of domains; domain.hpp has the dimensions and
+// ranges. Lengths and times are in any consistent units. All of particles/ and freefem_flow/ use
+// it. The motion of a plane is a rotation about its pivot and then a translation. Nothing is
 // checked or thrown. A change must keep the position of a plane at rest bit for bit, and the order
 // of the walls, by which files number obstacles.
 #include "viscontact/particles/domain/domain.hpp"

@@ -1,6 +1,8 @@
 // Numbers the particles that take part in a step, finds the sets that contacts connect (islands),
-// and calls the solver for the impulses. contact_system.hpp has the symbols, the units and who uses
-// it. Nothing is thrown. A change must keep the order of bodies, which rounding errors depend on.
+// and calls the solver for the impulses. contact_system.hpp has the symbols, dimensions and ranges;
+// units are any consistent ones. projection/ and constraints/ use it. Nothing is thrown; an
+// unsolved problem has SolverResult::residual > 1. A change must keep the order of bodies, which
+// rounding errors depend on.
 #include "viscontact/particles/dual_problem/contact_system.hpp"
 
 #include <algorithm>

@@ -1,8 +1,9 @@
-// Solves the dual problem of a time step (mass_dual_problem.hpp): chooses between conjugate
-// gradients, a sparse factor of the matrix W and Newton's method. A problem that is not solved is
-// reported by its residual, not thrown. contact_system.cpp uses it. The constants change how long a
-// solution takes, and results within the tolerances. A change must keep results independent of the
-// number of threads.
+// Solves the dual problem of a time step (mass_dual_problem.hpp, which has the equations,
+// dimensions and ranges; units are any consistent ones): chooses between conjugate gradients, a
+// sparse factor of the matrix W and Newton's method. A problem that is not solved is reported by
+// its residual, not thrown. contact_system.cpp uses it. The constants change how long a solution
+// takes, and results within the tolerances. A change must keep results independent of the number of
+// threads.
 #include <algorithm>
 #include <cstddef>
 #include <span>

@@ -1,7 +1,7 @@
-// FreeSetFactor (mass_dual_problem.hpp): computes and applies a sparse Cholesky factor of the
-// matrix W of the dual problem with Eigen. W is scaled and has no dimension. If the factor cannot
-// be computed, nothing is thrown: exists() is then false. dual_solver.cpp uses it. A change must
-// keep that the order of elimination depends on the pattern of W alone.
+// FreeSetFactor (mass_dual_problem.hpp, which has the shapes): computes and applies a sparse
+// Cholesky factor of the matrix W of the dual problem with Eigen. W is scaled and has no dimension.
+// If the factor cannot be computed, nothing is thrown: exists() is then false. dual_solver.cpp uses
+// it. A change must keep that the order of elimination depends on the pattern of W alone.
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <utility>

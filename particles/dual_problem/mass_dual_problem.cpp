@@ -1,6 +1,7 @@
 // Fills the arrays of a MassDualProblem, the problem for the impulses of contacts in a time step;
-// mass_dual_problem.hpp has the equations, the units and who uses it. Nothing is checked or thrown.
-// A change must keep the order of all sums, because bits of results depend on it.
+// mass_dual_problem.hpp has the equations, dimensions and ranges; units are any consistent ones.
+// The sources of this folder use it. Nothing is checked or thrown. A change must keep the order of
+// all sums, because bits of results depend on it.
 #include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 #include <Eigen/Core>

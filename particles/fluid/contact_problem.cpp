@@ -1,8 +1,9 @@
 // Solves the contact problem of a step in a fluid (ContactProblem in fluid_contacts.hpp). W [T/M]
 // is the matrix of the changes of gaps per impulse of each contact, w its diagonal. If contacts are
-// few, W is computed, otherwise only products with it. Units are those of the arguments. Errors are
-// those of the mobility. A change must keep that results depend on nothing but the arguments,
-// because a run that is continued must give the same bits.
+// few, W is computed, otherwise only products with it. fluid_contacts.hpp has dimensions and
+// ranges; units are any consistent ones. Errors are those of the mobility; solve() returns false if
+// it misses the tolerances. fluid_contacts.cpp uses it. A change must keep that results depend on
+// nothing but the arguments, because a run that is continued must give the same bits.
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <set>

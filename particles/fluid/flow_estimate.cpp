@@ -1,6 +1,7 @@
-// Computes a flow up to three times and compares the results (flow_estimate.hpp). Units are those
-// of the arguments; errors are those of FluidSolver. A change must keep the order of the calls,
-// because vary_penalty() and vary_mesh() replace the problem that the solver had before.
+// Computes a flow up to three times and compares the results (flow_estimate.hpp, which has the
+// shapes and dimensions). Units are any consistent ones. Errors are those of FluidSolver.
+// fluid_simulation.cpp uses it. A change must keep the order of the calls, because vary_penalty()
+// and vary_mesh() replace the problem that the solver had before.
 #include "viscontact/particles/fluid/flow_estimate.hpp"
 
 #include <algorithm>

@@ -1,7 +1,9 @@
 // Examines a step in a fluid and changes the state by it: functions of FluidSimulation that its
-// step() calls. Lengths, masses and times are in any consistent units. A step that is refused is an
-// Error(kNotConverged), which must leave the state as it was. A change must also keep that a
-// continued run gives the same bits as one without a break.
+// step() calls. Lengths, masses and times are in any consistent units; fluid_simulation.hpp and
+// fluid_motion.hpp have shapes and ranges. A step that is refused is an Error(kNotConverged), which
+// must leave the state as it was. In a fluid with inertia accept() also throws the errors of
+// FluidSolver::keep_flow(). A change must also keep that a continued run gives the same bits as one
+// without a break.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -3,8 +3,9 @@
 // in the restitution they give back the share e_d of the impulse that they took up. gamma <= 0 is
 // minus the impulse that the film of a contact has absorbed; the load of a contact is the impulse
 // that it bears if particles are at rest under the forces of the step. Gaps are in [L], rates at
-// which they grow in [L/T], impulses in [M L/T]. Errors are those of the mobility. A change must
-// keep that the work of a blow is not positive.
+// which they grow in [L/T], impulses in [M L/T]. fluid_motion.hpp has the shapes. Errors are those
+// of the mobility and of BlowStep::loaded. fluid_simulation.cpp uses it. A change must keep that
+// the work of a blow is not positive.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -1,7 +1,8 @@
 // Lists pairs that are close to contact, chooses the contacts of a step among them and measures
 // their residuals (fluid_contacts.hpp). gamma <= 0 is minus the impulse that the film of a pair has
 // absorbed. A plate is a particle with round ends: all points at one distance from a line, its
-// spine. Units are those of the arguments. Errors are those of the mobility, and
+// spine. fluid_contacts.hpp has dimensions and ranges; units are any consistent ones. The other
+// sources of this folder and membranes/ use it. Errors are those of the mobility, and
 // Error(kNotConverged) for plates that overlap. A change must keep the order of pairs, which files
 // of contacts and restart files have.
 #include "viscontact/particles/fluid/fluid_contacts.hpp"

@@ -4,8 +4,10 @@
 // keep the gaps open with the friction found so far, and which contacts take part. Then, if the law
 // does not hold yet, solve_constraints() finds the normal and tangential impulses of all these
 // contacts together, as for particles without a fluid. Impulses are in [M L/T], gaps and slips in
-// [L]. Errors are those of the mobility. A change must keep that the first part comes last, so that
-// gaps are exact for the friction found.
+// [L]. fluid_contacts.hpp has the ranges. Errors are those of the mobility; if the law is not
+// reached, StepContacts::is_solved is false. fluid_contacts.cpp, fluid_acceptance.cpp and
+// fluid_simulation.cpp use it. A change must keep that the first part comes last, so that gaps are
+// exact for the friction found.
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -3,9 +3,10 @@
 // the state. U is the velocity that the fluid gives a particle at its place before the step, U^+
 // that with which the particle moves; theta, 1/2 to 1, says how implicit the step is. Links are
 // hinges, springs and arms between particles; bodies are rigid bodies of several particles.
-// Velocities are in [L/T, 1/T], forces in [M L/T^2, M L^2/T^2]. Errors are those of
-// fluid_simulation.hpp. A change must keep that a continued run gives the same bits as one without
-// a break: a step may depend on nothing but the setting and the state.
+// Velocities are in [L/T, 1/T], forces in [M L/T^2, M L^2/T^2]. fluid_simulation.hpp has the shapes
+// and says when Error(kBadInput), Error(kNotConverged) and the errors of FluidSolver are thrown.
+// Used by run/ and the other sources of this folder. A change must keep that a continued run gives
+// the same bits as one without a break: a step may depend on nothing but the setting and the state.
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,11 @@
 // Finds the forces that keep linear conditions on the velocities of particles in a fluid
 // (held_solver.hpp). With the mobility S of the fluid (velocities per force), the velocities v and
 // the rows A of the conditions, the sums of the rows are A v, and forces l of the rows add A S A^T
-// l to them. Sums are in [L/T, 1/T], forces in [M L/T^2, M L^2/T^2]. Conditions that contradict
-// each other are an Error(kNotConverged). A change must keep that redundant rows get the smallest
-// forces, and that the forces of soft springs stay accurate beside stiff ones.
+// l to them. Sums are in [L/T, 1/T], forces in [M L/T^2, M L^2/T^2]; held_solver.hpp has the shapes
+// and ranges. Conditions that contradict each other are an Error(kNotConverged); the errors of the
+// fluid solver are thrown, too. fluid_simulation.cpp and fluid_links.cpp use it. A change must keep
+// that redundant rows get the smallest forces, and that the forces of soft springs stay accurate
+// beside stiff ones.
 #include "viscontact/particles/fluid/held_solver.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,10 @@
 // Computes the terms of the equation of motion of a step in a fluid (step_equation.hpp): forces,
 // inertia, given motions and theta, with which the velocities in the step are theta times those at
 // its end plus 1 - theta times those at its beginning. A component is a direction or the rotation
-// of a particle. Units are those of the arguments; nothing is checked. A change must keep the
-// second order in time away from contact.
+// of a particle. step_equation.hpp has the shapes, dimensions and ranges; units are any consistent
+// ones. Nothing is checked; given_in_step() throws std::out_of_range for a particle that is not
+// driven. fluid_simulation.cpp and fluid_links.cpp use it. A change must keep the second order in
+// time away from contact.
 #include "viscontact/particles/fluid/step_equation.hpp"
 
 #include <algorithm>

@@ -1,8 +1,9 @@
 // Finds the blows of a time step, collisions of solids that rebound, in the order of their times
-// (impacts.hpp, which has the symbols and who uses them). Lengths, masses and times are in any
+// (impacts.hpp, which has the symbols, dimensions and ranges). Lengths, masses and times are in any
 // consistent units; a time `t` is counted from the beginning of the step, 0 to its length h. The
-// projection is the solution of the step without rebound, which follows. Nothing is thrown. The
-// order of the particles must change results by rounding errors only.
+// projection is the solution of the step without rebound, which follows. Nothing is thrown;
+// converged() says whether all blows are solved. simulation.cpp and projection/ use it. The order
+// of the particles must change results by rounding errors only.
 #include "viscontact/particles/impacts/impacts.hpp"
 
 #include <algorithm>
@@ -284,6 +285,7 @@ void Impacts<D>::expect(std::size_t k, double from) {
   const auto approach = approach_of(k);
   // Each pass searches from `begin` to the next jump of the obstacle's velocity or the step's end.
   for (double begin = from, end = 0; begin < step_.h; begin = end) {
+    // Each pass moves on by at least this part of the step, which is above rounding errors.
     constexpr double kBeyondRounding = 1e-12;
     // Hits that rounding errors move beyond the end of the step count as hits at its end.
     end = (1 + kSameTime) * step_.h;

@@ -1,6 +1,7 @@
-// Writes contacts and their forces as CSV tables (contact_file.hpp), in the units of the case.
-// Nothing is checked or thrown. A change must keep the names and the order of the columns, which
-// docs/file-formats.md states and users' scripts read. Used by case/ and run/.
+// Writes contacts and their forces as CSV tables (contact_file.hpp, which has the columns and
+// dimensions), in the units of the case. Nothing is checked or thrown. A change must keep the names
+// and the order of the columns, which docs/file-formats.md states and users' scripts read. Used by
+// case/ and run/.
 #include "viscontact/particles/io/contact_file.hpp"
 
 #include <fmt/format.h>

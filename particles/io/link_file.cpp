@@ -1,7 +1,7 @@
 // Writes bodies.csv, hinges.csv, springs.csv and arms.csv, and links as VTK PolyData
-// (link_file.hpp). Numbers are in the units of the case. Nothing is checked or thrown. A change
-// must keep the names and the order of the columns and arrays, which users' scripts read. Used by
-// run/.
+// (link_file.hpp, which has the columns). Numbers are in the units of the case. Nothing is checked
+// or thrown. A change must keep the names and the order of the columns and arrays, and the numbers
+// of Kind, which docs/file-formats.md states and users' scripts read. Used by run/.
 #include "viscontact/particles/io/link_file.hpp"
 
 #include <fmt/format.h>
@@ -149,6 +149,7 @@ std::vector<TimeTable> time_tables(const Setting& setting, const Particles& part
 
 namespace {
 
+// Files have these numbers.
 enum class Kind : std::int32_t { kHinge, kSpring, kArm, kMembrane };
 
 /// The arrays of the VTK file. Points and forces have three numbers each.

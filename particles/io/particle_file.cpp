@@ -1,6 +1,7 @@
-// Reads and writes particles as CSV (particle_file.hpp). Numbers are in the units of the case. A
-// fault of a file is an Error(kBadInput) with its line. A change must keep the names of the
-// columns, which docs/file-formats.md states and users' files contain. Used by case/, io/ and run/.
+// Reads and writes particles as CSV (particle_file.hpp, which has the columns and ranges). Numbers
+// are in the units of the case. A fault of a file is an Error(kBadInput) with its line; writing
+// throws nothing. A change must keep the names of the columns, which docs/file-formats.md states
+// and users' files contain. Used by case/, io/ and run/.
 #include "viscontact/particles/io/particle_file.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,8 @@
-// Writes and reads the binary restart file (restart.hpp). Numbers are in the units of the case; a
-// damaged file is an Error(kBadInput). Files of versions 1 to 11 must stay readable; a change of
-// the fields of State or Pair (state.hpp) needs a new version. Used by run/.
+// Writes and reads the binary restart file (restart.hpp). Numbers are in the units of the case;
+// state.hpp has their dimensions. A file that cannot be read, is damaged, or has another version or
+// byte order is an Error(kBadInput); writing throws nothing. The texts kWhat and kHash must not
+// change. Files of versions 1 to 11 must stay readable; a change of the fields of State or Pair
+// (state.hpp) needs a new version. Used by run/.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <algorithm>

@@ -1,7 +1,8 @@
-// Reads the VTK files that vtk.cpp writes (vtk.hpp), so that pages can be made from them. Lengths,
-// masses and times are in the units of the case. The reader understands only the layout that
-// vtk.cpp writes, not VTK's formats in general; another file is an Error(kBadInput). Frames of
-// earlier versions, which lack some arrays, must stay readable. Used by run/.
+// Reads the VTK files that vtk.cpp writes (vtk.hpp, which has the shapes and dimensions), so that
+// pages can be made from them. Lengths, masses and times are in the units of the case. The reader
+// understands only the layout that vtk.cpp writes, not VTK's formats in general; another file is an
+// Error(kBadInput). Frames of earlier versions, which lack some arrays, must stay readable. Used by
+// run/.
 #include <cmath>
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,8 @@
 // Makes the equations of hinges, springs, arms and stops for one time step (link_rows.hpp, which
-// has the units and who uses them). Nothing is checked or thrown. A change must keep that the parts
-// of a row are the derivatives of values_after() with respect to the motion.
+// has the dimensions). Units are any consistent ones. constraints/, fluid/, membranes/, run/ and
+// simulation.cpp use it. Nothing is checked or thrown. A change must keep the order of forces in
+// State::link_forces, which restart files store, and that the parts of a row are the derivatives of
+// values_after() with respect to the motion.
 #include "viscontact/particles/links/link_rows.hpp"
 
 #include <fmt/format.h>

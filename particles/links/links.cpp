@@ -1,6 +1,7 @@
 // Piecewise linear and sinusoidal lengths of arms, links that keep the distance of two particles at
-// a given function of time (links.hpp). Lengths [L] and times [T] are in any consistent units.
-// Nothing is checked or thrown. A change must keep that rate_at() is the derivative of length_at().
+// a given function of time (links.hpp, which has the ranges). Lengths [L] and times [T] are in any
+// consistent units. Nothing is checked or thrown. case/, fluid/held_rows.cpp and link_rows.cpp use
+// it. A change must keep that rate_at() is the derivative of length_at().
 #include "viscontact/particles/links/links.hpp"
 
 #include <algorithm>

@@ -1,7 +1,9 @@
-// The functions of membrane.hpp, which has the units and who uses them: measures and output of
+// The functions of membrane.hpp, which has the dimensions and ranges: measures and output of
 // membranes (closed lines through particles, the beads), ellipses of a given perimeter and area,
-// and geometry of polygons. check_shapes() throws Error(kBadInput); nothing else is checked or
-// thrown. A change must keep the places of the beads of ellipse_of() bit for bit.
+// and geometry of polygons. Lengths and masses are in the units of the case. simulation.cpp, io/,
+// run/ and the other sources of this folder use it. check_shapes() throws Error(kBadInput); nothing
+// else is checked or thrown. A change must keep the places of the beads of ellipse_of() bit for
+// bit.
 #include "viscontact/particles/membranes/membrane.hpp"
 
 #include <fmt/format.h>
@@ -143,8 +145,8 @@ std::optional<std::vector<double>> ellipse_of(const Membrane& membrane, const Ve
   // The semi-axes a and b have a b = area/pi = mean^2, and the perimeter grows with a/mean, which
   // is found by bisection.
   const double mean = std::sqrt(membrane.area / std::numbers::pi);
-  double low = 1, high = 1e3;  // bounds of a/mean
-  for (int i = 0; i < 100; ++i) {
+  double low = 1, high = 1e3;      // bounds of a/mean
+  for (int i = 0; i < 100; ++i) {  // enough halvings to reach rounding errors
     const double middle = std::sqrt(low * high);
     (lengths_along(mean * middle, mean / middle).back() < membrane.perimeter ? low : high) = middle;
   }
@@ -224,7 +226,7 @@ double largest_area(std::span<const double> lengths) {
     if (side != longest) others += std::asin(std::min(1.0, *side / *longest));
   const bool is_inside = others >= std::numbers::pi / 2;
   double low = 0, high = 2 / *longest;
-  constexpr int kHalvings = 200;
+  constexpr int kHalvings = 200;  // enough to reach rounding errors
   for (int n = 0; n < kHalvings; ++n) {
     const double curvature = (low + high) / 2;
     double sum = 0;

@@ -1,7 +1,8 @@
 // Checks of membranes (closed lines through particles, the beads) when a case file is read;
 // case/particles_sections.hpp declares and explains the functions, and membrane_keys.cpp calls
-// them. Lengths are in the unit of the case file. Every fault throws Error(kBadInput) with its
-// line. A change must not refuse what users' cases may contain now.
+// them. Lengths are in the unit of the case file; membrane.hpp has the dimensions and ranges. Every
+// fault throws Error(kBadInput) with its line. A change must not refuse what users' cases may
+// contain now.
 #include <fmt/format.h>
 
 #include <algorithm>

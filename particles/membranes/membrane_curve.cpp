@@ -1,7 +1,8 @@
 // The closed curve through the particles (beads) of a membrane by trigonometric interpolation, its
 // lengths, area, moments and bending energy; membrane_curve.hpp has the shapes and units of all
-// arrays. Nothing is checked or thrown. The sources of this folder and freefem_flow/membranes/ use
-// it. A change must keep that all derivatives are exact.
+// arrays. Lengths are in any unit. Nothing is checked or thrown; restore_lengths_and_area() returns
+// false where it does not converge. The sources of this folder and freefem_flow/membranes/ use it.
+// A change must keep that all derivatives are exact.
 #include "viscontact/particles/membranes/membrane_curve.hpp"
 
 #include <Eigen/Cholesky>
@@ -173,8 +174,8 @@ bool restore_lengths_and_area(const MembraneCurve& curve, double perimeter, doub
                               Eigen::VectorXd& positions) {
   const int n = curve.beads();
   const double speed = perimeter / kTwoPi;
-  constexpr int kMostRounds = 50;
-  constexpr double kExact = 1e-13;
+  constexpr int kMostRounds = 50;   // a free choice, which membrane_curve.hpp repeats
+  constexpr double kExact = 1e-13;  // near rounding errors
   for (int round = 0; round < kMostRounds; ++round) {
     // Residuals and rows are divided by powers of `speed`, so that all entries are near 1.
     Eigen::VectorXd missing(n + 1);

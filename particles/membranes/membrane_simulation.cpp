@@ -1,7 +1,10 @@
 // Time steps of membranes (closed curves through particles, their beads) and rigid discs in a
-// fluid; membrane_simulation.hpp has the equations, the units, the errors and who uses it. A change
-// must keep that a step depends on nothing but the setting and the state, because a run that
-// continues from a restart file must give the same bits as one without a break.
+// fluid; membrane_simulation.hpp has the equations and dimensions; units are those of the case.
+// Throws Error(kBadInput) if a restart file has membranes of other shapes, Error(kNotConverged) if
+// a step is not solved or leaves a deep overlap, and the errors of FluidSolver.
+// run/particle_simulation.cpp uses it. A change must keep that a step depends on nothing but the
+// setting and the state, because a run that continues from a restart file must give the same bits
+// as one without a break.
 #include "viscontact/particles/membranes/membrane_simulation.hpp"
 
 #include <Eigen/Core>

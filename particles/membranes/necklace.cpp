@@ -1,7 +1,7 @@
 // Geometry of the polygon through the particles (beads) of a membrane; necklace.hpp has the shapes
-// and units of all arrays. Nothing is thrown; restore_necklace() returns false where it does not
-// converge. membrane.cpp and necklace_rows.cpp use it.
-// A change must keep that area_gradient() is the derivative of area_of().
+// and dimensions of all arrays; units are any consistent ones. Nothing is thrown;
+// restore_necklace() returns false where it does not converge. membrane.cpp and necklace_rows.cpp
+// use it. A change must keep that area_gradient() is the derivative of area_of().
 #include "viscontact/particles/membranes/necklace.hpp"
 
 #include <Eigen/Cholesky>
@@ -109,7 +109,7 @@ double bending_energy(const Eigen::VectorXd& necklace, const Eigen::VectorXd& le
 bool restore_necklace(const Eigen::VectorXd& lengths, double area, Eigen::VectorXd& necklace) {
   const auto n = lengths.size();
   const double size = lengths.mean();
-  constexpr int kMostRounds = 50;
+  constexpr int kMostRounds = 50;  // a free choice, which necklace.hpp repeats
   // Bounds of the errors of distances and area, divided by the mean distance and its square. kExact
   // is near rounding errors. Newton's method is quadratic: one more step after kNearlyExact also
   // leaves only rounding errors.

@@ -1,7 +1,8 @@
-// The equations of a membrane without a fluid in a time step (necklace.hpp): a closed polygon of
-// particles (beads), numbered from 0 counter-clockwise, whose distances and area are kept. Lengths,
-// masses and times are in any consistent units. Nothing is checked or thrown. links/link_rows.cpp
-// uses them. A change must keep that the parts of a row are the derivatives of
+// The equations of a membrane without a fluid in a time step (necklace.hpp, which has the shapes):
+// a closed polygon of particles (beads), numbered from 0 counter-clockwise, whose distances and
+// area are kept. Lengths, masses and times are in any consistent units. Nothing is checked or
+// thrown. links/link_rows.cpp uses them. A change must keep the order of the equations, which is
+// that of State::link_forces, and that the parts of a row are the derivatives of
 // membrane_value_after() with respect to the motion.
 #include <cmath>
 

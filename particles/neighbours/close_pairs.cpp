@@ -1,8 +1,9 @@
-// Finds pairs of close particles (close_pairs.hpp has the condition, the units and who uses it): in
-// two and three dimensions by grids of cells, one for each factor of 2 in the extents; in one
-// dimension by a sweep along the line; and in a periodic cell with copies of the particles near its
-// sides. Nothing is checked or thrown. A change must keep the order of the pairs, on which bits of
-// results depend.
+// Finds pairs of close particles (close_pairs.hpp has the condition, shapes and ranges; lengths are
+// in any unit): in two and three dimensions by grids of cells, one for each factor of 2 in the
+// extents; in one dimension by a sweep along the line; and in a periodic cell with copies of the
+// particles near its sides. neighbour_list.cpp, current_contacts.cpp, case/ and fluid/ use it.
+// Nothing is checked or thrown. A change must keep the order of the pairs, on which bits of results
+// depend.
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
 #include <algorithm>
@@ -96,7 +97,7 @@ class Grid {
  private:
   /// The median of a sample, which a few particles far away do not change.
   static double middle(std::span<const double> positions, std::size_t d) {
-    constexpr std::size_t kSample = 1001;
+    constexpr std::size_t kSample = 1001;  // a free choice
     const std::size_t count = positions.size() / D, stride = count / kSample + 1;
     std::vector<double> sample;
     for (std::size_t k = 0; k < count; k += stride) sample.push_back(positions[k * D + d]);

@@ -1,7 +1,8 @@
 // Checks whether the list of close pairs of a simulation is still valid, and makes it again
-// (neighbour_list.hpp, which says who uses it). Lengths are in the unit of the case file. Throws
-// Error(kNotConverged) if a particle moves too far for a periodic cell. A change must keep the
-// order of the pairs, because the bits of a simulation depend on it.
+// (neighbour_list.hpp, which has the shapes and ranges). Lengths are in the unit of the case file.
+// simulation.cpp, fluid/ and membranes/ use it. Throws Error(kNotConverged) if a particle moves too
+// far for a periodic cell. A change must keep the order of the pairs, because the bits of a
+// simulation depend on it.
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,8 @@
 // Chooses the part of a motion of particles that a page shows, and writes its numbers as bytes
-// (page_data.hpp), in the units of the case. Nothing is thrown. Used by particles_page.cpp.
-// motion.js, colouring.js and flow.js in particles/picture/page decode the bytes: a change here
-// must agree with them, and with kLevels, kNothing, kNoArrow and kSteps in flow.js.
+// (page_data.hpp, which has their formats), in the units of the case. Nothing is thrown; on a
+// big-endian machine the source does not compile. Used by particles_page.cpp. motion.js,
+// colouring.js and flow.js in particles/picture/page decode the bytes: a change here must agree
+// with them, and with kLevels, kNothing, kNoArrow and kSteps in flow.js.
 #include "viscontact/particles/picture/page_data.hpp"
 
 #include <openssl/evp.h>

@@ -1,8 +1,8 @@
 // Writes the page that plays a motion of particles (particles_picture.hpp): words, controls, scales
-// of colours, and the blocks of page_data.hpp. Numbers are in the units of the case; a flow that
-// cannot be read is an Error(kBadInput). run/particles_pages.cpp calls particles_page(). The
-// scripts in particles/picture/page read the keys of the JSON and find elements by their ids, so a
-// change of either must be made there, too.
+// of colours, and the blocks of page_data.hpp. Numbers are in the units of the case (scene.hpp has
+// their dimensions); a flow that cannot be read is an Error(kBadInput). run/particles_pages.cpp
+// calls particles_page(). The scripts in particles/picture/page read the keys of the JSON and find
+// elements by their ids, so a change of either must be made there, too.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Finds the box that is seen, reads the flows in it, and chooses the scales of colours and widths
-// (scene.hpp). Lengths [L], forces and speeds are in the units of the case. A flow that cannot be
-// read is an Error(kBadInput). Used by the other sources here. A change alters picture and page.
+// (scene.hpp, which has the dimensions and ranges). Lengths [L], forces and speeds are in the units
+// of the case. A flow that cannot be read is an Error(kBadInput). Used by the other sources here. A
+// change alters picture and page.
 #include "viscontact/particles/picture/scene.hpp"
 
 #include <fmt/format.h>
@@ -293,7 +294,7 @@ FlowFrames read_flows(const Playback& in_plane, bool has_axis, const report::Win
 }  // namespace
 
 ShownFlows shown_flows(const Playback& playback) {
-  constexpr std::size_t kMostFlows = 150, kMostPoints = 60'000;
+  constexpr std::size_t kMostFlows = 150, kMostPoints = 60'000;  // free, but scene.hpp repeats them
   std::vector<std::size_t> with_flow;
   for (std::size_t f = 0; f < playback.frames.size(); ++f)
     if (!playback.frames[f].flow.empty()) with_flow.push_back(f);

@@ -1,8 +1,8 @@
 // Measures the residuals of the contacts and links of a time step after a solution of its problem
-// for impulses, and finds links that contradict each other (step_projection.hpp). A residual [L] is
-// the distance of a gap or length from the value that its condition demands. Lengths [L] and
-// impulses [M L/T] are in any consistent units. Nothing is thrown. Used by step_projection.cpp. A
-// change must keep that every pair whose gap the solution closes is found.
+// for impulses, and finds links that contradict each other (step_projection.hpp, which has the
+// ranges). A residual [L] is the distance of a gap or length from the value that its condition
+// demands. Lengths [L] and impulses [M L/T] are in any consistent units. Nothing is thrown. Used by
+// step_projection.cpp. A change must keep that every pair whose gap the solution closes is found.
 #include <algorithm>
 #include <cmath>
 #include <vector>

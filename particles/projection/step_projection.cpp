@@ -1,9 +1,10 @@
 // Solves the projection of a time step, the problem for the impulses of contacts that keeps gaps
 // open: chooses contacts, solves in rounds that add further contacts, and computes the scales with
-// which residuals are compared (step_projection.hpp, docs/particles.md). h [T] is the length of the
-// step, u* are the velocities at its end without contacts and links, v those with them, in any
-// consistent units. Nothing is thrown. simulation.cpp uses it. Results must not depend on the
-// number of threads; a change of a scale alters which steps converge.
+// which residuals are compared (step_projection.hpp, which has the shapes and ranges;
+// docs/particles.md). h [T] is the length of the step, u* are the velocities at its end without
+// contacts and links, v those with them, in any consistent units. Nothing is thrown. simulation.cpp
+// uses it. Results must not depend on the number of threads; a change of a scale alters which steps
+// converge.
 #include "viscontact/particles/projection/step_projection.hpp"
 
 #include <algorithm>
@@ -177,6 +178,7 @@ void StepProjection<D>::allow(double length, double fraction) {
 template <int D>
 std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
     const std::vector<std::size_t>& pairs, int round) {
+  // Both are free choices; 2 to the power of kLargestDepth must be an int.
   constexpr int kFirstRound = 3, kLargestDepth = 20;
   if (pairs.empty() || round < kFirstRound) return pairs;
   double square = 0;

@@ -1,8 +1,9 @@
 // Copies the arrays of all frames of a run into one HDF5 file, particles.h5 (write_hdf5() in
-// particles_pages.hpp). Numbers are in the units of the case and are copied without conversion. A
-// failure is an Error(kBadInput). A change must keep the names of groups and data sets, which
-// users' scripts read, and that checked() checks each call of the C library whose failure can lose
-// data. Used by run/particles_stage.cpp.
+// particles_pages.hpp). Numbers are in the units of the case and are copied without conversion;
+// io/vtk.hpp has the arrays. A failure is an Error(kBadInput); in a program without libhdf5 each
+// call is an Error(kWrongUsage). A change must keep the names of groups and data sets, which users'
+// scripts read, and that checked() checks each call of the C library whose failure can lose data.
+// Used by run/particles_stage.cpp.
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/run/particles_pages.hpp"
 

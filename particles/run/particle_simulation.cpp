@@ -1,7 +1,8 @@
 // Chooses the simulation for a setting, starts the fluid solver if there is a fluid, and passes
-// calls on (particle_simulation.hpp). Numbers are in the units of the case. Errors of solver and
-// simulation are thrown. A change must keep that no solver is started without a fluid: FreeFEM may
-// not be installed. Used by run/, sweep/ and python/.
+// calls on (particle_simulation.hpp, which has dimensions and shapes). Numbers are in the units of
+// the case. Errors of solver and simulation are thrown, and Error(kWrongUsage) if a caller sets
+// forces on membranes in a fluid. A change must keep that no solver is started without a fluid:
+// FreeFEM may not be installed. Used by run/, sweep/ and python/.
 #include "viscontact/particles/run/particle_simulation.hpp"
 
 #include <utility>

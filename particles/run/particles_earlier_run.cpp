@@ -166,7 +166,7 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
     add_rotation(state.particles);
   }
   check_stops(state, c, restart);
-  if (state.time > c.end_time * (1 - 1e-9))
+  if (state.time > c.end_time * (1 - 1e-9))  // 1e-9 and 1e-6 below are above rounding errors
     throw_bad_input(
         {restart},
         fmt::format("is at time {}, but {} ends at {}, so there is no time left to simulate",

@@ -1,9 +1,11 @@
 // Recognises the files of frames by their names, and files that Viscontact wrote by their
 // provenance; writes the rows of steps.csv, the record of restart.bin as JSON, and run.json
-// (particles_folder.hpp). Numbers of frames count from 0, times are in the unit of the case,
-// computing times in seconds. A file of the user that has the name of a result, and a damaged
-// record, are an Error(kBadInput). A change must keep that only files that Viscontact wrote are
-// removed, and the columns and keys, which users' scripts read. Used by run/.
+// (particles_folder.hpp, which has the dimensions). Numbers of frames count from 0, times are in
+// the unit of the case, computing times in seconds. A file of the user that has the name of a
+// result, a damaged record, an input that a run would overwrite, and a file that cannot be removed
+// are an Error(kBadInput); a missing folder is a std::filesystem::filesystem_error. A change must
+// keep that only files that Viscontact wrote are removed, and the columns and keys, which users'
+// scripts read. Used by run/.
 #include "viscontact/particles/run/particles_folder.hpp"
 
 #include <fmt/format.h>

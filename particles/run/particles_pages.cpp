@@ -1,6 +1,7 @@
 // Reads the frames of a run and draws them (particles_pages.hpp). Numbers are in the units of the
-// case. A frame that is missing or damaged is an Error(kBadInput). A change must keep the memory
-// bounded, however long the run is. Used by app/ and run/.
+// case. A frame that is missing or damaged, a case that has changed, and a file that cannot be
+// written are an Error(kBadInput). A change must keep the memory bounded, however long the run is.
+// Used by app/ and run/.
 #include "viscontact/particles/run/particles_pages.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // Collects the residuals of a time step, which measure how far its solution misses the conditions
 // of contacts and links, and refuses a step with a deep overlap (step_report.hpp). Numbers are in
-// the units of the case file. Throws Error(kNotConverged) from refuse_deep_overlap() only.
-// simulation.cpp, projection/ and fluid/ use it. A change must keep that particles with masses and
-// particles in a fluid are measured in the same way.
+// the units of the case file (step_report.hpp has the dimensions). Throws Error(kNotConverged) from
+// refuse_deep_overlap() only. simulation.cpp, projection/, fluid/ and membranes/ use it. A change
+// must keep that particles with masses and particles in a fluid are measured in the same way.
 #include "viscontact/particles/steps/step_report.hpp"
 
 #include <fmt/format.h>
