@@ -35,7 +35,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
   for (;;) {
     std::array<pollfd, 2> files = {pollfd{from_child, POLLIN, 0},
                                    pollfd{to_child.get(), POLLOUT, 0}};
-    // The longest delay until a stop is noticed [ms].
+    // The longest delay until a stop is noticed [ms], which process.hpp promises.
     constexpr int kMilliseconds = 100;
     const int ready = ::poll(files.data(), to_child.get() >= 0 ? 2 : 1, kMilliseconds);
     if (stop.stop_requested() || Clock::now() > deadline) return output;
@@ -47,7 +47,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
       if (input.empty() || (count < 0 && errno != EAGAIN && errno != EINTR)) to_child.close();
     }
     if (files[0].revents != 0) {
-      std::array<char, 1 << 14> buffer{};
+      std::array<char, 1 << 14> buffer{};  // bytes; any size works
       const ssize_t count = ::read(from_child, buffer.data(), buffer.size());
       if (count > 0) output.append(buffer.data(), static_cast<std::size_t>(count));
       if (count == 0) return output;
