@@ -130,7 +130,7 @@ double shift_between_membranes(const particles::Domain& domain, const InnerCurve
     }
     end = std::max(end, to);
   }
-  if (!(widest > 1e-3 * period))
+  if (!(widest > 1e-3 * period))  // a free choice
     throw Error(ErrorKind::kNotConverged,
                 "no straight line across the periodic domain passes between the membranes and "
                 "particles, at which the mesh could end; use a longer domain");
