@@ -1,6 +1,7 @@
 // The program viscontact: reads the command line and runs the command that it names
 // (commands/commands.hpp). Every Error is caught in main(), which prints its message and returns
 // its exit code (results/exit_code.hpp); so are all other exceptions, and a change must keep this.
+// Too little memory has the exit code of kNotConverged, any other exception that of kBadInput.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>

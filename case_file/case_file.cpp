@@ -1,8 +1,9 @@
 // Reads the case file of one sphere (case_file.hpp), for app/, pipeline/, sweep/, report/, results/
-// and python/. Numbers are in the units of the case. A wrong value is an Error(kBadInput) with its
-// line. A change must keep the keys and their defaults, because users have written cases with them.
-// A new key must be added to docs/case-file.md. A new parameter of a model needs no change here,
-// because reduced_model/models/ lists the parameters.
+// and python/. Numbers are in the units of the case; case_file.hpp has their dimensions and ranges.
+// A wrong value is an Error(kBadInput) with its line, a file or section that is missing one without
+// a line. A change must keep the keys and their defaults, because users have written cases with
+// them. A new key must be added to docs/case-file.md. A new parameter of a model needs no change
+// here, because reduced_model/models/ lists the parameters.
 #include "viscontact/case_file/case_file.hpp"
 
 #include <cmath>

@@ -1,7 +1,9 @@
 // Reads the sections [fluid], [sphere] and [tabulation] (gaps, velocities, geometry, container) of
-// one sphere or a rolling one (shared_sections.hpp), for case_file.cpp and rolling/. Lengths are in
-// the unit of the case. A wrong value is an Error(kBadInput) with its line. A change must keep the
-// gaps of a grid bit for bit, because finished rows and tables are found again by their gaps.
+// one sphere or a rolling one (shared_sections.hpp), for case_file.cpp and rolling/. Numbers are in
+// the units of the case; shared_sections.hpp has their dimensions and ranges. A wrong value is an
+// Error(kBadInput) with its line. A change must keep the gaps of a grid bit for bit, because
+// finished rows and tables are found again by their gaps. docs/case-file.md repeats kSmallestGap
+// and kLargestLength.
 #include "viscontact/case_file/shared_sections.hpp"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
-// Dissipation of the fluid without particles (dissipation_alone.hpp) in closed form, for linear
-// flows and plane Couette flow. Units are those of the arguments; nothing is thrown. A change must
-// keep that the result is exactly 0 if no closed form is known: callers take 0 for "not known".
+// Dissipation of the fluid without particles (dissipation_alone.hpp, which has its dimension) in
+// closed form, for linear flows and plane Couette flow. process/flow_process.cpp and
+// membranes/membrane_process.cpp use it. Units are those of the arguments; nothing is thrown. A
+// change must keep that the result is exactly 0 if no closed form is known: callers take 0 for "not
+// known".
 #include "viscontact/freefem_flow/dissipation_alone.hpp"
 
 namespace viscontact::freefem_flow {

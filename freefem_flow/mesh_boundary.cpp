@@ -1,7 +1,9 @@
 // Puts the boundary of a mesh together from walls, periodic sides, the axis of a cylinder and the
-// surfaces of the particles (mesh_boundary.hpp). Lengths are in the unit of the arguments. A gap
-// that is too narrow is an Error(kNotConverged). A change must keep that opposite periodic sides
-// get the same points, because scripts/constraints.idp identifies these.
+// surfaces of the particles (mesh_boundary.hpp), for freefem_solver.cpp. Lengths are in the unit of
+// the arguments. A gap that is too narrow, or discs of one body that overlap across a periodic
+// side, are an Error(kNotConverged), and a missing domain is a std::bad_variant_access. A change
+// must keep that opposite periodic sides get the same points, because scripts/constraints.idp
+// identifies these, and the labels, which scripts/ and docs/fluid-solver.md repeat.
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 
 #include <fmt/format.h>

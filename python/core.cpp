@@ -1,7 +1,7 @@
 // The library viscontact._core of the Python module: errors of the program as exceptions of Python,
 // Ctrl-C, and the version. The other sources of this folder add classes and functions (call.hpp).
-// python/viscontact/ imports it. A change must keep the names of the exceptions, which users'
-// scripts catch.
+// python/viscontact/ imports it. If Python itself fails, py::error_already_set is thrown. A change
+// must keep the names of the exceptions, which users' scripts catch.
 #include <csignal>
 #include <exception>
 

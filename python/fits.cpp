@@ -1,8 +1,10 @@
 // Tables of the lubrication force and their fits in Python: Fit, PairFit, tabulate, fit, fit_pair.
-// Numbers are in the units of the table. The values are those of the libraries, bit for bit. Errors
-// are those of the functions that are called; a wrong argument is an Error(kWrongUsage). core.cpp
-// adds them to the module. A change must keep the names and arguments, which users' scripts
-// contain; docs/python.md describes them.
+// Numbers are in the units of the table; the texts for users below have their dimensions. The
+// values are those of the libraries, bit for bit. Errors are those of the functions that are
+// called; a wrong argument is an Error(kWrongUsage). core.cpp adds them to the module. A change
+// must keep the names and arguments, which users' scripts contain; docs/python.md describes them.
+// `dimensions` must have the order of motions::pair_entries(), and the texts that recognise files
+// must be those of app/commands/fit_command.cpp.
 #include <fmt/format.h>
 
 #include <memory>

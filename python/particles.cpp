@@ -1,9 +1,10 @@
 // Many particles in Python: the class Particles, whose caller makes the steps and sets forces
 // between them. core.cpp adds it to the module, and python/viscontact/particles.py derives the
 // class of users from it. Arrays are views of the state of the simulation, without copies. Numbers
-// are in the units of the case; errors are those of particles/run/particle_simulation.hpp. A change
-// must keep that views stay valid: no step may move an array of the state to another place in
-// memory.
+// are in the units of the case; the texts for users below have their dimensions. A wrong argument
+// is an Error(kWrongUsage), a wrong case an Error(kBadInput); other errors are those of
+// particles/run/particle_simulation.hpp. A change must keep that views stay valid: no step may move
+// an array of the state to another place in memory.
 #include <fmt/format.h>
 
 #include <limits>

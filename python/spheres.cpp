@@ -1,8 +1,9 @@
 // Motions of single spheres in Python: simulate, rolling, swimmer. Each takes a case and a table or
 // fit that was made before, and returns arrays. No file is written. Numbers are in the units of the
-// case. Errors are those of the models, with their names; a wrong argument is an
-// Error(kWrongUsage). core.cpp adds them to the module. A change must keep the names of functions,
-// arguments and columns, which users' scripts contain; docs/python.md describes them.
+// case; the texts for users below have dimensions and shapes. Errors are those of the models, with
+// their names; a wrong argument is an Error(kWrongUsage), a wrong file an Error(kBadInput).
+// core.cpp adds them to the module. A change must keep the names of functions, arguments and
+// columns, which users' scripts contain; docs/python.md describes them.
 #include <fmt/format.h>
 
 #include <limits>
@@ -335,7 +336,7 @@ forces                  (R, S) of each sphere on the fluid [M L/T^2]
 Its `about` has period [T], displacement [L], energy, energy_at_constant_power [M L^2/T^2],
 efficiency, and displacement_error_estimate, energy_error_estimate. No file is written.)",
              py::arg("case"), py::arg("table") = py::none(), py::kw_only(),
-             py::arg("intervals") = 400);
+             py::arg("intervals") = 400);  // as the command `swimmer`
 }
 
 }  // namespace viscontact::python

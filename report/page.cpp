@@ -1,8 +1,11 @@
 // Draws plots by gnuplot and writes the page around them (page.hpp). Sizes are in pixels; numbers
 // of plots have no units here. A missing gnuplot is a warning, a failing one an
-// Error(kExternalProgram). Used by report/, rolling/, swimmer/ and particles/. The keys of the JSON
-// and the names of PointKind must agree with the scripts in report/page. Texts of users may contain
-// markup and must pass through escaped().
+// Error(kExternalProgram), a file that cannot be written or must not be replaced an
+// Error(kBadInput), a wrong SOURCE_DATE_EPOCH an Error(kWrongUsage), a requested stop an
+// Error(kInterrupted), and a path that the system refuses a std::filesystem::filesystem_error. Used
+// by report/, rolling/, swimmer/ and particles/. The keys of the JSON and the names of PointKind
+// must agree with the scripts in report/page. Texts of users may contain markup and must pass
+// through escaped().
 #include "viscontact/report/page.hpp"
 
 #include <fmt/format.h>

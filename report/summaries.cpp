@@ -1,6 +1,7 @@
 // Writes the columns and words of the summaries, and draws their pictures (summaries.hpp). Gaps,
 // times and velocities are in the units of the case, pictures in pixels. A missing or failing
-// gnuplot is an Error(kExternalProgram). Used by pipeline/. A change must keep the JSON's keys.
+// gnuplot is an Error(kExternalProgram), a requested stop an Error(kInterrupted), and a fit without
+// diagnostics a std::bad_optional_access. Used by pipeline/. A change must keep the JSON's keys.
 #include "viscontact/report/summaries.hpp"
 
 #include <fmt/format.h>
@@ -130,7 +131,7 @@ std::string plot_bases(const lubrication::MotionTable& table,
     if (const auto& row = table.rows[i]; row.relative_error_estimate > 0)
       estimate.points.emplace_back(row.gap, row.relative_error_estimate);
   if (!estimate.points.empty()) panel.curves.push_back(estimate);
-  return draw_picture(format, {panel}, 860, 520, stop);
+  return draw_picture(format, {panel}, 860, 520, stop);  // [pixels], free choices
 }
 
 std::string comparison_table(const reduced_model::Comparison& comparison) {

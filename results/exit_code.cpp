@@ -1,7 +1,7 @@
 // The table of exit codes, with a row for success and one for each kind of error (exit_code.hpp).
 // main.cpp and app/help/ use it, and failed_models.cpp stores the codes. kind_of_exit_code() throws
 // std::out_of_range for a code of no error. The codes must not change, because scripts of users
-// rely on them.
+// rely on them; docs/command-line.md repeats the table.
 #include "viscontact/results/exit_code.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Recognises files of Viscontact by their provenance, the record of how a file was made
 // (provenance.hpp), in their first MiB or, in a PDF, in their last one, for all commands that write
-// files. A file that must not be replaced is an Error(kBadInput). A change must still recognise
-// files of earlier versions.
+// files and for python/. A file that must not be replaced or cannot be read is an Error(kBadInput).
+// A change must still recognise files of earlier versions.
 #include "viscontact/results/foreign_files.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,10 @@
 // Writes the line of provenance (how a file was made, as JSON) into each kind of file, and finds
 // and reads it again (provenance.hpp), for all parts that write results and for `rerun`. A damaged
-// line is an Error(kBadInput). The beginning of its JSON (kBegin) must not change, because earlier
-// files are recognised by it.
+// line, or a file that cannot be read or written, is an Error(kBadInput), a wrong SOURCE_DATE_EPOCH
+// an Error(kWrongUsage), a path that the system refuses a std::filesystem::filesystem_error, and an
+// HTML page, PDF or PNG without its marks a std::out_of_range. The beginning of its JSON (kBegin)
+// must not change, because earlier files are recognised by it; foreign_files.cpp repeats kName and
+// the key in kBegin.
 #include "viscontact/results/provenance.hpp"
 
 #include <ceres/version.h>

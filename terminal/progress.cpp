@@ -1,7 +1,7 @@
 // Writes the progress line and coloured messages to standard error, with ANSI escape sequences
-// (progress.hpp), for all commands. Times are in seconds. No failure is reported: a message that
-// cannot be written is lost. A change must keep that a file, or a terminal with TERM=dumb, gets no
-// escape sequences.
+// (progress.hpp), for all commands: app/, motions/, particles/, pipeline/, report/, rolling/ and
+// swimmer/ call it. Times are in seconds. No failure is reported: a message that cannot be written
+// is lost. A change must keep that a file, or a terminal with TERM=dumb, gets no escape sequences.
 #include "viscontact/terminal/progress.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ void show_progress(const std::string& text) {
 }
 
 bool ProgressLines::is_due(Clock::time_point now) {
-  constexpr auto kBetween = std::chrono::minutes(1);
+  constexpr auto kBetween = std::chrono::minutes(1);  // progress.hpp promises it; a free choice
   const std::scoped_lock lock(mutex_);
   if (!last_) last_ = now;
   if (now - *last_ < kBetween) return false;
@@ -46,7 +46,7 @@ bool ProgressLines::is_due(Clock::time_point now) {
 }
 
 bool ProgressTimer::is_due() {
-  constexpr auto kBetween = std::chrono::milliseconds(100);
+  constexpr auto kBetween = std::chrono::milliseconds(100);  // likewise
   const auto now = std::chrono::steady_clock::now();
   if (now - last_ < kBetween) return false;
   last_ = now;

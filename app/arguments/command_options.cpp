@@ -1,9 +1,11 @@
-// Options that several commands of app/ share, and checks of what a command line names; the
-// comments of the functions are in command_options.hpp. A wrong option is an Error(kWrongUsage).
-// The list `options` in with_files_apart() must contain every option for which a command calls
-// CLI11's expected(0, 1), which allows an option without its value. The names of the options of
-// array jobs (jobs of many tasks on a Slurm cluster) must stay, because submitted scripts contain
-// them.
+// Options that several commands of app/ share, and checks of what a command line names; main.cpp,
+// commands/ and help/ use them. command_options.hpp has the comments of the functions, with ranges
+// and units. A wrong option is an Error(kWrongUsage) or, if CLI11 checks it, a CLI::ParseError; a
+// file that --plot must not replace is an Error(kBadInput), and a path that cannot be resolved a
+// std::filesystem::filesystem_error. The list `options` in with_files_apart() must contain every
+// option for which a command calls CLI11's expected(0, 1), which allows an option without its
+// value. The names of the options of array jobs (jobs of many tasks on a Slurm cluster) must stay,
+// because submitted scripts contain them.
 #include "viscontact/app/arguments/command_options.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 // run_particles() (particles/run/particles_stage.hpp), run_rolling()
 // (rolling/job/rolling_stage.hpp) and run_swimmer() (swimmer/job/swimmer_stage.hpp), which do the
 // work, and Error(kWrongUsage) for an empty output name. A change must keep the names of the
-// options.
+// options; the names of the commands are also in the list kWriting of rerun_command.cpp.
 #include <memory>
 #include <string>
 

@@ -2,7 +2,8 @@
 // install missing ones, and compares a drag factor (drag divided by Stokes' drag in unbounded
 // fluid) that FreeFEM computes with its exact value. --json prints the same findings; a change must
 // keep its keys `ok` and `what`. A failure of FreeFEM is a finding and no error. If one finding is
-// bad, main.cpp returns the exit code of kExternalProgram. Throws Error(kInterrupted) after Ctrl-C.
+// bad, main.cpp returns the exit code of kExternalProgram. Throws Error(kInterrupted) after Ctrl-C,
+// and std::system_error without free sockets for a child process.
 #include <fmt/format.h>
 #include <unistd.h>
 

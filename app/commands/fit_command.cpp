@@ -2,8 +2,11 @@
 // terms), `shift` (fits the depth below the crests of a rough wall at which a smooth wall has equal
 // drag) and `export` (writes a fit as code or numbers), which main.cpp adds. docs/command-line.md
 // describes them, docs/theory.md the fit. Numbers are in the units of the table; a wrong option is
-// an Error(kWrongUsage). refuse_other_kind() recognises a kind of file by a text that is given
-// here; a change must keep that the writer of the kind writes this text.
+// an Error(kWrongUsage), a file that must not be replaced an Error(kBadInput). Other errors are
+// those of command_options.hpp and of the functions in pipeline/, motions/, lubrication/ and
+// fitting/ that do the work; that of gnuplot, Error(kExternalProgram), is thrown after the fit is
+// written. refuse_other_kind() recognises a kind of file by a text that is given here, and in
+// python/fits.cpp again; a change must keep that the writer of the kind writes this text.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,7 +1,8 @@
 // The command `init`, which main.cpp adds: writes a commented case and prints the command that runs
 // it. The keys and defaults come from the declarations in case_file/case_file.cpp. Throws
-// Error(kBadInput) if the file exists. A change must keep that `viscontact run` accepts the case as
-// it is written.
+// Error(kBadInput) if the file exists or cannot be written, Error(kWrongUsage) for an empty name,
+// and std::filesystem::filesystem_error for a path that the system refuses. A change must keep that
+// `viscontact run` accepts the case as it is written.
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -1,9 +1,12 @@
 // The command `rerun`, which main.cpp adds. Every output of Viscontact contains its provenance
 // (results/provenance.hpp): the command that made it, the folder of this command, and its inputs
 // with their hashes. `rerun` starts this command again. A provenance that is missing, or that names
-// a command which is not allowed, is an Error(kBadInput). Anybody may have written the file, so
-// check_command() decides which commands and options are run; a change must keep this check before
-// execv.
+// a command which is not allowed, inputs that have changed and a missing folder are an
+// Error(kBadInput); an --output that the command cannot write is an Error(kWrongUsage), a failing
+// execv an Error(kExternalProgram), and a path that the system refuses a
+// std::filesystem::filesystem_error. Anybody may have written the file, so check_command() decides
+// which commands and options are run; a change must keep this check before execv. A new command
+// that writes files must be added to kWriting.
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -1,8 +1,10 @@
 // The command line of `tabulate` (docs/command-line.md), which main.cpp adds, and the choice of
 // what to do: compute all rows here, compute the rows of one task, submit a job to Slurm, or gather
 // the rows of such a job. pipeline/tabulate/ does the work. Gaps are in the unit of the case. A
-// wrong option is an Error(kWrongUsage). A change must keep the names of the tables, which users'
-// scripts read.
+// wrong option is an Error(kWrongUsage), a wrong case or a file that must not be replaced an
+// Error(kBadInput); the error of rows that failed is thrown when all else is done. Other errors are
+// those of pipeline/tabulate/. A change must keep the names of the tables, which users' scripts
+// read.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Reads and writes files with POSIX calls (file.hpp), for all parts with files. A failed call
-// becomes an Error(kBadInput) with the path. A change must keep the order write, fsync, rename,
-// fsync of the folder, because only in this order does a power cut leave either the old or the new
-// file.
+// becomes an Error(kBadInput) with the path; write_file_by() also throws what its argument throws.
+// A change must keep the order write, fsync, rename, fsync of the folder, because only in this
+// order does a power cut leave either the old or the new file.
 #include "viscontact/common/files/file.hpp"
 
 #include <fcntl.h>
@@ -122,7 +122,7 @@ std::string read_file(const std::filesystem::path& path) {
   if (::fstat(file.get(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)))
     throw_bad_input({path.string()}, "cannot be read (a device, not a file)");
   std::string content;
-  std::array<char, 1 << 16> buffer{};
+  std::array<char, 1 << 16> buffer{};  // bytes; any size works
   for (;;) {
     const ssize_t count = ::read(file.get(), buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;

@@ -1,9 +1,10 @@
 // Exchanges messages with a child process by poll on its three streams at once (child_process.hpp),
-// for the fluid solvers of freefem_flow/. Throws Error(kExternalProgram) for a program that cannot
-// be run, Error(kInterrupted) if a stop is requested while a word or line is awaited, and
-// std::system_error without free sockets. A child that fails later is no error: Reading::state says
-// what happened. A change must keep that at most one buffer is received ahead of what is read, so
-// that a child that writes without end takes no memory.
+// for the fluid solvers of freefem_flow/. Times are in milliseconds, memory is in units of 1024
+// bytes. Throws Error(kExternalProgram) for a program that cannot be run, Error(kInterrupted) if a
+// stop is requested while a word or line is awaited, and std::system_error without free sockets. A
+// child that fails later is no error: Reading::state says what happened. A change must keep that at
+// most one buffer is received ahead of what is read, so that a child that writes without end takes
+// no memory.
 #include "viscontact/common/system/child_process.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ namespace {
 
 constexpr std::string_view kWhiteSpace = " \t\r\n\v\f";
 
-// The longest delay until a stop is noticed [ms].
+// The longest delay until a stop is noticed [ms], which child_process.hpp promises.
 constexpr int kLongestWait = 100;
 
 constexpr std::size_t kBufferSize = 1 << 16;  // bytes; any size from some kB on works
@@ -215,7 +216,7 @@ std::string ChildProcess::finish(std::chrono::milliseconds grace) {
     last_lines_.add(LastLines::kOutput, std::string_view(output_).substr(at_));
     at_ = word_start_ = output_.size();
   };
-  constexpr int kPause = 10;  // milliseconds between two checks
+  constexpr int kPause = 10;  // milliseconds between two checks; any short time works
   bool ended = has_ended();
   while (!ended && Clock::now() < deadline && !stop_.stop_requested()) {
     if (sent_ == to_send_.size()) child_.to_child.close();
@@ -224,7 +225,7 @@ std::string ChildProcess::finish(std::chrono::milliseconds grace) {
   }
   // What the child wrote before its end is in the sockets. Processes that the child has started may
   // write for ever; therefore the number of buffers that are read is limited.
-  constexpr int kLargest = 64;  // buffers, 4 MB
+  constexpr int kLargest = 64;  // buffers, 4 MB; any number works that empties the sockets
   for (int i = 0; i < kLargest && (child_.from_child.get() >= 0 || child_.errors_of_it.get() >= 0);
        ++i)
     collect(0);

@@ -1,9 +1,9 @@
 // Runs a child process to its end (process.hpp), such as FreeFEM, gnuplot or sbatch for app/,
 // freefem/, freefem_axi/, pipeline/ and report/: sends its input while it collects its output.
-// Times are in milliseconds. A program that cannot be run is no exception: the result says so (exit
-// status 127, as in a shell). A requested stop throws Error(kInterrupted), and a system without
-// free sockets std::system_error. A change must keep that a child that neither reads nor writes nor
-// ends is killed at its time limit or at a stop.
+// Times are in milliseconds, memory is in units of 1024 bytes. A program that cannot be run is no
+// exception: the result says so (exit status 127, as in a shell). A requested stop throws
+// Error(kInterrupted), and a system without free sockets std::system_error. A change must keep that
+// a child that neither reads nor writes nor ends is killed at its time limit or at a stop.
 #include "viscontact/common/system/process.hpp"
 
 #include <poll.h>
@@ -35,7 +35,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
   for (;;) {
     std::array<pollfd, 2> files = {pollfd{from_child, POLLIN, 0},
                                    pollfd{to_child.get(), POLLOUT, 0}};
-    // The longest delay until a stop is noticed [ms].
+    // The longest delay until a stop is noticed [ms], which process.hpp promises.
     constexpr int kMilliseconds = 100;
     const int ready = ::poll(files.data(), to_child.get() >= 0 ? 2 : 1, kMilliseconds);
     if (stop.stop_requested() || Clock::now() > deadline) return output;
@@ -47,7 +47,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
       if (input.empty() || (count < 0 && errno != EAGAIN && errno != EINTR)) to_child.close();
     }
     if (files[0].revents != 0) {
-      std::array<char, 1 << 14> buffer{};
+      std::array<char, 1 << 14> buffer{};  // bytes; any size works
       const ssize_t count = ::read(from_child, buffer.data(), buffer.size());
       if (count > 0) output.append(buffer.data(), static_cast<std::size_t>(count));
       if (count == 0) return output;

@@ -1,6 +1,7 @@
 // Writes flows as VTK files for freefem_axi/ and particles/, and reads them for particles/picture/
-// (flow_vtk.hpp). A file that is cut short is an Error(kBadInput). A change must keep the names of
-// the arrays, because the reader and users' pictures refer to them.
+// (flow_vtk.hpp, which has the dimensions). A file that cannot be read, is no such file or is cut
+// short is an Error(kBadInput); writing throws nothing. A change must keep the names of the arrays,
+// because the reader and users' pictures refer to them.
 #include "viscontact/common/vtk/flow_vtk.hpp"
 
 #include <algorithm>

@@ -1,7 +1,10 @@
 // The lengths of edges of the mesh (edge_lengths.hpp), from distances to particles and walls.
-// Lengths are in the unit of the arguments. Only check_edge_length() throws, and, without a domain,
-// size_of(). The constants are chosen by the table of errors in bench/README.md ("Particles in a
-// fluid"), which must be measured again after a change, because it changes all meshes.
+// mesh_boundary.cpp, freefem_solver.cpp and membranes/ use them. Lengths are in the unit of the
+// arguments; edge_lengths.hpp has the ranges. check_edge_length() throws Error(kNotConverged);
+// without a domain, size_of() and the constructor throw std::bad_variant_access. The constants are
+// chosen by the table of errors in bench/README.md ("Particles in a fluid"), which must be measured
+// again after a change, because it changes all meshes; 24 is the default of
+// fluid.edges_per_particle.
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 
 #include <fmt/format.h>
@@ -46,7 +49,7 @@ double size_of(const particles::Domain& domain) {
 }
 
 void check_edge_length(double edge, double length) {
-  constexpr double kShortest = 1e-7;
+  constexpr double kShortest = 1e-7;      // FreeFEM takes nearer points for one
   if (edge > kShortest * length) return;  // false for NaN
   throw Error(
       ErrorKind::kNotConverged,

@@ -1,7 +1,10 @@
 // Puts the boundary of a mesh together from walls, periodic sides, rigid discs and membranes
-// (membrane_boundary.hpp). Lengths have the unit of the arguments. Curves that leave the domain or
-// meet are an Error(kNotConverged). A change must keep that opposite periodic sides get the same
-// points, because scripts/constraints.idp identifies these.
+// (membrane_boundary.hpp), for membrane_process.cpp. Lengths have the unit of the arguments. A
+// membrane or disc that leaves the domain, a membrane that meets a disc, a period that no straight
+// line crosses between them, and an edge that is too short are an Error(kNotConverged); a domain
+// that is neither a disc nor a box is a std::bad_variant_access. A change must keep that opposite
+// periodic sides get the same points, because scripts/constraints.idp identifies these, and the
+// labels, which scripts/membranes.edp repeats.
 #include "viscontact/freefem_flow/membranes/membrane_boundary.hpp"
 
 #include <fmt/format.h>
@@ -127,7 +130,7 @@ double shift_between_membranes(const particles::Domain& domain, const InnerCurve
     }
     end = std::max(end, to);
   }
-  if (!(widest > 1e-3 * period))
+  if (!(widest > 1e-3 * period))  // a free choice
     throw Error(ErrorKind::kNotConverged,
                 "no straight line across the periodic domain passes between the membranes and "
                 "particles, at which the mesh could end; use a longer domain");
@@ -139,7 +142,7 @@ MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurve
   const auto wanted_at = [&](const Point& x) { return edges.at(x); };
   MeshBoundary boundary;
   if (const auto* disc = std::get_if<DiscDomain>(&domain)) {
-    constexpr std::size_t kLeastOnWall = 24;
+    constexpr std::size_t kLeastOnWall = 24;  // edges; the polygon is then nearly a circle
     const particles::Outline wall{{disc->centre[0], disc->centre[1]}, disc->radius};
     boundary.add(cut_outline(wall, kLeastOnWall, [&](double t) { return wanted_at(wall.at(t)); }),
                  1);
@@ -160,7 +163,7 @@ MeshBoundary membrane_boundary(const particles::Domain& domain, const InnerCurve
     boundary.add(left, box.periodic[0] ? kPeriodicLabel : 1);
   }
   for (std::size_t k = 0; k < curves.discs.size(); ++k) {
-    constexpr std::size_t kLeastOnCircle = 6;
+    constexpr std::size_t kLeastOnCircle = 6;  // edges; as few as a case may ask for
     const auto& disc = curves.discs[k];
     auto points = cut_outline(disc, kLeastOnCircle,
                               [&](double t) { return edges.on_disc(domain, k, disc.at(t)); });

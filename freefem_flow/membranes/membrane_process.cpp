@@ -1,6 +1,8 @@
-// The dialogue with scripts/membranes.edp (membrane_process.hpp). Numbers have the units of the
-// arguments. A solver that fails is an Error(kExternalProgram), a place outside the domain an
-// Error(kNotConverged). A change must agree with what the script reads and writes.
+// The dialogue with scripts/membranes.edp (membrane_process.hpp), which freefem_solver.cpp starts.
+// Numbers have the units of the arguments. A solver that fails is an Error(kExternalProgram), a
+// place outside the domain or a number that is not finite an Error(kNotConverged), too many
+// membranes or a wrong domain an Error(kBadInput), and a requested stop an Error(kInterrupted). A
+// change must agree with what the script reads and writes.
 #include "viscontact/freefem_flow/membranes/membrane_process.hpp"
 
 #include <fmt/format.h>
@@ -229,7 +231,7 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
   if (unknowns_ > command_.most_unknowns_reproduced) start();
   solver_->ask("place", text);
   solver_->expect("placed", command_.remarks_on_meshes);
-  constexpr std::int64_t kMost = std::int64_t{1} << 53;
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;  // doubles hold whole numbers up to it
   unknowns_ = static_cast<std::size_t>(solver_->whole_number(kMost));
 }
 

@@ -1,6 +1,10 @@
 // Writes the requests to a fluid solver and reads the answers (docs/fluid-solver.md, with which a
-// change must agree). Units are those of the arguments; a wrong answer is an
-// Error(kExternalProgram). A change must keep that numbers read back to the same double.
+// change must agree), for freefem_solver.cpp and membranes/. Units are those of the arguments;
+// flow_process.hpp and particles/fluid/fluid_solver.hpp have the dimensions. A wrong answer is an
+// Error(kExternalProgram), a number for the solver that is not finite an Error(kNotConverged), a
+// wrong domain or a file of the flow that cannot be read or written an Error(kBadInput), a missing
+// temporary folder an Error(kWrongUsage), and a requested stop an Error(kInterrupted). A change
+// must keep that numbers read back to the same double.
 #include "viscontact/freefem_flow/process/flow_process.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,9 @@
-// Writes the first text that a fluid solver gets (opening.hpp). Units are those of the arguments; a
-// wrong domain is an Error(kBadInput). A change must agree with docs/fluid-solver.md and with
-// scripts/opening.idp, and numbers must read back to the same double.
+// Writes the first text that a fluid solver gets (opening.hpp), for flow_process.cpp and
+// membranes/membrane_process.cpp. Units are those of the arguments; opening.hpp,
+// particles/fluid.hpp and particles/domain/domain.hpp have the dimensions. A wrong domain is an
+// Error(kBadInput). A change must agree with docs/fluid-solver.md and with scripts/opening.idp;
+// numbers must read back to the same double, and the labels 1 to 4 of a box must be in the order of
+// particles::SideVelocities.
 #include "viscontact/freefem_flow/process/opening.hpp"
 
 #include <fmt/format.h>

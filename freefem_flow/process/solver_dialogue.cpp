@@ -1,7 +1,9 @@
 // Asks a fluid solver and checks its answers, and writes numbers and boundaries for it
-// (solver_dialogue.hpp). Numbers have the units of the caller. Each fault of the solver is an
-// Error(kExternalProgram). A change must keep that a solver that does not answer is killed at its
-// time limit, and the messages that docs/troubleshooting.md quotes.
+// (solver_dialogue.hpp); flow_process.cpp and membranes/membrane_process.cpp use it. Numbers have
+// the units of the caller. Each fault of the solver is an Error(kExternalProgram), a number for it
+// that is not finite an Error(kNotConverged), a requested stop an Error(kInterrupted), and a system
+// without free sockets a std::system_error. A change must keep that a solver that does not answer
+// is killed at its time limit, and the messages that docs/troubleshooting.md quotes.
 #include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +42,7 @@ std::string shortened(std::string_view text, std::size_t longest) {
 /// A word of the solver for a message. A byte that is no printable ASCII character becomes a
 /// question mark, because it could end the message or disturb a terminal.
 std::string in_quotes(std::string_view word) {
-  auto text = shortened(word, 40);
+  auto text = shortened(word, 40);  // bytes; a free choice
   for (char& c : text)
     if (c < ' ' || c > '~') c = '?';
   return "'" + text + "'";
@@ -103,7 +105,7 @@ std::string_view SolverDialogue::next_word() {
 
 void SolverDialogue::expect(std::string_view word, bool skip_lines) {
   awaited_ = in_quotes(word);
-  constexpr int kMostLines = 1000;
+  constexpr int kMostLines = 1000;  // docs/fluid-solver.md promises it
   for (int i = 0; i < kMostLines; ++i) {
     if (next_word() == word) return;
     if (!skip_lines) refuse(in_quotes(word));
@@ -190,7 +192,7 @@ void SolverDialogue::fail(const std::string& reason, std::chrono::milliseconds g
   const std::string asked = asked_in_words();
   const std::string end = process_->finish(grace);
   std::vector<std::string> lines;
-  constexpr std::size_t kLongestLine = 200;
+  constexpr std::size_t kLongestLine = 200;  // bytes; a free choice
   for (const auto& line : process_->last_lines()) lines.push_back(shortened(line, kLongestLine));
   process_.reset();
   throw Error(

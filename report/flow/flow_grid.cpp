@@ -1,8 +1,9 @@
-// Interpolates a flow at the points of a grid (flow_grid.hpp), in the units of the case. Which
-// triangle contains a point is decided as if its six nodes formed four straight triangles; the
-// value at the point then is that of the quadratic shape functions. A point without a triangle gets
-// NaN. Used by flow_plots.cpp and particles/picture. A change must keep the numbering of nodes:
-// corners, then the middles of sides 01, 12 and 20.
+// Interpolates a flow at the points of a grid (flow_grid.hpp, which has the dimensions), in the
+// units of the case. Which triangle contains a point is decided as if its six nodes formed four
+// straight triangles; the value at the point then is that of the quadratic shape functions. A point
+// without a triangle gets NaN. Nothing is thrown. Used by flow_plots.cpp, stream_lines.cpp and
+// particles/picture. A change must keep the numbering of nodes: corners, then the middles of sides
+// 01, 12 and 20.
 #include "viscontact/report/flow/flow_grid.hpp"
 
 #include <algorithm>

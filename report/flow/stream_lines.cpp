@@ -1,8 +1,8 @@
 // Solves for the stream function on a grid, follows its level lines, and simplifies them
-// (stream_lines.hpp), in the units of the case. Pairs of points that are not both in the fluid have
-// a small weight in the least squares, so that the matrix is never singular and the fluid may
-// consist of several regions. Nothing is thrown. flow_plots.cpp and particles/picture draw the
-// lines. A change must keep the equal steps of psi between lines.
+// (stream_lines.hpp, which has the dimensions), in the units of the case. Pairs of points that are
+// not both in the fluid have a small weight in the least squares, so that the matrix is never
+// singular and the fluid may consist of several regions. Nothing is thrown. flow_plots.cpp and
+// particles/picture draw the lines. A change must keep the equal steps of psi between lines.
 #include "viscontact/report/flow/stream_lines.hpp"
 
 #include <Eigen/SparseCholesky>
@@ -134,7 +134,7 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
         break;
       }
   // The parts before and after the arrow are simplified separately, so that it stays at a point.
-  const double tolerance = 0.1 * std::min(grid.step_x(), grid.step_y());
+  const double tolerance = 0.1 * std::min(grid.step_x(), grid.step_y());  // [L]; a free choice
   const auto middle = line.begin() + static_cast<std::ptrdiff_t>(arrow);
   result.points = simplified({line.begin(), middle + 1}, tolerance);
   if (arrow > 0) result.arrow = static_cast<int>(result.points.size()) - 1;

@@ -1,6 +1,8 @@
-// Writes gnuplot's commands and data, runs gnuplot and reads its SVG. A gnuplot that is missing,
-// fails or hangs is an Error(kExternalProgram); sizes are in pixels. Texts of the user must pass
-// through quoted_for_gnuplot, because gnuplot can run commands of the shell.
+// Writes gnuplot's commands and data, runs gnuplot and reads its picture (gnuplot.hpp), for report/
+// and swimmer/. A gnuplot that is missing, fails or hangs is an Error(kExternalProgram), a
+// requested stop an Error(kInterrupted), and a system without free sockets a std::system_error.
+// Sizes are in pixels, those of a PDF in points; values have no units here. Texts of the user must
+// pass through quoted_for_gnuplot, because gnuplot can run commands of the shell.
 #include "viscontact/report/pictures/gnuplot.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +28,8 @@ std::string data_block(const std::string& name, const Curve& curve) {
   return text + "END_OF_CURVE\n";
 }
 
-// The value of a transparent cell, because gnuplot warns of missing values in a matrix.
+// The value of a transparent cell, because gnuplot warns of missing values in a matrix. A cell with
+// this or a larger value is transparent, too.
 constexpr double kTransparent = 1e99;
 
 std::string data_block(const std::string& name, const ColourField& field) {
@@ -52,7 +55,7 @@ std::string plot_of(const std::string& name, const ColourField& field) {
 
 /// The last 300 characters of a program's output.
 std::string last_part(const std::string& output) {
-  constexpr std::size_t kLength = 300;
+  constexpr std::size_t kLength = 300;  // a free choice
   return output.size() <= kLength ? output : output.substr(output.size() - kLength);
 }
 
