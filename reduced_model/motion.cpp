@@ -2,7 +2,7 @@
 // number of their steps, and the times [T] of the rows of their trajectories. motion.hpp has the
 // dimensions and ranges. A missing parameter and too many steps are an Error(kBadInput), a stop an
 // Error(kInterrupted). Used by all models, rolling/ and case_file/. A change of step_count() or
-// row_times() changes trajectories and must raise kModelsRevision.
+// row_times() changes trajectories and must raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/motion.hpp"
 
 #include <fmt/format.h>

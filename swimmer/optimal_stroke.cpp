@@ -1,9 +1,9 @@
 // Newton's method for the stroke of least energy (optimal_stroke.hpp), whose loop in the space of
 // arms has polynomials as coordinates (polynomial_loop.hpp). Numbers are in the units of the fit;
 // energies are those in a period of 1; optimal_stroke.hpp has the dimensions and ranges. Loops that
-// leave the table are an Error(kBadInput), and a failure of Newton's method an
-// Error(kNotConverged), a stop an Error(kInterrupted). Used by swimmer/case, swimmer/job and
-// python/. A change must keep energies to the digits of docs/swimmer.md.
+// leave the table are an Error(kBadInput), a failure of Newton's method an Error(kNotConverged), a
+// stop an Error(kInterrupted). Used by swimmer/case, swimmer/job and python/. A change must keep
+// energies to the digits of docs/swimmer.md.
 #include "viscontact/swimmer/optimal_stroke.hpp"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 // CVODE that gives up and, with roughness, a force with too many periods are an
 // Error(kNotConverged), a gap outside the fit, too many rows and a start within the roughness an
 // Error(kBadInput), a stop an Error(kInterrupted). Used by models.cpp. A change of results must
-// raise kModelsRevision.
+// raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/inertial.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // Numbers are in any consistent units; trajectory.hpp has their dimensions and ranges. A step
 // through the wall is an Error(kNotConverged), a motion outside the fit and too many steps an
 // Error(kBadInput), a stop an Error(kInterrupted). Used by models.cpp. A change of results must
-// raise kModelsRevision.
+// raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/reference.hpp"
 
 #include <fmt/format.h>

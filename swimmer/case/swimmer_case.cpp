@@ -44,6 +44,7 @@ void arm_keys(case_file::Keys& keys, ArmGrid& grid) {
       {"the shortest arm, greater than the sum of both radii, so that the gap is at least "
        "1e-6 of the smaller radius"});
   keys.required("to", case_file::number(grid.to, kPositive), {"the longest arm"});
+  // At least 3, because fit_resistance() needs three values of each gap.
   keys.required("count", case_file::count(grid.count, 3, 200), {"the number of arms between them"});
 }
 

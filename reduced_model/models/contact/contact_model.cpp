@@ -4,7 +4,7 @@
 // are in any consistent units; contact_model.hpp has their dimensions and ranges. Too many steps
 // and a time step without a value are an Error(kBadInput), a stop an Error(kInterrupted); the
 // errors of the drag are thrown, too. Used by models.cpp. A change must keep the balance of the
-// budget to round-off; one of results must raise kModelsRevision.
+// budget to round-off; one of results must raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 #include <algorithm>

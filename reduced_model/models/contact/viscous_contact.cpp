@@ -4,7 +4,7 @@
 // contact_model.hpp have the other dimensions and ranges. A fit without a positive k is an
 // Error(kBadInput); inelastic contact needs none. Used by models.cpp and viscous_contact_exact.cpp.
 // A change must keep the texts of film_law, which heads of trajectories contain; one of results
-// must raise kModelsRevision.
+// must raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 // viscous_contact_exact.hpp. Numbers are in any consistent units; trajectory.hpp and
 // contact_model.hpp have their dimensions and ranges. A fit without a positive coefficient of 1/q
 // and too many rows are an Error(kBadInput), a force with too many periods an Error(kNotConverged),
-// a stop an Error(kInterrupted). Used by models.cpp. A change of results must raise
-// kModelsRevision.
+// a stop an Error(kInterrupted). Used by models.cpp. A change of results must raise kModelsRevision
+// (trajectory.hpp).
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // ranges. A q_c or roughness outside the allowed range, and in a run a gap outside the fit, is an
 // Error(kBadInput), a film too thin for a double an Error(kNotConverged). Used by models.cpp. A
 // change must keep the text of film_law, which heads of trajectories contain; one of results must
-// raise kModelsRevision.
+// raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 
 #include <fmt/format.h>
