@@ -1,8 +1,11 @@
 // Assembles the equations of a fit, F = sum of coefficient * term(q) for each row of a table,
 // solves them by least squares, and sets the members of the fit and its diagnostics. q is the gap,
 // F the force and u the velocity of a row, and r the radius of the sphere, in the units of the
-// table. A table or a choice of terms that cannot be fitted is an Error(kBadInput) or
-// Error(kNotConverged). What a change must keep is in fit_force_table.hpp.
+// table; fit_force_table.hpp and lubrication/fit.hpp have the dimensions and ranges. A table or a
+// choice of terms that cannot be fitted is an Error(kBadInput) or Error(kNotConverged), a stop an
+// Error(kInterrupted). Used by pipeline/, motions/fit/, basis_comparison.cpp, examples/ and
+// python/. A change must keep that units and order of the rows change the fit by rounding only, and
+// the numbers 0.99 and 5 below, which lubrication/fit.hpp repeats.
 #include "viscontact/fitting/fit_force_table.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,9 @@
 // Solves min |A x - b| in three steps: the columns of A are divided by powers of two, Ceres solves
-// the scaled problem, and the solution is refined in extended precision. Numbers have any units.
-// Entries that overflow are an Error(kBadInput), dependent columns an Error(kNotConverged). A
-// change must keep the number of correct digits that tests demand for NIST's reference problems.
+// the scaled problem, and the solution is refined in extended precision. Numbers have any units;
+// least_squares.hpp has the shapes of A and b. Entries that overflow are an Error(kBadInput),
+// dependent columns and a failure of Ceres an Error(kNotConverged). Used by
+// robust_least_squares.cpp. A change must keep the number of correct digits that tests/fitting/
+// demands for NIST's reference problems.
 #include "viscontact/fitting/least_squares.hpp"
 
 #include <ceres/ceres.h>
@@ -92,6 +94,7 @@ double condition_number_of(const Eigen::MatrixXd& matrix) {
       Eigen::JacobiSVD<Eigen::MatrixXd>(matrix * length.cwiseInverse().asDiagonal())
           .singularValues();
   const double smallest = singular(singular.size() - 1);
+  // The usual bound for a numerical rank: number of rows times the machine epsilon.
   if (!(smallest >
         singular(0) * static_cast<double>(matrix.rows()) * std::numeric_limits<double>::epsilon()))
     throw Error(ErrorKind::kNotConverged,

@@ -1,7 +1,9 @@
 // Iteratively reweighted least squares with the losses of Huber and Cauchy: each step solves a
 // weighted least squares problem, whose weights depend on the residuals of the step before.
-// Residuals and their scale have the unit of the right-hand side. Weights that do not converge are
-// an Error(kNotConverged). A change must keep that with Loss::kSquared the result is that of
+// Residuals and their scale have the unit of the right-hand side; robust_least_squares.hpp has
+// shapes and ranges. Weights that do not converge are an Error(kNotConverged), a stop an
+// Error(kInterrupted); the errors of solve_least_squares() are thrown, too. Used by
+// fit_force_table.cpp. A change must keep that with Loss::kSquared the result is that of
 // solve_least_squares(), to the last bit.
 #include "viscontact/fitting/robust_least_squares.hpp"
 
@@ -53,6 +55,7 @@ void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_si
   // In the first 20 steps the scale follows the residuals. Then it is kept, because the sum of the
   // losses falls in every step, so that the iteration converges, only if the scale is constant.
   constexpr int kStepsWithScale = 20;
+  // The limit only ends an iteration that does not converge; robust_least_squares.hpp repeats it.
   constexpr int kMostSteps = 1000;
   // The iteration ends when no residual changes by more than this fraction of the scale. Any value
   // that is far below the scatter of the residuals (1) and far above rounding errors works.

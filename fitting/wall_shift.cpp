@@ -1,7 +1,9 @@
 // Finds the depth below its crests at which a rough wall acts like a smooth one, the only unknown
 // of a least squares problem, by Gauss-Newton iteration. Lengths, masses and times are in the units
-// of the table. A change must keep the Error(kBadInput) that names a row whose resistance no gap of
-// the smooth wall has.
+// of the table; wall_shift.hpp has dimensions and ranges. A table and a force that do not belong
+// together are an Error(kBadInput), an iteration that does not end an Error(kNotConverged). Used by
+// pipeline/fit_stages.cpp and report/. A change must keep the sign of the shift and the
+// Error(kBadInput) that names a row whose resistance no gap of the smooth wall has.
 #include "viscontact/fitting/wall_shift.hpp"
 
 #include <fmt/format.h>
@@ -75,6 +77,7 @@ WallShift fit_wall_shift(const lubrication::MotionTable& rough,
   auto shifts = result.rows;
   std::ranges::sort(shifts, {}, &ShiftedRow::shift);
   double shift = std::clamp(shifts[shifts.size() / 2].shift, least, most);
+  // The limit only ends an iteration that does not converge; wall_shift.hpp repeats it.
   constexpr int kMostSteps = 100;
   // The iteration ends if the shift changes by at most this fraction of (first gap + |shift|),
   // which is a change of the size of rounding errors.

@@ -1,7 +1,10 @@
 // The table of the bodies beside a sphere, its neighbours: plane, free surface, sphere, cavity,
 // rough plane. q is the gap, r the radius of the sphere, mu the viscosity, R the resistance;
-// lengths are in any one unit. An unknown name or motion is an Error(kBadInput). A change must keep
-// the names, which case files and tables contain, and the flags, which the scripts read.
+// lengths are in any one unit; geometry.hpp has the dimensions and ranges. An unknown name or
+// motion is an Error(kBadInput). Used by tabulation.cpp, case_file/ and rolling/. A change must
+// keep the names, which case files and tables contain; the flags, which the scripts read; the order
+// of the parameters, which functions here find by their index; and motions in the order of
+// MotionKind.
 #include "viscontact/freefem_axi/geometry.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,10 @@
 // Calls the FreeFEM script of a geometry with the argument -motion, and reads the lines
 // "viscontact-action" that scripts/row.idp prints: forces and torques in units of viscosity, sphere
-// radius and velocity of the motion. Lines that are missing or contradict each other are an
-// Error(kExternalProgram). A change must agree with scripts/row.idp.
+// radius and velocity of the motion; lubrication/motion_table.hpp has the dimensions of the rows.
+// Lines that are missing or contradict each other are an Error(kExternalProgram), an unknown
+// geometry an Error(kBadInput), a stop an Error(kInterrupted). Used by motion_table_plan.cpp,
+// row_picture.cpp and bench/. A change must agree with scripts/row.idp, which numbers its solutions
+// in the order of motions_of().
 #include "viscontact/freefem_axi/motion_row.hpp"
 
 #include <fmt/format.h>

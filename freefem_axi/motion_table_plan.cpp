@@ -1,7 +1,9 @@
 // Makes the plans of the tables of one sphere: which rows they have, how FreeFEM solves them, and a
 // text of everything that the numbers depend on, from which a hash is made. Numbers are in the
-// units of the case. An unknown geometry is an Error(kBadInput). A change must keep this text: with
-// another hash all tables that users have count as out of date and are computed again.
+// units of the case; tabulation.hpp has their dimensions and ranges. An unknown geometry is an
+// Error(kBadInput); solving a row throws the errors of solve_row() and solve_motions(). Used by
+// pipeline/tabulate/. A change must keep this text: with another hash all tables that users have
+// count as out of date and are computed again.
 #include "viscontact/freefem_axi/motion_table_plan.hpp"
 
 #include <fmt/format.h>
@@ -44,6 +46,7 @@ std::string inputs_of(const Tabulation& tabulation, MotionGroup group) {
 /// is constant, because the coarsest meshes suffice. For smaller values it grows as the power -0.45
 /// (-kPower) of the accuracy.
 double typical_seconds(const Tabulation& tabulation, MotionGroup group) {
+  // swimmer/tabulation/resistance_table_plan.cpp repeats both.
   constexpr double kKnee = 1e-5, kPower = 0.45;
   const double coarse = group == MotionGroup::kAlong    ? 1.3
                         : group == MotionGroup::kAcross ? 2.5

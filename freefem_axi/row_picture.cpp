@@ -1,6 +1,9 @@
 // Reads the meshes and the flow that scripts/pictures.idp prints, and writes them for ParaView.
-// Results are in the units of the case. An incomplete mesh is an Error(kExternalProgram). A change
-// must keep that this file reads the format that is described in scripts/pictures.idp.
+// Results are in the units of the case; row_picture.hpp has their dimensions. An incomplete mesh is
+// an Error(kExternalProgram); the errors of solve_row() and solve_motions(), also Error(kBadInput)
+// and Error(kInterrupted), are thrown, too. Used by report/flow/ and pipeline/tabulate/. A change
+// must keep that this file reads the format that is described in scripts/pictures.idp, and kWords
+// in the order of BoundaryKind.
 #include "viscontact/freefem_axi/row_picture.hpp"
 
 #include <fmt/format.h>
@@ -132,7 +135,7 @@ RowPicture solve_row_for_picture(const FreeFem& freefem, const Tabulation& tabul
   else
     output = picture_of_motion(freefem, tabulation, motion, gap);
   PictureReader reader(output);
-  constexpr std::size_t kColumns = 6;
+  constexpr std::size_t kColumns = 6;  // rho, z and the four that factors_of_approach() scales
   std::vector<std::vector<double>> fields;
   static_cast<QuadraticMesh&>(picture.flow) = reader.read_mesh(kColumns, fields, picture.boundary);
   const auto factors = approaches ? factors_of_approach(tabulation, reference_velocity)

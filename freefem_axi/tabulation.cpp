@@ -1,8 +1,11 @@
 // Computes the force on a sphere at one gap and velocity: makes the arguments of a FreeFEM script,
 // runs it and reads the result. Numbers are in the units of the case, except that FreeFEM writes
 // the force in the units of solve_scale(); tabulation.hpp has their dimensions. A row without a
-// result is an Error(kExternalProgram), a force beyond the range of a double Error(kBadInput). A
-// change must agree with the flags in scripts/sphere_arguments.idp and the output of row.idp.
+// result is an Error(kExternalProgram), an unknown geometry and a force beyond the range of a
+// double an Error(kBadInput), a stop an Error(kInterrupted). Used by motion_row.cpp,
+// row_picture.cpp, case_file/, rolling/, app/ and bench/. A change must agree with the flags in
+// scripts/sphere_arguments.idp and the output of row.idp, and keep the words for geometry and
+// container, on which the hashes of tables depend.
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 #include <fmt/format.h>

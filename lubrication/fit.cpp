@@ -1,7 +1,9 @@
 // Reads and writes fit files, names the choices that they contain, and makes the fit object for the
-// exact drag of a plane and for another viscosity. Numbers are in the units of the fit. A fault of
-// a file or an unknown word is an Error(kBadInput). A change must keep names and keys, which fit
-// files contain, and agree with docs/fit.schema.json, which repeats keys, types and ranges.
+// exact drag of a plane and for another viscosity. Numbers are in the units of the fit; fit.hpp has
+// their dimensions and ranges. A fault of a file or an unknown word is an Error(kBadInput). Used by
+// fitting/, motions/, case_file/, reduced_model/, sweep/, results/, pipeline/, app/ and python/. A
+// change must keep names and keys, which fit files contain, and agree with docs/fit.schema.json,
+// which repeats keys, types and ranges.
 #include "viscontact/lubrication/fit.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,10 @@
 // The resistance R(q) of a sphere at the gap q, its derivative, its primitive Gamma, and the
 // inverse of Gamma: by a sum of fitted terms in the interval [q1, q2] of the fit, and by simple
-// formulas for other gaps. Lengths, masses and times are in any consistent units. A gap that is not
-// allowed is an Error(kBadInput), a result that a double cannot hold an Error(kNotConverged). A
-// change must keep R and Gamma continuous at q1 and q2, where one formula replaces another one.
+// formulas for other gaps. Lengths, masses and times are in any consistent units;
+// lubrication_force.hpp has the dimensions and ranges. A gap that is not allowed and a fit whose
+// resistance is not positive are an Error(kBadInput), a result that a double cannot hold an
+// Error(kNotConverged). Used by reduced_model/, fitting/, rolling/, pipeline/, report/ and python/.
+// A change must keep R and Gamma continuous at q1 and q2, where one formula replaces another one.
 #include "viscontact/lubrication/lubrication_force.hpp"
 
 #include <fmt/format.h>

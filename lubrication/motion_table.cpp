@@ -1,7 +1,9 @@
 // The columns of a table of force and torque on a sphere, and the checks of its numbers
-// (docs/file-formats.md). Numbers are in the units of the table. A number that is missing or of the
-// wrong sign is an Error(kBadInput) with file and line. A change must keep the names and the order
-// of the columns, which published tables have.
+// (docs/file-formats.md). Numbers are in the units of the table; motion_table.hpp has their
+// dimensions and ranges. A number that is missing or of the wrong sign is an Error(kBadInput) with
+// file and line. freefem_axi/ makes the rows; fitting/, motions/, pipeline/, python/ and results/
+// read tables. A change must keep the names and the order of the columns, which published tables
+// have.
 #include "viscontact/lubrication/motion_table.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,9 @@
 // Scales the coefficients, errors and lengths of a fit from radius r and viscosity mu to r' and
-// mu'. Numbers are in any consistent units. An unknown term is an Error(kBadInput). A change must
-// keep all bits of a fit whose radius and viscosity do not change, because results of earlier
-// versions were computed with it.
+// mu'. Numbers are in any consistent units; scaling.hpp has their dimensions and ranges. An unknown
+// term is an Error(kBadInput). Used by case_file/, motions/, swimmer/, app/ and python/. A change
+// must keep all bits of a fit whose radius and viscosity do not change, because results of earlier
+// versions were computed with it, and find the lengths in the words that freefem_axi/tabulation.cpp
+// and swimmer/tabulation/ make.
 #include "viscontact/lubrication/scaling.hpp"
 
 #include <algorithm>

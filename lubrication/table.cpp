@@ -1,6 +1,9 @@
 // The names of the motions of a sphere, and the lines "# key: value" at the head of a table
-// (docs/file-formats.md). Numbers are in the units of the table. A fault of a file is an
-// Error(kBadInput) with file and key. A change must keep the names and keys of published tables.
+// (docs/file-formats.md). Numbers are in the units of the table; table.hpp has their dimensions and
+// ranges. A fault of a file is an Error(kBadInput) with file and key. Used by motion_table.cpp,
+// table_codec.hpp, freefem_axi/ and swimmer/. A change must keep the names and keys of published
+// tables (other files search for "# case: " and "# viscontact: resistance table"), and kMotions in
+// the order of MotionKind.
 #include "viscontact/lubrication/table.hpp"
 
 #include <fmt/format.h>

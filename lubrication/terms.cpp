@@ -1,7 +1,9 @@
 // The table of terms, the functions of the gap q > 0 that a fit combines, and the named bases. q is
-// in the unit of length of the fit, and l = ln q. An unknown name is an Error(kBadInput). A new
-// term or basis needs only a row here. A change must keep that log_slope is q times the derivative
-// of value, and antiderivative a primitive of value.
+// in the unit of length of the fit, and l = ln q; terms.hpp has the dimensions. An unknown name is
+// an Error(kBadInput). Used by fitting/, motions/, rolling/, case_file/, app/ and other files of
+// lubrication/. A new term or basis needs only a row here. A change must keep the names, the order
+// of kTerms, in which sums are added, and that log_slope is q times the derivative of value, and
+// antiderivative a primitive of value.
 #include "viscontact/lubrication/terms.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,10 @@
 // The names, bases and values of the resistances of a sphere beside a body at rest, and the keys of
 // their file (docs/file-formats.md): an object for each resistance, with the keys of a fit file.
-// Numbers are in the units of the fit; pair_fit.hpp has their dimensions and ranges. An unknown name,
-// a missing resistance and a fault of the file are an Error(kBadInput); terms of a fit are known,
-// because its reader checks them. A change must keep published files readable, and pair_entries() in
-// the order of PairEntry.
+// Numbers are in the units of the fit; pair_fit.hpp has their dimensions and ranges. An unknown
+// name, a missing resistance and a fault of the file are an Error(kBadInput); terms of a fit are
+// known, because its reader checks them. Used by motions/fit/, motions/job/, rolling/, app/ and
+// python/. A change must keep published files readable, the text "pair fit", for which other files
+// search, and pair_entries() in the order of PairEntry.
 #include "viscontact/motions/pair_fit.hpp"
 
 #include <fmt/format.h>

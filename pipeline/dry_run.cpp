@@ -1,6 +1,7 @@
 // Estimates computing times [s] from finished rows, from a few rows that are computed now, or from
-// measured constants. An Error of a row that is computed ends the estimate. Used by app/ and
-// particles/sweep. A change must keep the keys of the JSON, which users' scripts read
+// measured constants; dry_run.hpp has the ranges. An Error of a row that is computed ends the
+// estimate; files that cannot be read are an Error(kBadInput), a stop an Error(kInterrupted). Used
+// by app/ and particles/sweep. A change must keep the keys of the JSON, which users' scripts read
 // (docs/command-line.md).
 #include "viscontact/pipeline/dry_run.hpp"
 
@@ -22,6 +23,7 @@ double remaining_seconds(const DryRun& run, int jobs) {
          static_cast<double>(std::clamp<std::uint64_t>(left, 1, static_cast<std::uint64_t>(jobs)));
 }
 
+/// The limits between the units are free choices, because the text is read by people only.
 std::string duration(double seconds) {
   constexpr double kMinute = 60, kHour = 3600, kDay = 86400;
   if (seconds < 0.1) return "less than 0.1 s";

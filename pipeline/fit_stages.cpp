@@ -1,8 +1,11 @@
 // Reads tables, calls the functions of fitting/, and writes fits, the shift of a rough wall
 // (fit_stages.hpp) and pictures, each with the record of how it was made (results/provenance.hpp).
-// Numbers are in the units of the table. A wrong table or fit is an Error(kBadInput), a gnuplot
-// that fails an Error(kExternalProgram). Used by `run`, `fit` and `shift`. A change must keep the
-// columns of the file of shifts (docs/file-formats.md).
+// Numbers are in the units of the table; lubrication/fit.hpp and fitting/wall_shift.hpp have their
+// dimensions and ranges. A wrong table or fit is an Error(kBadInput), a fit that does not converge
+// an Error(kNotConverged), a gnuplot that fails an Error(kExternalProgram), a stop an
+// Error(kInterrupted). Used by run_stages.cpp and app/ (`run`, `fit`, `shift`). A change must keep
+// the line "# viscontact: wall shift", for which app/ searches, and the columns of the file of
+// shifts (docs/file-formats.md).
 #include "viscontact/pipeline/fit_stages.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,8 @@
 // Computes the rows of a sweep (sweep_stage.hpp), shows its progress, and says at its end how many
-// rows failed. Times are in seconds. If all rows failed, that is an Error(kNotConverged). Used by
-// app/ and particles/sweep. A change must keep that finished rows are never computed again.
+// rows failed. Times are in seconds; rows have the units of sweep/study.hpp. If all rows failed,
+// that is an Error(kNotConverged); a file that cannot be read or written is an Error(kBadInput), a
+// stop an Error(kInterrupted); sweep_stage.hpp has the other errors. Used by app/ and
+// particles/sweep. A change must keep that finished rows are never computed again.
 #include "viscontact/pipeline/sweep_stage.hpp"
 
 #include <fmt/format.h>
@@ -26,6 +28,7 @@ class Remaining {
     if (done <= *first_) return "";
     const double left =
         spent.count() / static_cast<double>(done - *first_) * static_cast<double>(size - done);
+    // The limit of 90 s is a free choice, because the text is read by people only.
     return left > 90 ? fmt::format(", about {:.0f} min left", left / 60)
                      : fmt::format(", about {:.0f} s left", left);
   }

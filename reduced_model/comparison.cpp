@@ -1,8 +1,9 @@
 // Distances between trajectories that are linear between their rows, by exact integrals, and the
 // comparison file (comparison.hpp, docs/file-formats.md). Numbers are in the units of the
-// trajectories. Names that are missing or stand twice, and files of another form, are an
-// Error(kBadInput). Used by pipeline/, sweep/, results/ and report/. A change must keep old
-// comparison files readable.
+// trajectories; comparison.hpp has their dimensions and ranges. Names that are missing or stand
+// twice, trajectories without a common time, and files of another form are an Error(kBadInput), a
+// stop an Error(kInterrupted). Used by pipeline/, sweep/, results/ and report/. A change must keep
+// old comparison files readable.
 #include "viscontact/reduced_model/comparison.hpp"
 
 #include <fmt/format.h>

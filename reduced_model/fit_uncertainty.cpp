@@ -1,9 +1,11 @@
 // Computes how the errors of a fit of the drag change the gap between the sphere and the wall
 // during its motion, and writes and reads uncertainty.json (fit_uncertainty.hpp). Numbers are in
-// the units of the case. A draw of coefficients is left out if its drag is not positive or the
-// motion is impossible with it; if all are left out, that is an Error(kNotConverged). Used by
-// pipeline/simulate, results/ and report/. A change must keep the seed and the order of the random
-// numbers, so that the same case gives the same file.
+// the units of the case; fit_uncertainty.hpp has their dimensions and ranges. A draw of
+// coefficients is left out if its drag is not positive or the motion is impossible with it; if all
+// are left out, that is an Error(kNotConverged). A fit that LubricationForce refuses and a wrong
+// file are an Error(kBadInput). Used by pipeline/simulate, results/ and report/. A change must keep
+// that `level` is the share between the ends in middle_of(), and the seed and the order of the
+// random numbers, so that the same case gives the same file.
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 
 #include <fmt/format.h>

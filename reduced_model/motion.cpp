@@ -1,7 +1,8 @@
 // What the models of motion share: the values of their parameters, reports of their progress, the
-// number of their steps, and the times [T] of the rows of their trajectories. A missing parameter
-// and too many steps are an Error(kBadInput). Used by all models, rolling/ and case_file/. A change
-// of step_count() or row_times() changes trajectories and must raise kModelsRevision.
+// number of their steps, and the times [T] of the rows of their trajectories. motion.hpp has the
+// dimensions and ranges. A missing parameter and too many steps are an Error(kBadInput), a stop an
+// Error(kInterrupted). Used by all models, rolling/ and case_file/. A change of step_count() or
+// row_times() changes trajectories and must raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/motion.hpp"
 
 #include <fmt/format.h>
@@ -34,6 +35,7 @@ void report_progress(const Motion& motion, double time) {
 
 int step_count(double end, double step) {
   constexpr double kMostSteps = 1e8;  // a trajectory with so many rows takes 5 GB
+  // A last step below 1e-6 of a step is the rounding error of end / step.
   const double steps = std::ceil(end / step - 1e-6);
   if (!(steps <= kMostSteps))
     throw Error(

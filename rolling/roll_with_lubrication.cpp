@@ -5,9 +5,11 @@
 // rotation; u and V are the velocities of sphere and plane along x, and w is the angular velocity.
 // s is ln(q/r) with the gap q and the radius r. Slip is the velocity of the lowest point relative
 // to the plane, u - V - r w. m is the mass and I the moment of inertia. Numbers are in any
-// consistent units. A gap above those of the fit is an Error(kBadInput), a step that CVODE cannot
-// make an Error(kNotConverged). rolling/case/ and rolling/job/ use the models. A change must keep
-// the slip exactly 0 while the sphere rolls.
+// consistent units; rolling_motion.hpp declares the models and has the dimensions and ranges. A fit
+// that lacks a resistance or whose squeeze is not positive, a gap above those of the fit and too
+// many rows are an Error(kBadInput), a step that CVODE cannot make an Error(kNotConverged), a stop
+// an Error(kInterrupted). roll_with_viscous_contact.cpp lists the models. A change must keep the
+// slip exactly 0 while the sphere rolls.
 #include <algorithm>
 #include <array>
 #include <cmath>

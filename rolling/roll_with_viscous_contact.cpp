@@ -1,9 +1,11 @@
 // The model `viscous_contact` of a sphere that moves along a plane and turns, by the time steps of
 // physics.md (4.5) and (4.10); also end_of() and the list of all models of rolling_motion.hpp.
 // gamma is minus the impulse that the film of fluid has absorbed, gamma_min its value at which the
-// solids touch, q0 the initial gap. Lengths, masses and times are in any consistent units. A fit
-// that lacks a resistance is an Error(kBadInput). Used by rolling/case, rolling/job and app/. A
-// change must keep the balance of contact_step.hpp.
+// solids touch, q0 the initial gap. Lengths, masses and times are in any consistent units;
+// rolling_motion.hpp has the dimensions and ranges. A fit that lacks a resistance and too many
+// steps are an Error(kBadInput), a stop is an Error(kInterrupted). Used by rolling/case,
+// rolling/job, app/ and python/. A change must keep the balance of contact_step.hpp and the order
+// of the models, which gives their colours in pages.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,7 +1,8 @@
 // Sums the terms of the fits of the resistances, and decides between rolling and sliding. Numbers
-// are in the units of the fit. A missing resistance, and a gap above those of the fit, are an
-// Error(kBadInput). Used by the models of rolling/. A change must keep the matrix of the
-// resistances symmetric.
+// are in the units of the fit; rolling_resistance.hpp has their dimensions and ranges. A missing
+// resistance, and a gap above those of the fit, are an Error(kBadInput). Used by
+// rolling/roll_with_*.cpp. A change must keep the matrix of the resistances symmetric, and weights
+// in the order of lubrication::all_terms().
 #include "viscontact/rolling/rolling_resistance.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,9 @@
 // Computes the rows of a sweep, and writes, continues and reads its file (study.hpp). Numbers are
-// in the units of the case. A file that cannot be read or written is an Error(kBadInput). Used by
-// app/, pipeline/ and the sweeps of all kinds of cases. A change must keep that rows of an earlier
-// call are kept only if its file has the same head.
+// in the units of the case; study.hpp has the ranges. A file that cannot be read or written is an
+// Error(kBadInput), a name that is given twice an Error(kWrongUsage), a stop an
+// Error(kInterrupted); the errors of Study::run are thrown, too. Used by app/, pipeline/ and the
+// sweeps of all kinds of cases. A change must keep that rows of an earlier call are kept only if
+// its file has the same head, and kHowMade, with which results/provenance.cpp begins a file.
 #include "viscontact/sweep/study.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,8 @@
 // Reads ranges, and computes the points of grids and random points. Values have the units of their
-// keys. A range that is not valid is an Error(kBadInput). Used by the sweeps of all kinds of cases.
-// A change must keep the values bit for bit, because a sweep that continues compares them with its
-// finished rows.
+// keys; variation.hpp has the ranges. A range that is not valid is an Error(kBadInput), a grid that
+// is too large an Error(kWrongUsage). Used by the sweeps of all kinds of cases and app/. A change
+// must keep the values bit for bit, because a sweep that continues compares them with its finished
+// rows.
 #include "viscontact/sweep/variation.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,9 @@
 // Newton's method for the stroke of least energy (optimal_stroke.hpp), whose loop in the space of
 // arms has polynomials as coordinates (polynomial_loop.hpp). Numbers are in the units of the fit;
-// energies are those in a period of 1. Loops that leave the table are an Error(kBadInput), and a
-// failure of Newton's method an Error(kNotConverged). Used by swimmer/case and swimmer/job. A
-// change must keep energies to the digits of docs/swimmer.md.
+// energies are those in a period of 1; optimal_stroke.hpp has the dimensions and ranges. Loops that
+// leave the table are an Error(kBadInput), a failure of Newton's method an Error(kNotConverged), a
+// stop an Error(kInterrupted). Used by swimmer/case, swimmer/job and python/. A change must keep
+// energies to the digits of docs/swimmer.md.
 #include "viscontact/swimmer/optimal_stroke.hpp"
 
 #include <fmt/format.h>
@@ -72,7 +73,7 @@ PolynomialLoop moved(const PolynomialLoop& loop, const VectorXd& step, double sh
 std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
                                                        double displacement) const {
   // The displacement grows nearly like the square of the size of the loop, so that a few steps
-  // suffice.
+  // suffice; kMostSteps only ends a search that fails.
   constexpr int kMostSteps = 50;
   constexpr double kTolerance = 1e-13;  // relative; near round-off
   for (int step = 0; step < kMostSteps; ++step) {
@@ -114,7 +115,7 @@ std::optional<VectorXd> LoopOptimizer::newton_step(const PolynomialLoop& loop, c
   if (!exact) return {};
   // On the plane of constant displacement the Hessian must be positive definite, or Newton's method
   // would go to a saddle point. A multiple of the Hessian for a constant metric is added to make it
-  // so.
+  // so; it grows from a small value until it suffices.
   const Eigen::HouseholderQR<MatrixXd> qr(normal);
   const MatrixXd basis = MatrixXd(qr.householderQ()).rightCols(normal.size() - 1);
   MatrixXd hessian = *exact;
@@ -138,7 +139,7 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
   // so that 1e-8 is reached with a step to spare. The relative error of the energy is about its
   // square.
   constexpr double kTolerance = 1e-8;
-  constexpr int kMostSteps = 200, kMostHalvings = 30;
+  constexpr int kMostSteps = 200, kMostHalvings = 30;  // only end a search that fails
   auto loop = scaled_to(start.loop, displacement);
   double multiplier = start.multiplier;
   for (int iteration = 0; loop && iteration < kMostSteps; ++iteration) {
@@ -168,7 +169,7 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
 /// True if the table contains the loop at 2001 equidistant parameters, not only at the points of
 /// the quadrature.
 bool is_contained(const Swimmer& swimmer, const PolynomialLoop& loop) {
-  constexpr int kPoints = 2000;
+  constexpr int kPoints = 2000;  // fifty times the points of the quadrature for 8 polynomials
   for (int i = 0; i <= kPoints; ++i) {
     const auto basis = loop_basis(static_cast<double>(i) / kPoints, loop.coefficients.cols());
     if (!swimmer.contains(loop.through + loop.coefficients * basis.values)) return false;

@@ -1,7 +1,8 @@
 // Polynomial loops of a swimmer's arms, their energy and displacement, and the gradients
-// (polynomial_loop.hpp). Numbers are in the units of the swimmer's fit. A loop outside the table is
-// an Error(kBadInput). Used by optimal_stroke.cpp. A change must keep that gradients are the
-// derivatives of the sums to round-off.
+// (polynomial_loop.hpp). Numbers are in the units of the swimmer's fit; polynomial_loop.hpp has
+// their dimensions and ranges. A loop outside the table is an Error(kBadInput). Used by
+// optimal_stroke.cpp. A change must keep that gradients are the derivatives of the sums to
+// round-off, and the 2 n + 24 points of all three quadratures, which polynomial_loop.hpp repeats.
 #include "viscontact/swimmer/polynomial_loop.hpp"
 
 #include <Eigen/QR>

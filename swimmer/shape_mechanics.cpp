@@ -1,7 +1,9 @@
 // Solves the balance of forces of a swimmer, a line of spheres, at one shape. The symbols are those
-// of shape_mechanics.hpp. Lengths, masses and times are in the units of the fit. A shape outside
-// the table is an Error(kBadInput). swim.cpp and the search for the optimal stroke depend on it. A
-// change must keep that the total force on the fluid is 0.
+// of shape_mechanics.hpp. Lengths, masses and times are in the units of the fit;
+// shape_mechanics.hpp has the dimensions and ranges. A shape outside the table is an
+// Error(kBadInput). Used by swim.cpp, polynomial_loop.cpp, optimal_stroke.cpp, swimmer/job and
+// python/. A change must keep that the total force on the fluid is 0, and that slopes are the
+// derivatives.
 #include "viscontact/swimmer/shape_mechanics.hpp"
 
 #include <fmt/format.h>

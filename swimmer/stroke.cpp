@@ -1,7 +1,8 @@
 // Makes strokes from corners, samples and ellipses, and the points of a quadrature by the
 // eigenvalues of the Jacobi matrix (Golub & Welsch 1969, Math. Comp. 23, 221). Numbers are in the
-// units of the case. Samples that do not close the loop are an Error(kBadInput). Used by swimmer/.
-// A change must keep the times at which legs meet, because forces jump there.
+// units of the case; stroke.hpp has their dimensions and ranges. Samples that do not close the loop
+// are an Error(kBadInput). Used by swimmer_case.cpp (strokes), swim.cpp and polynomial_loop.cpp
+// (quadrature). A change must keep the times at which legs meet, because forces jump there.
 #include "viscontact/swimmer/stroke.hpp"
 
 #include <fmt/format.h>

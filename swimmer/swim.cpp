@@ -1,7 +1,7 @@
-// Integrates displacement and power along a stroke (swim.hpp). Numbers are in the units of the fit.
-// A stroke outside the table is an Error(kBadInput); sums that do not converge are an
-// Error(kNotConverged). Used by swimmer/case, swimmer/job and python/. A change may alter sums by
-// rounding errors only.
+// Integrates displacement and power along a stroke (swim.hpp). Numbers are in the units of the fit;
+// swim.hpp has their dimensions and ranges. A stroke outside the table is an Error(kBadInput); sums
+// that do not converge are an Error(kNotConverged). Used by swimmer/case, swimmer/job and python/.
+// A change may alter sums by rounding errors only; swim.hpp repeats kMost and kTolerance.
 #include "viscontact/swimmer/swim.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,10 @@
 // Runs FreeFEM processes to their end and reads what they print. Times are in seconds. A FreeFEM
-// that does not start is an Error(kExternalProgram); if a script fails, the caller decides. A
-// change must keep each process on one thread and within its time limit.
+// that does not start and scripts that are not found are an Error(kExternalProgram), a wrong time
+// limit of the user an Error(kWrongUsage), a stop an Error(kInterrupted); if a script fails, the
+// caller decides. Used by tabulation.cpp, motion_row.cpp, tabulate.cpp, swimmer/tabulation/,
+// pipeline/tabulate/, results/, app/ and bench/. A change must keep each process on one thread and
+// within its time limit, and the words "viscontact-error" and "viscontact-version", which the
+// scripts print.
 #include "viscontact/freefem_axi/journal/freefem.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +29,7 @@ constexpr int kAttempts = 3;
 
 /// The last four lines of a program's output that are not blank, joined to one line.
 std::string last_lines(const std::string& output) {
-  constexpr std::size_t kLines = 4;
+  constexpr std::size_t kLines = 4;  // free choice: they are only a part of a message
   std::vector<std::string> lines;
   std::istringstream stream(output);
   for (std::string line; std::getline(stream, line);)

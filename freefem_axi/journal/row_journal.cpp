@@ -1,9 +1,11 @@
 // Opens, locks and appends to a journal, the file of the rows of a table that FreeFEM has finished,
 // and writes and reads its lines. A line is "HASH row POINT NUMBERS VERSION CHECKSUM" or "HASH
 // failed POINT REASON CHECKSUM": HASH identifies the table, POINT and NUMBERS are numbers in its
-// units, VERSION is that of FreeFEM. A damaged line is read as nothing; a journal that cannot be
-// written is an Error(kBadInput). A change must keep that a line is written in one piece and is on
-// disk when append() returns, and that journals of interrupted runs can be read.
+// units (table_plan.hpp), VERSION is that of FreeFEM. A damaged line is read as nothing; a journal
+// that cannot be written or is locked is an Error(kBadInput). Used by tabulate.cpp, row_record.cpp
+// and pipeline/tabulate/. A change must keep that a line is written in one piece and is on disk
+// when append() returns, that is_writer_name() accepts what writer_name() makes, and that journals
+// of interrupted runs can be read.
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 #include <fcntl.h>
@@ -32,7 +34,8 @@ constexpr std::string_view kFinished = "row";
 constexpr std::string_view kFailed = "failed";
 
 std::string checksum(std::string_view text) {
-  // 64 bits of SHA-256 are enough to detect damage.
+  // 64 bits of SHA-256 are enough to detect damage. With another number all lines of earlier
+  // journals count as damaged.
   constexpr std::size_t kDigits = 16;
   return sha256(text).substr(0, kDigits);
 }
@@ -125,7 +128,7 @@ std::filesystem::path journal_path(const std::filesystem::path& table_path,
 }
 
 std::string writer_name(std::size_t number, std::size_t count) {
-  std::array<char, 256> host{};
+  std::array<char, 256> host{};  // names of hosts have at most 64 characters in Linux
   ::gethostname(host.data(), host.size() - 1);
   return fmt::format("{}-of-{}.{}.{}", number, count, host.data(), ::getpid());
 }

@@ -1,7 +1,10 @@
 // Makes a table of each resistance (entry of pair_fit.hpp) of a sphere beside a body at rest from
-// the tables of force and torque, and fits it. Numbers are in the units of the tables; the factors
-// of force and torque are those of lubrication/motion_table.hpp. Tables that do not belong together
-// are an Error(kBadInput). A change must keep the check that slide_roll is the same in both tables.
+// the tables of force and torque, and fits it. Numbers are in the units of the tables (pair_fit.hpp
+// has their dimensions and ranges); the factors of force and torque are those of
+// lubrication/motion_table.hpp. Tables that do not belong together are an Error(kBadInput); the
+// errors of fit_force_table(), also Error(kNotConverged) and Error(kInterrupted), are thrown, too.
+// Used by motions/job/ and python/. A change must keep the check that slide_roll is the same in
+// both tables.
 #include "viscontact/motions/fit/fit_pair.hpp"
 
 #include <fmt/format.h>

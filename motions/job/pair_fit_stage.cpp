@@ -1,6 +1,9 @@
 // Finds and reads the tables of a sphere beside a body at rest, fits them, and prints the
-// residuals. Numbers are in the units of the tables. A folder in which a table is missing is an
-// Error(kBadInput) with the remedy. A change must not write a fit again that did not change.
+// residuals. Numbers are in the units of the tables; pair_fit.hpp has their dimensions. A folder in
+// which a table is missing is an Error(kBadInput) with the remedy; the errors of fit_pair(), also
+// Error(kNotConverged) and Error(kInterrupted), are thrown, too. Used by app/, rolling/job/ and
+// python/. A change must keep the names MOTION.csv and must not write a fit again that did not
+// change.
 #include "viscontact/motions/job/pair_fit_stage.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // Checks of a case that need no table of forces: number of gaps, parameters of models, gaps [L] of
-// the motion. Faults are an Error(kBadInput), and gaps outside those of the table a warning. Used
-// by pipeline/. The checks must be quick, because `run` makes them before each tabulation.
+// the motion. Faults are an Error(kBadInput), gaps outside those of the table a warning, a stop an
+// Error(kInterrupted). Used by run_stages.cpp and simulate_stage.cpp. run_checks.hpp says when a
+// gap is refused. The checks must be quick, because `run` makes them before each tabulation.
 #include "viscontact/pipeline/simulate/run_checks.hpp"
 
 #include <fmt/format.h>

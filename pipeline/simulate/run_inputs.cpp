@@ -1,8 +1,10 @@
 // Checks and writes the copies of a run's inputs in its folder, and makes the comment lines of
-// trajectories that identify these inputs. A copy that would replace a file of the user is an
-// Error(kBadInput); a trajectory that cannot be read counts as one from other inputs. Used by
-// pipeline/. A change must keep the order in which write_copies() writes (see run_inputs.hpp). If
-// the name or the value of a comment changes, `run` simulates again.
+// trajectories that identify these inputs. Hashes are SHA-256 in hexadecimal digits; there are no
+// other numbers. A copy that would replace a file of the user is an Error(kBadInput), as is a file
+// that cannot be read or written; a trajectory that cannot be read counts as one from other inputs.
+// Used by run_stages.cpp and simulate_stage.cpp. A change must keep the order in which
+// write_copies() writes (see run_inputs.hpp). If the name or the value of a comment changes, `run`
+// simulates again.
 #include "viscontact/pipeline/simulate/run_inputs.hpp"
 
 #include <fmt/format.h>

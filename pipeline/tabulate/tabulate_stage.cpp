@@ -1,8 +1,11 @@
 // Tabulates several cases in one process, computes the rows of one task of a cluster, or gathers
 // the rows of all tasks. Rows that fail do not stop the others; the error that names them comes
-// last. Used by app/, pipeline/, python/, rolling/ and swimmer/. A change must keep that the
-// journals, files beside a table to which each row is added when it is finished, are removed only
-// after the table is written.
+// last: Error(kExternalProgram) if rows failed, else Error(kNotConverged). A file that cannot be
+// read or written is an Error(kBadInput), a wrong VISCONTACT_FREEFEM_TIME_LIMIT an
+// Error(kWrongUsage), a stop an Error(kInterrupted). Numbers are in the units of each case;
+// freefem_axi/journal/table_plan.hpp has their dimensions. Used by app/, pipeline/, python/,
+// rolling/ and swimmer/. A change must keep that the journals, files beside a table to which each
+// row is added when it is finished, are removed only after the table is written.
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 
 #include <fmt/format.h>
@@ -107,7 +110,7 @@ RowFailure tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
 [[noreturn]] void throw_missing(const CaseTable& one, const freefem_axi::RowRecord& record,
                                 const std::vector<freefem_axi::RowPoint>& missing,
                                 const fs::path& slurm_folder) {
-  constexpr std::size_t kNamed = 3;  // rows that the message names
+  constexpr std::size_t kNamed = 3;  // rows that the message names, a free choice
   std::vector<std::string> named;
   for (std::size_t i = 0; i < std::min(missing.size(), kNamed); ++i)
     named.push_back(one.plan.name_of(missing[i]));

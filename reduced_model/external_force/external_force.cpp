@@ -1,8 +1,9 @@
 // Sums of piecewise polynomials (polynomial.hpp) and sinusoids, and the search for the times at
-// which they change their sign. Numbers are in any consistent units. A force that is not defined is
-// an Error(kBadInput), and one with too many periods an Error(kNotConverged). Used by all models of
-// one sphere. A change must keep the formulas of the means and integrals, which lose no digits by
-// cancellation for short intervals and small arguments.
+// which they change their sign. Numbers are in any consistent units; external_force.hpp has their
+// dimensions and ranges. A force that is not defined and a fault of a file of samples are an
+// Error(kBadInput), and one with too many periods an Error(kNotConverged). Used by all models of
+// one sphere, rolling/ and case_file/. A change must keep the formulas of the means and integrals,
+// which lose no digits by cancellation for short intervals and small arguments.
 #include "viscontact/reduced_model/external_force/external_force.hpp"
 
 #include <fmt/format.h>

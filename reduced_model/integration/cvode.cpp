@@ -1,7 +1,8 @@
 // Calls the integrator CVODE of SUNDIALS 6 or 7 and checks all return codes (cvode.hpp). Times are
-// in [T]. A code that is an error becomes Error(kNotConverged). Used by reduced_model/models and
-// rolling/. A change must keep that CVODE prints nothing, and that the file compiles with both
-// versions of SUNDIALS.
+// in [T]; cvode.hpp has the shapes and ranges. A code that is an error becomes
+// Error(kNotConverged), unless an Error of the system is the cause, which is then thrown; too
+// little memory is std::bad_alloc. Used by reduced_model/models and rolling/. A change must keep
+// that CVODE prints nothing, and that the file compiles with both versions of SUNDIALS.
 #include "viscontact/reduced_model/integration/cvode.hpp"
 
 #include <cvode/cvode.h>
@@ -135,7 +136,7 @@ void Cvode::step() {
   if (code < 0 && system_error_) {
     // CVODE reports its own last failure. If the time that it reached exceeds the time at which the
     // system threw an Error by at most the fraction kNoWay, that Error is the cause.
-    constexpr double kNoWay = 1e-9;
+    constexpr double kNoWay = 1e-9;  // far above the rounding error of a time
     double reached = 0;
     check(CVodeGetCurrentTime(sundials_->memory, &reached), "CVodeGetCurrentTime");
     if (reached <= system_error_time_ * (1 + kNoWay)) std::rethrow_exception(system_error_);

@@ -1,8 +1,11 @@
 // Integrates the equation of inertial_equation.hpp with CVODE: restarts it where the force jumps,
 // and makes rows at the required times and where the velocity changes its sign. q is the gap, Gamma
 // the primitive of the resistance R, m the mass, P = m dq/dt + Gamma(q); lengths, masses and times
-// are in any one system of units. A CVODE that gives up is an Error(kNotConverged), a gap outside
-// the fit an Error(kBadInput). Used by models.cpp. A change of results must raise kModelsRevision.
+// are in any one system of units; motion.hpp and trajectory.hpp have the dimensions and ranges. A
+// CVODE that gives up and, with roughness, a force with too many periods are an
+// Error(kNotConverged), a gap outside the fit, too many rows and a start within the roughness an
+// Error(kBadInput), a stop an Error(kInterrupted). Used by models.cpp. A change of results must
+// raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/inertial.hpp"
 
 #include <fmt/format.h>
@@ -108,7 +111,8 @@ class InertialRun {
     const double restitution = motion_.restitution();
     double after = -restitution * before;
     const double pull = motion_.external_force.value(now_);
-    constexpr double kShortestFlight = 1e-6;  // of end_time; a shorter flight counts as rest
+    // Of end_time; a shorter flight counts as rest. viscous_contact_exact.cpp repeats it.
+    constexpr double kShortestFlight = 1e-6;
     rests_ =
         !(after > 0) || (pull < 0 && 2 * m * after < -pull * kShortestFlight * motion_.end_time);
     if (rests_) after = 0;

@@ -1,7 +1,8 @@
 // The loop over time of the model `reference`, and the rows of `reference_exact` (reference.hpp).
-// Numbers are in any consistent units. A step through the wall is an Error(kNotConverged), a motion
-// outside the fit an Error(kBadInput). Used by models.cpp. A change of results must raise
-// kModelsRevision.
+// Numbers are in any consistent units; trajectory.hpp has their dimensions and ranges. A step
+// through the wall is an Error(kNotConverged), a motion outside the fit and too many steps an
+// Error(kBadInput), a stop an Error(kInterrupted). Used by models.cpp. A change of results must
+// raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/reference.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,8 @@
 // Reads the sections of a case of a rolling sphere, and applies the defaults. Numbers are in the
-// units of the case. A wrong value is an Error(kBadInput) with its line. Used by rolling/, app/ and
-// python/. A change must keep keys and defaults, because users have written cases with them, and
-// docs/case-file.md, which repeats them.
+// units of the case; rolling_case.hpp and rolling_motion.hpp have their dimensions and ranges. A
+// wrong value is an Error(kBadInput) with its line, and so is a fit that is not that of a plane.
+// Used by rolling/, app/ and python/. A change must keep keys and defaults, because users have
+// written cases with them, and docs/case-file.md, which repeats them.
 #include "viscontact/rolling/case/rolling_case.hpp"
 
 #include <algorithm>
@@ -92,6 +93,7 @@ void rolling_keys(case_file::Keys& keys, RollingCase& c) {
   keys.required("end_time", case_file::number(motion.end_time, kPositive), {"end of the motion"});
   keys.required("time_step", case_file::number(motion.time_step, kPositive),
                 {"the step of `viscous_contact`, and the spacing of all rows"});
+  // The range of inertial.relative_tolerance in reduced_model/models/inertial.hpp.
   constexpr Allowed kOfTolerance = {[](double v) { return v >= 1e-13 && v <= 1e-2; },
                                     "from 1e-13 to 0.01"};
   keys.optional("relative_tolerance", case_file::number(motion.relative_tolerance, kOfTolerance),

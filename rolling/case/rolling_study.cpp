@@ -1,7 +1,9 @@
 // Computes the motions of a sweep of a rolling sphere (rolling_study.hpp). Numbers are in the units
-// of the case. Used by the command `sweep`. A key that cannot be varied is an Error(kWrongUsage); a
-// model that fails leaves its columns empty. A change must keep the names of the columns, which
-// users' scripts read.
+// of the case; rolling_study.hpp has the dimensions of the columns. Used by app/ (command `sweep`).
+// A key that cannot be varied and an unknown model are an Error(kWrongUsage), a wrong case or fit
+// is an Error(kBadInput), a stop an Error(kInterrupted); a model that fails leaves its columns
+// empty. A change must keep the names of the columns, which users' scripts read and which
+// add_rolling_end() repeats.
 #include "viscontact/rolling/case/rolling_study.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,8 @@
-// The pictures and the page of a rolling sphere, in the units of the case. A gnuplot that fails is
-// an Error(kExternalProgram). Used by rolling_stage.cpp. A change must list every picture in
-// kRollingPictures, which decides which files in plots/ may be replaced or removed.
+// The pictures and the page of a rolling sphere, in the units of the case; rolling_motion.hpp has
+// the dimensions and ranges. A gnuplot that fails is an Error(kExternalProgram), a file in the way
+// or not written an Error(kBadInput), a stop an Error(kInterrupted). Used by rolling_stage.cpp. A
+// change must list every picture in kRollingPictures, which decides which files in plots/ may be
+// replaced or removed.
 #include "viscontact/rolling/job/rolling_page.hpp"
 
 #include <fmt/format.h>
@@ -35,7 +37,7 @@ report::Plot plot_of(const RollingResults& results, const std::string& name,
     for (const auto& row : rows) curve.points.emplace_back(row.time, value(row));
     panel.curves.push_back(curve);
   }
-  return {name, 400, {panel}};
+  return {name, 400, {panel}};  // the height in pixels is a free choice
 }
 
 const char* contact_in_words(SolidContact contact) {

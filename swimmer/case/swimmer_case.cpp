@@ -1,8 +1,9 @@
 // Reads the case of a swimmer (swimmer_case.hpp): its spheres and arms (distances of the centres of
 // neighbouring spheres), and strokes given by corners, an ellipse or a file of samples. Numbers are
-// in the units of the case. A wrong value is an Error(kBadInput) with its line. Used by swimmer/,
-// app/ and python/. A change must keep the arms of a table bit for bit, because its finished rows
-// are found by their gaps.
+// in the units of the case; swimmer_case.hpp and collinear_spheres.hpp have their dimensions and
+// ranges. A wrong value is an Error(kBadInput) with its line. Used by swimmer/, app/ and python/. A
+// change must keep the arms of a table bit for bit, because its finished rows are found by their
+// gaps.
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 
 #include <algorithm>
@@ -43,6 +44,7 @@ void arm_keys(case_file::Keys& keys, ArmGrid& grid) {
       {"the shortest arm, greater than the sum of both radii, so that the gap is at least "
        "1e-6 of the smaller radius"});
   keys.required("to", case_file::number(grid.to, kPositive), {"the longest arm"});
+  // At least 3, because fit_resistance() needs three values of each gap.
   keys.required("count", case_file::count(grid.count, 3, 200), {"the number of arms between them"});
 }
 
@@ -182,7 +184,7 @@ void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
 std::string fault_of_arm(double arm, std::size_t k, const SwimmerCase& c) {
   const double both_radii = c.spheres.radii[k] + c.spheres.radii[k + 1];
   const double from = c.gaps[k].front() + both_radii, to = c.gaps[k].back() + both_radii;
-  // Relative; an arm is a gap plus two radii, which may be rounded.
+  // Relative; an arm is a gap plus two radii, which may be rounded. resistance_fit.cpp repeats it.
   constexpr double kRounding = 1e-12;
   if (arm >= from * (1 - kRounding) && arm <= to * (1 + kRounding)) return "";
   if (!(arm > both_radii))

@@ -1,9 +1,10 @@
 // Subtracts the lubrication R_lub between neighbouring spheres from each resistance matrix R of a
 // table, and takes the logarithm S of the rest: R = mu (R_lub + l exp S), with the viscosity mu and
 // the largest radius l (resistance_fit.hpp). The fit is the polynomial through the S of all rows.
-// Numbers are in the units of the table. Rows that are missing or stand twice are an
-// Error(kBadInput). Used by swimmer/job and python/. A change must keep the random signs of
-// change_by_estimates(), on which the error estimates depend.
+// Numbers are in the units of the table; resistance_table.hpp and resistance_fit.hpp have their
+// dimensions and ranges. Rows that are missing or stand twice and a matrix that is not positive
+// definite are an Error(kBadInput). Used by swimmer/job and python/. A change must keep the random
+// signs of change_by_estimates(), on which the error estimates depend.
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 
 #include <fmt/format.h>
@@ -89,7 +90,8 @@ MatrixXd matrix_from(const MatrixXd& logarithm, const std::vector<double>& gaps,
 /// The value of which the relative error of R_ij is a fraction
 /// (ResistanceRow::relative_error_estimates).
 double entry_scale(const MatrixXd& matrix, Index i, Index j) {
-  constexpr double kLeastShare = 1e-3;  // of sqrt(R_ii R_jj)
+  // Of sqrt(R_ii R_jj), as in collinear_spheres.edp, which makes the estimates.
+  constexpr double kLeastShare = 1e-3;
   return std::max(std::abs(matrix(i, j)), kLeastShare * std::sqrt(matrix(i, i) * matrix(j, j)));
 }
 

@@ -1,6 +1,8 @@
 // The page of a swimmer: tables, curves over time, and the loops of strokes in the plane of two
 // arms, over a map of the displacement per area (displacement_curl). Numbers are in the units of
-// the case. A gnuplot that fails is an Error(kExternalProgram). Used by swimmer_stage.cpp. A change
+// the case; swim.hpp has their dimensions and ranges. Heights and widths of pictures, in pixels,
+// are free choices. A gnuplot that fails is an Error(kExternalProgram), a file in the way or not
+// written an Error(kBadInput), a stop an Error(kInterrupted). Used by swimmer_stage.cpp. A change
 // must list every picture in kPictureNames, which decides which files in plots/ may be replaced or
 // removed.
 #include "viscontact/swimmer/job/swimmer_page.hpp"

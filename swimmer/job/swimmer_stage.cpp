@@ -1,7 +1,9 @@
 // Runs the stages of a swimmer one after the other (swimmer_stage.hpp): the table of resistance
-// matrices, its fit, the strokes, the page. Numbers are in the units of the case. A wrong case and
-// a file of the user in the way are an Error(kBadInput). Used by app/ and python/. A change must
-// keep the keys of swimmer.json and the columns of stroke.csv, which are in docs/file-formats.md.
+// matrices, its fit, the strokes, the page. Numbers are in the units of the case; swim.hpp has
+// their dimensions and ranges. A wrong case and a file of the user in the way are an
+// Error(kBadInput), a stop is an Error(kInterrupted), and swimmer_stage.hpp has the other errors.
+// Used by app/ and python/. A change must keep the texts in check_files(), which the files contain,
+// and the keys of swimmer.json and the columns of stroke.csv, which are in docs/file-formats.md.
 #include "viscontact/swimmer/job/swimmer_stage.hpp"
 
 #include <fmt/format.h>

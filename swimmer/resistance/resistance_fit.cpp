@@ -1,7 +1,9 @@
 // Evaluates the lubrication of pairs, and R = mu (R_lub + l exp(S)) with its derivatives
 // (resistance_fit.hpp). mu is the viscosity, l the largest radius. Numbers are in the units of the
-// fit. Gaps outside the table are an Error(kBadInput). Used by shape_mechanics.cpp and swimmer/fit.
-// A change must keep that the slopes are the derivatives of R.
+// fit; resistance_fit.hpp has their dimensions and ranges. Gaps outside the table are an
+// Error(kBadInput). Used by shape_mechanics.cpp and swimmer/fit. A change must keep that the slopes
+// are the derivatives of R, and the formula of the lubrication, because files of fits contain only
+// the rest.
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
 
 #include <fmt/format.h>
@@ -123,7 +125,8 @@ FittedResistance::FittedResistance(const ResistanceFit& fit)
 }
 
 bool FittedResistance::contains(std::span<const double> gaps) const {
-  constexpr double kRounding = 1e-12;  // relative; gaps are rounded differences of arms and radii
+  // Relative; gaps are rounded differences of arms and radii. swimmer_case.cpp repeats it.
+  constexpr double kRounding = 1e-12;
   for (std::size_t k = 0; k < gaps.size(); ++k)
     if (!(gaps[k] >= intervals_[k][0] * (1 - kRounding) &&
           gaps[k] <= intervals_[k][1] * (1 + kRounding)))

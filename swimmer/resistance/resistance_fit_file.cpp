@@ -1,7 +1,9 @@
 // The fields of the file of a ResistanceFit (docs/file-formats.md), and the fit of scaled spheres.
-// Lengths, masses and times are in the units of the table. Every fault of a file is an
-// Error(kBadInput) with line and key. The functions are declared in resistance_fit.hpp;
-// swimmer/job, app/ and python/ use them. A change must keep earlier files readable.
+// Lengths, masses and times are in the units of the table; resistance_fit.hpp has the dimensions
+// and ranges. Every fault of a file is an Error(kBadInput) with line and key, and so are radii of
+// other ratios. The functions are declared in resistance_fit.hpp; swimmer/job and swimmer/case use
+// them. A change must keep earlier files readable, and the text "resistance fit", for which
+// swimmer_stage.cpp searches.
 #include <fmt/format.h>
 
 #include <algorithm>

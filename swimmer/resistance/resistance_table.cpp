@@ -1,7 +1,9 @@
 // The columns of a table of resistance matrices (resistance_table.hpp, docs/file-formats.md).
-// Numbers are in the units of the table. A matrix that is not positive definite is an
-// Error(kBadInput). Used by the other folders of swimmer/. A change must keep the names of the
-// columns, which published tables have.
+// Numbers are in the units of the table; resistance_table.hpp has their dimensions and ranges. A
+// fault of a file, a matrix that is not positive definite and radii of other ratios are an
+// Error(kBadInput). Used by the other folders of swimmer/ and python/. A change must keep the names
+// of the columns, which published tables have, and the order of the entries, that of the lines of
+// collinear_spheres.edp.
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // Interpolation on a grid by the barycentric formula (tensor_polynomial.hpp). Numbers have any
-// dimension; nothing is checked or thrown. Used by resistance_fit.cpp and swimmer/fit. A change
-// must keep that the values at the nodes are met exactly.
+// dimension; tensor_polynomial.hpp has the shapes of the arguments; nothing is checked or thrown.
+// Used by resistance_fit.cpp and swimmer/fit. A change must keep that the values at the nodes are
+// met exactly.
 #include "viscontact/swimmer/resistance/tensor_polynomial.hpp"
 
 #include <cmath>

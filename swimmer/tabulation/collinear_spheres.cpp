@@ -1,8 +1,9 @@
 // Calls the FreeFEM script collinear_spheres.edp and reads its answer. Lengths are in the unit of
-// the case; the script computes with viscosity 1, so that its matrix is multiplied by the viscosity
-// of the case. A failure of FreeFEM is an Error(kExternalProgram). Used by swimmer/case and
+// the case (collinear_spheres.hpp has dimensions and ranges); the script computes with viscosity 1,
+// so that its matrix is multiplied by the viscosity of the case. A failure of FreeFEM is an
+// Error(kExternalProgram), a stop an Error(kInterrupted). Used by swimmer/case, swimmer/job and
 // resistance_table_plan.cpp. A change of the arguments or of the lines that are read must be made
-// in the script, too.
+// in the script, too; lubrication/scaling.cpp finds the lengths in surroundings_in_words().
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,10 @@
 // The loop over time of the contact models (contact_model.hpp): it makes the steps of
 // contact_step.hpp and rebound.hpp, adds up the impulses and works, and finds when contact begins
 // and ends. gamma [M L/T] is minus the impulse that the film in the contact has absorbed. Numbers
-// are in any consistent units. Too many steps are an Error(kBadInput). Used by models.cpp. A change
-// of results must raise kModelsRevision.
+// are in any consistent units; contact_model.hpp has their dimensions and ranges. Too many steps
+// and a time step without a value are an Error(kBadInput), a stop an Error(kInterrupted); the
+// errors of the drag are thrown, too. Used by models.cpp. A change must keep the balance of the
+// budget to round-off; one of results must raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 #include <algorithm>

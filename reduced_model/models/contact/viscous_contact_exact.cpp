@@ -1,8 +1,10 @@
 // Finds the events of viscous contact (landing, release, and the instant at which the solids
 // touch), and computes the budget between them. The equations are those of
-// viscous_contact_exact.hpp. Numbers are in any consistent units. A fit without a positive
-// coefficient of 1/q is an Error(kBadInput). Used by models.cpp. A change of results must raise
-// kModelsRevision.
+// viscous_contact_exact.hpp. Numbers are in any consistent units; trajectory.hpp and
+// contact_model.hpp have their dimensions and ranges. A fit without a positive coefficient of 1/q
+// and too many rows are an Error(kBadInput), a force with too many periods an Error(kNotConverged),
+// a stop an Error(kInterrupted). Used by models.cpp. A change of results must raise kModelsRevision
+// (trajectory.hpp).
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 
 #include <algorithm>
@@ -117,7 +119,7 @@ class EventDriven {
   }
 
   // Fraction of the duration of the motion; a shorter flight counts as rest, so that the infinitely
-  // many bounces of a dry sphere end.
+  // many bounces of a dry sphere end. inertial.cpp repeats it.
   static constexpr double kShortestFlight = 1e-6;
 
   double m_;

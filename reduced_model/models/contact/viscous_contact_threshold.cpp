@@ -1,6 +1,9 @@
 // The model `viscous_contact_threshold` (viscous_contact_threshold.hpp): contact at the gap q_c [L]
-// and the whole drag above it. A q_c or roughness outside the allowed range is an Error(kBadInput).
-// Used by models.cpp. A change of results must raise kModelsRevision.
+// and the whole drag above it. The header has the symbols; contact_model.hpp has the dimensions and
+// ranges. A q_c or roughness outside the allowed range, and in a run a gap outside the fit, is an
+// Error(kBadInput), a film too thin for a double an Error(kNotConverged). Used by models.cpp. A
+// change must keep the text of film_law, which heads of trajectories contain; one of results must
+// raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 
 #include <fmt/format.h>
