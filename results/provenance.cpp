@@ -1,10 +1,10 @@
 // Writes the line of provenance (how a file was made, as JSON) into each kind of file, and finds
 // and reads it again (provenance.hpp), for all parts that write results and for `rerun`. A damaged
 // line, or a file that cannot be read or written, is an Error(kBadInput), a wrong SOURCE_DATE_EPOCH
-// an Error(kWrongUsage), a path that the system refuses a std::filesystem::filesystem_error, and an
-// HTML page, PDF or PNG without its marks a std::out_of_range. The beginning of its JSON (kBegin)
-// must not change, because earlier files are recognised by it; foreign_files.cpp repeats kName and
-// the key in kBegin.
+// an Error(kWrongUsage), a path that the system refuses a std::filesystem::filesystem_error, and a
+// text without the mark at which its kind has the line a std::out_of_range. The beginning of the
+// JSON (kBegin) must not change, because earlier files are recognised by it; foreign_files.cpp
+// repeats kName and the key in kBegin.
 #include "viscontact/results/provenance.hpp"
 
 #include <ceres/version.h>
@@ -13,11 +13,11 @@
 #include <sundials/sundials_config.h>
 
 #include <Eigen/Core>
-#include <cassert>
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
 #include <ctime>
+#include <sstream>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -98,6 +98,10 @@ std::string without(std::string_view characters, const std::string& json) {
   return text;
 }
 
+/// The beginning of the type and the data of the chunk of a PNG with the provenance: a text with a
+/// keyword.
+constexpr std::string_view kChunk{"tEXtprovenance\0", 15};
+
 /// The text before and after the JSON in a kind of file.
 struct Wrapping {
   std::string before, after;
@@ -124,21 +128,22 @@ Wrapping wrapping_of(TextKind kind) {
     case TextKind::kPdf:
       return {"% provenance: ", "", ""};
     case TextKind::kPng:
-      break;  // not a line, but a chunk
+      return {std::string(kChunk), "", ""};
   }
   return {};
 }
 
-/// The position for a new line: after `mark`, and after the newline if one follows `mark`. The text
-/// must contain `mark` at or after the position `from`.
+/// The position for a new line: after the first `mark` at or after the position `from`, and after
+/// the newline if one follows `mark`; npos if there is no `mark`.
 std::size_t line_after(const std::string& text, std::string_view mark, std::size_t from = 0) {
   const auto at = text.find(mark, from);
-  assert(at != std::string::npos);
+  if (at == std::string::npos) return at;
   const auto end = at + mark.size();
   return end < text.size() && text[end] == '\n' ? end + 1 : end;
 }
 
-/// The position in a text of this kind at which with_provenance() inserts the line.
+/// The position in a text of this kind at which with_provenance() inserts the line; npos if the
+/// text lacks the mark of this position.
 std::size_t place_in(TextKind kind, const std::string& text) {
   switch (kind) {
     case TextKind::kHashComment:
@@ -167,8 +172,6 @@ std::size_t place_in(TextKind kind, const std::string& text) {
 // bytes type, data, 4 bytes CRC (ISO/IEC 15948).
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 constexpr std::size_t kPngHeader = 8 + 25;
-/// The beginning of the type and the data of the chunk with the provenance: a text with a keyword.
-constexpr std::string_view kChunk{"tEXtprovenance\0", 15};
 
 /// A number as 4 bytes, the highest first.
 std::string as_bytes(std::uint32_t number) {
@@ -197,22 +200,19 @@ std::string png_chunk(const Provenance& provenance) {
          as_bytes(crc_of(content));
 }
 
-/// Three positions in a text: begin of the line that contains the provenance, begin of its JSON,
-/// and end of the line.
+/// Two positions in a text: begin of the JSON of the provenance, and end of its line.
 struct Line {
-  std::size_t begin = 0, json = 0, end = 0;
+  std::size_t json = 0, end = 0;
 };
 
 std::optional<Line> find_line(const std::string& text) {
   for (auto at = text.find(kBegin); at != std::string::npos; at = text.find(kBegin, at + 1)) {
-    const auto newline = text.rfind('\n', at);
-    const Line line{newline == std::string::npos ? 0 : newline + 1, at,
-                    std::min(text.find('\n', at), text.size())};
-    const auto before = std::string_view(text).substr(line.begin, at - line.begin);
     // In every Wrapping, at most three characters are between the name and the object ("\": ").
-    if (const auto name = before.rfind(kName);
-        name != std::string_view::npos && before.size() - name - kName.size() <= 3)
-      return line;
+    constexpr std::size_t kLongest = kName.size() + 3;
+    const auto before =
+        std::string_view(text).substr(at - std::min(at, kLongest), std::min(at, kLongest));
+    if (before.find(kName) != std::string_view::npos)
+      return Line{at, std::min(text.find('\n', at), text.size())};
   }
   return {};
 }
@@ -222,9 +222,9 @@ std::optional<std::filesystem::path> folder_around(const std::filesystem::path& 
                                                    const std::string& output) {
   const auto path = std::filesystem::weakly_canonical(file);
   auto folder = path;
-  for ([[maybe_unused]] const auto& part : std::filesystem::path(output))
-    folder = folder.parent_path();
-  if (output.empty() || folder / output != path) return {};
+  const std::filesystem::path path_of_output = output;
+  for ([[maybe_unused]] const auto& part : path_of_output) folder = folder.parent_path();
+  if (output.empty() || path_of_output.is_absolute() || folder / path_of_output != path) return {};
   return folder;
 }
 
@@ -256,9 +256,12 @@ Provenance without_folders(Provenance provenance) {
   const auto shorten = [&](std::string& word, std::size_t begin) {
     const fs::path path = word.substr(begin);
     if (!path.is_absolute()) return;
-    const auto relative = path.lexically_normal().lexically_relative(folder);
+    const auto normal = path.lexically_normal(), relative = normal.lexically_relative(folder);
     const bool below = !relative.empty() && *relative.begin() != "..";
-    word.replace(begin, std::string::npos, (below ? relative : path.filename()).string());
+    // A path that ends with "/" has an empty file name. Of the path "/" itself "/" stays.
+    const auto last = normal.has_filename() ? normal : normal.parent_path();
+    const auto name = last.has_filename() ? last.filename() : last;
+    word.replace(begin, std::string::npos, (below ? relative : name).string());
   };
   for (auto& word : provenance.command) shorten(word, path_in_word(word));
   if (!provenance.command.empty())
@@ -286,15 +289,18 @@ std::string with_provenance(TextKind kind, const std::string& text, const Proven
 }
 
 std::string without_provenance(const std::string& text) {
+  using enum TextKind;
   const auto line = find_line(text);
   if (!line) return text;
-  if (text.starts_with(kPngSignature)) {
-    // The chunk begins with 4 bytes for its length, and ends with 4 for its CRC after the line.
-    const auto begin = text.rfind(kChunk, line->json);
-    if (begin == std::string::npos || begin < 4) return text;
-    return text.substr(0, begin - 4) + text.substr(std::min(line->end + 1 + 4, text.size()));
-  }
-  return text.substr(0, line->begin) + text.substr(std::min(line->end + 1, text.size()));
+  // The chunk of a PNG begins with 4 bytes for its length, and ends with 4 for its CRC after the
+  // line.
+  const std::size_t more = text.starts_with(kPngSignature) ? 4 : 0;
+  const auto before = std::string_view(text).substr(0, line->json);
+  for (const auto kind : {kHashComment, kJson, kSvg, kHtml, kXml, kC, kFortran, kMatlab, kPng})
+    if (const auto wrapping = wrapping_of(kind).before; before.ends_with(wrapping))
+      return text.substr(0, line->json - wrapping.size() - more) +
+             text.substr(std::min(line->end + 1 + more, text.size()));
+  return text;
 }
 
 bool has_content(const std::filesystem::path& path, const std::string& text) {
@@ -311,10 +317,8 @@ std::optional<Provenance> provenance_in(const std::string& text, const std::stri
   try {
     Json json;
     if (const auto line = find_line(text)) {
-      const auto closing = text.rfind('}', line->end);
-      json = Json::parse(closing == std::string::npos || closing < line->json
-                             ? std::string()
-                             : text.substr(line->json, closing + 1 - line->json));
+      // The operator >> reads one object. Another program may have put a whole file on one line.
+      std::istringstream(text.substr(line->json, line->end - line->json)) >> json;
     } else {
       // Without a line, the file may be JSON that another program has read and written again.
       const auto whole = Json::parse(text, nullptr, false);

@@ -64,12 +64,14 @@ Provenance without_folders(Provenance provenance);
 /// element `metadata` of a kSvg file, a data script in the head of a kHtml file, a comment before
 /// the last lines of a kPdf file, a chunk of text after the header of a kPng file, and a comment at
 /// the head of any other file. `text` must be a complete file of this kind, for kJson an object
-/// with at least one key; of other texts only the mark of kJson, kSvg and kXml is asserted, and a
-/// kHtml, kPdf or kPng without its mark or header throws std::out_of_range.
+/// with at least one key (not checked). Throws std::out_of_range if it lacks the mark at which the
+/// line is inserted: "{" of kJson, "<svg" and ">" of kSvg, "</head>" of kHtml, "?>" of kXml,
+/// "startxref" of kPdf, or the header of kPng.
 std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance);
 
-/// `text` as it was before with_provenance, unchanged if it has no provenance. Two files that were
-/// made in the same way at different times are equal without their provenance.
+/// `text` as it was before with_provenance, unchanged if it has no provenance, or if another
+/// program has written the provenance in another form. Two files that were made in the same way at
+/// different times are equal without their provenance.
 std::string without_provenance(const std::string& text);
 
 /// True if there is a file at `path` whose text without its provenance is `text`. Such a file is

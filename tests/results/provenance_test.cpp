@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "tests/results/kinds_of_text.hpp"
 #include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/common/text/json.hpp"
 
 namespace viscontact::results {
 namespace {
@@ -49,6 +52,37 @@ TEST(Provenance, IsALineThatHashesLeaveOut) {
     EXPECT_EQ(content_sha256(first), content_sha256(second)) << text;
     EXPECT_EQ(content_sha256(first), sha256(text)) << text;
   }
+}
+
+TEST(Provenance, OfTextsWithoutLineEndsIsReadAndLeftOut) {
+  for (const auto& [kind, text] : {TextOfKind{TextKind::kJson, "{\"gap\": 0.1}"},
+                                   TextOfKind{TextKind::kSvg, "<svg width=\"9\"></svg>"},
+                                   TextOfKind{TextKind::kHtml, "<html><head></head></html>"},
+                                   TextOfKind{TextKind::kXml, "<?xml version=\"1.0\"?><a></a>"},
+                                   TextOfKind{TextKind::kPdf, "%PDF-1.5 startxref 9 %%EOF"}}) {
+    const auto with = with_provenance(kind, text, sample_provenance());
+    EXPECT_EQ(without_provenance(with), text);
+    EXPECT_EQ(provenance_in(with, "file")->made, sample_provenance().made) << text;
+  }
+}
+
+TEST(Provenance, NeedsTheMarkOfItsKind) {
+  for (const auto kind : {TextKind::kJson, TextKind::kSvg, TextKind::kHtml, TextKind::kXml,
+                          TextKind::kPdf, TextKind::kPng})
+    EXPECT_THROW(with_provenance(kind, "no mark\n", sample_provenance()), std::out_of_range);
+}
+
+// `jq -c` and others write JSON without spaces and line ends.
+TEST(Provenance, IsReadFromJsonThatAnotherProgramPutOnOneLine) {
+  const auto text =
+      with_provenance(TextKind::kJson, "{\n  \"gap\": {\"of\": 0.1}\n}\n", sample_provenance());
+  const auto compact = Json::parse(text).dump();
+  const auto read = provenance_in(compact + "\n", "fit.json");
+  ASSERT_TRUE(read.has_value());
+  EXPECT_EQ(read->command, sample_provenance().command);
+  EXPECT_EQ(read->made, sample_provenance().made);
+  EXPECT_EQ(without_provenance(compact), compact);
+  EXPECT_EQ(provenance_in(Json::parse(text).dump(2), "fit.json")->made, read->made);
 }
 
 TEST(Provenance, OfAPngIsAChunkWithItsLengthAndCrc) {
@@ -105,15 +139,32 @@ TEST(Provenance, DoesNotCountWhenContentsAreCompared) {
 
 TEST(Provenance, WithoutFoldersNamesNoFolderOfTheMachine) {
   auto provenance = sample_provenance();
-  provenance.command = {"/opt/bin/viscontact", "fit", "/home/someone/data/table.csv",
-                        "--output=/tmp/fit.json", "-o/home/someone/fit.json"};
+  provenance.command = {"/opt/bin/viscontact",
+                        "fit",
+                        "/home/someone/data/table.csv",
+                        "--output=/tmp/fit.json",
+                        "-o/home/someone/fit.json",
+                        "/tmp/out/",
+                        "/"};
   provenance.inputs = {{"/home/someone/data/table.csv", "", false}, {"/etc/force.csv", "", false}};
   const auto shared = without_folders(provenance);
   EXPECT_EQ(shared.folder, "");
   EXPECT_THAT(shared.command, ElementsAre("viscontact", "fit", "data/table.csv",
-                                          "--output=fit.json", "-ofit.json"));
+                                          "--output=fit.json", "-ofit.json", "out", "/"));
   EXPECT_EQ(shared.inputs[0].file, "data/table.csv");
   EXPECT_EQ(shared.inputs[1].file, "force.csv");
+}
+
+TEST(Provenance, WithAnAbsoluteOutputRunsInItsFolderOrThatOfTheFile) {
+  const TemporaryFolder folder;
+  const auto file = std::filesystem::canonical(folder.file("fit.json", "{}"));
+  Provenance provenance;
+  provenance.output = file.string();
+  EXPECT_EQ(folder_to_run_in(file, provenance).string(), file.parent_path().string());
+  provenance.folder = "/home/someone";
+  EXPECT_EQ(folder_to_run_in(file, provenance).string(), "/home/someone");
+  provenance.output = "fit.json";
+  EXPECT_EQ(folder_to_run_in(file, provenance).string(), file.parent_path().string());
 }
 
 TEST(Provenance, SaysHowAnInputHasChanged) {
