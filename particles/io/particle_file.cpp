@@ -1,7 +1,8 @@
-// Reads and writes particles as CSV (particle_file.hpp, which has the columns and ranges). Numbers
-// are in the units of the case. A fault of a file is an Error(kBadInput) with its line; writing
-// throws nothing. A change must keep the names of the columns, which docs/file-formats.md states
-// and users' files contain. Used by case/, io/ and run/.
+// Reads particles from CSV files and writes them, and writes the rows of motion.csv.
+// particle_file.hpp has the columns and the ranges; numbers are in the units of the case. A fault
+// of a file is an Error(kBadInput), with the line if it is in one; writing throws nothing. A change
+// must keep the names of the columns, which docs/file-formats.md states and users' files contain.
+// Used by case/, io/ and run/.
 #include "viscontact/particles/io/particle_file.hpp"
 
 #include <fmt/format.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <sstream>
@@ -17,6 +17,7 @@
 #include <unordered_map>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
@@ -41,7 +42,7 @@ const Names kOnAxis = {"z", "radius", "mass", "vz", "x", "y", "vx", "vy", "id", 
 // clang-format on
 constexpr std::size_t kAngularVelocityX = 11;
 
-// Columns that only files of particles in a fluid have. Forces of an earlier run are not used.
+// Further columns in a fluid. Forces of an earlier run are not used.
 constexpr std::array<std::string_view, 7> kOfDiscsInFluid = {"angle",
                                                              "angular_velocity",
                                                              "fluid_force_x",
@@ -52,7 +53,7 @@ constexpr std::array<std::string_view, 7> kOfDiscsInFluid = {"angle",
 constexpr std::array<std::string_view, 2> kOnAxisInFluid = {"fluid_force_z",
                                                             "fluid_force_error_estimate"};
 
-// Columns of particles that turn without a fluid.
+// Further columns without a fluid, where particles may turn.
 constexpr std::array<std::string_view, 2> kOfDiscsThatTurn = {"angle", "angular_velocity"};
 constexpr std::array<std::string_view, 3> kOfSpheresThatTurn = {
     "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
@@ -88,26 +89,35 @@ double allowed(const Row& row, const Names& names, std::size_t column, Sign sign
   return value;
 }
 
-/// Throws Error(kBadInput) for unknown columns, because read_csv() would ignore them (a misspelt
-/// velocity, for example), and for incomplete velocities.
-void check_header(const std::filesystem::path& path, int dimension, bool in_fluid) {
+/// Throws Error(kBadInput) for unknown columns, because read_csv_rows() would ignore them (a
+/// misspelt velocity, for example), and for incomplete velocities. `text` is the content of the
+/// file, `names` has the columns of this dimension.
+void check_header(const std::string& text, const std::string& file, const Names& names,
+                  int dimension, bool in_fluid) {
   // The columns of kDiscs up to `id` are those that each file may have, whatever its dimension.
   const std::span known(kDiscs.begin(), kId + 1);
   const auto of_fluid = in_fluid ? fluid_columns(dimension) : turning_columns(dimension);
-  std::ifstream file(path);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  std::istringstream lines(text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size())
+                                                            : text);
   std::string line;
-  while (std::getline(file, line) && (line.empty() || line[0] == '#')) {
-  }
-  if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
-  std::size_t velocities = 0;
+  FilePosition here{file, 0};
+  do ++here.line;
+  while (std::getline(lines, line) && (line.empty() || line[0] == '#'));
+  std::vector<std::string> velocities;
   std::istringstream columns(line);
   for (std::string name; std::getline(columns, name, ',');) {
     const auto first = name.find_first_not_of(" \t\r"), last = name.find_last_not_of(" \t\r");
     name = first == std::string::npos ? "" : name.substr(first, last - first + 1);
+    if (name.starts_with("semi_axis_"))
+      throw_bad_input(here, fmt::format("has a column '{}' of ellipses or plates; the particles of "
+                                        "a file must be discs or spheres, and each ellipse or "
+                                        "plate a table [[particle]] with semi_axes or length",
+                                        name));
     if (std::ranges::find(known, name) == known.end() &&
         std::ranges::find(of_fluid, name) == of_fluid.end())
       throw_bad_input(
-          {path.string()},
+          here,
           fmt::format("has a column '{}', which is not known{}; the known columns are id, x, y, z, "
                       "vx, vy, vz, radius, mass{}{}",
                       shortened(name),
@@ -115,13 +125,14 @@ void check_header(const std::filesystem::path& path, int dimension, bool in_flui
                                      "not)"
                                    : "",
                       of_fluid.empty() ? "" : ", ", fmt::join(of_fluid, ", ")));
-    if (name.starts_with('v')) ++velocities;
+    if (name.starts_with('v')) velocities.push_back(name);
   }
-  if (velocities != 0 && velocities != 3 && velocities != static_cast<std::size_t>(dimension))
-    throw_bad_input(
-        {path.string()},
-        "has some of the columns vx, vy, vz of the velocity, not all; it must have all of "
-        "them or none");
+  const auto d = static_cast<std::size_t>(dimension);
+  for (const auto& name : std::span(names).subspan(d + 2, d))
+    if (!velocities.empty() && std::ranges::find(velocities, name) == velocities.end())
+      throw_bad_input(here, fmt::format("has the column {} of the velocity, but not {}; it must "
+                                        "have all components of the velocity or none",
+                                        velocities.front(), name));
 }
 
 /// The ids of the rows. Empty if the file has no column `id`, if all fields of this column are
@@ -156,23 +167,26 @@ std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::stri
 ParticleFile read_particles(const std::filesystem::path& path, int dimension, bool in_fluid) {
   const auto& names = dimension == 1 ? kOnAxis : dimension == 2 ? kDiscs : kSpheres;
   const auto d = static_cast<std::size_t>(dimension);
-  const auto csv = read_csv(path, names, d + 2);
-  check_header(path, dimension, in_fluid);
+  const std::string file = path.string(), text = read_file(path);
+  std::vector<Row> rows;
+  read_csv_rows(text, file, names, d + 2, [&](auto fields, int line) {
+    std::ranges::copy(fields, rows.emplace_back(Row{{}, line}).fields.begin());
+  });
+  check_header(text, file, names, dimension, in_fluid);
   const auto turns = [](const Row& row) {
     return std::any_of(row.fields.begin() + kAngle, row.fields.end(),
                        [](const auto& field) { return field.has_value(); });
   };
-  const bool any_turns = dimension != 1 && std::ranges::any_of(csv.rows, turns);
+  const bool any_turns = dimension != 1 && std::ranges::any_of(rows, turns);
   const bool rotate = dimension == 2 && (in_fluid || any_turns);
   const bool spin = dimension == 3 && any_turns;
-  const std::string file = path.string();
-  if (csv.rows.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-    throw_bad_input({file}, fmt::format("has {} particles; at most {} are allowed", csv.rows.size(),
+  if (rows.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    throw_bad_input({file}, fmt::format("has {} particles; at most {} are allowed", rows.size(),
                                         std::numeric_limits<std::int32_t>::max()));
   ParticleFile result;
   auto& p = result.particles;
   p.dimension = dimension;
-  for (const auto& row : csv.rows) {
+  for (const auto& row : rows) {
     const auto given_or_0 = [&](std::size_t i) {
       return row.fields[i] ? allowed(row, names, i, Sign::kAny, file) : 0.0;
     };
@@ -200,7 +214,7 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension, bo
     }
     result.lines.push_back(row.line);
   }
-  p.ids = read_ids(csv.rows, file);
+  p.ids = read_ids(rows, file);
   return result;
 }
 

@@ -23,7 +23,7 @@ struct ParticleFile {
 /// `dimension` is 1 (spheres on an axis), 2 (discs) or 3 (spheres). Reads the columns
 /// x,y[,z],radius,mass and, if they exist, vx,vy[,vz] and id. Without velocities the particles are
 /// at rest; without `id`, or with ids 0, 1, ..., particles.ids is empty. final_particles.csv of a
-/// run can be read, too.
+/// run without ellipses and plates can be read, too.
 ///
 /// On an axis (dimension 1) the columns are z,radius,mass and, if they exist, vz and id. In a fluid
 /// (`in_fluid`) discs have an angle and an angular velocity, which are 0 if their columns are
@@ -32,16 +32,17 @@ struct ParticleFile {
 /// of discs, or angular_velocity_x, _y and _z of spheres. Moments of inertia are not set.
 ///
 /// Throws Error(kBadInput) with file and line if the file is no CSV file with the required columns
-/// (read_csv()); for a value in a column of another dimension; for any other column; if some but
-/// not all columns of the velocity are there; for a radius or mass below 1e-100 (in a fluid a mass
-/// may be 0) and any number above 1e100 in magnitude; for more than 2^31 - 1 particles; and for an
-/// id that is missing, occurs twice or is not a whole number from 0 to 2^31 - 1.
+/// (read_csv()); for a value in a column of another dimension; for any other column, such as the
+/// semi-axes of ellipses that write_particles() writes; if some but not all components of the
+/// velocity have columns; for a radius or mass below 1e-100 (in a fluid a mass may be 0) and any
+/// number above 1e100 in magnitude; for more than 2^31 - 1 particles; and for an id that is missing,
+/// occurs twice or is not a whole number from 0 to 2^31 - 1.
 ParticleFile read_particles(const std::filesystem::path& path, int dimension,
                             bool in_fluid = false);
 
 /// Forces and torques of the fluid on particles and estimates of their errors: for each particle
-/// force_x, force_y and torque, or on an axis force_z [M L/T^2, M L^2/T^2]. An empty list means
-/// that the numbers are not known.
+/// force_x, force_y and torque, per length [M/T^2, M L/T^2], or on an axis force_z [M L/T^2]. An
+/// empty list means that the numbers are not known.
 struct FluidForces {
   std::span<const double> values;  ///< forces and torques
   std::span<const double> errors;  ///< estimates of their errors, >= 0

@@ -3,8 +3,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <array>
+#include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/common/failure.hpp"
@@ -128,6 +132,39 @@ TEST_F(FluidParticleFile, IsRefusedWithTheLine) {
               HasSubstr("radius, mass, fluid_force_z"));
   EXPECT_THAT(bad_input([&] { read("x,y,radius,mass,fluid_force_z\n1,2,1,1,0\n", 2, true); }),
               HasSubstr("angle, angular_velocity, fluid_force_x"));
+}
+
+TEST_F(FluidParticleFile, OfEllipsesIsRefusedByItsColumn) {
+  const std::vector<std::array<double, 2>> axes = {{0.5, 0.25}, {0.25, 0.25}};
+  const auto text = write_particles(discs_in_fluid(), FluidForces{{}, {}, axes});
+  EXPECT_THAT(bad_input([&] { read(text, 2, true); }),
+              HasSubstr("particles.csv:2: has a column 'semi_axis_1' of ellipses or plates"));
+}
+
+TEST_F(FluidParticleFile, NamesTheMissingComponentOfTheVelocity) {
+  EXPECT_THAT(bad_input([&] { read("# a\nx,y,radius,mass,vx,vz\n1,2,1,1,5,\n", 2, false); }),
+              HasSubstr("particles.csv:2: has the column vx of the velocity, but not vy"));
+  EXPECT_THAT(bad_input([&] { read("x,y,z,radius,mass,vy,vz\n1,2,3,1,1,5,6\n", 3, false); }),
+              HasSubstr("particles.csv:1: has the column vy of the velocity, but not vx"));
+  EXPECT_THAT(bad_input([&] { read("z,radius,mass,vx\n1,1,1,\n", 1, false); }),
+              HasSubstr("but not vz"));
+  EXPECT_EQ(read("x,y,radius,mass,vx,vy,vz\n1,2,1,1,5,6,\n", 2, false).velocities,
+            (std::vector<double>{5, 6}));
+}
+
+TEST_F(FluidParticleFile, MayHaveAByteOrderMarkBeforeAComment) {
+  const std::string mark = "\xEF\xBB\xBF", table = "x,y,radius,mass\n1,2,1,1\n";
+  EXPECT_EQ(read(mark + table, 2, false).count(), 1U);
+  EXPECT_EQ(read(mark + "# a comment\n" + table, 2, false).count(), 1U);
+}
+
+// To open a pipe a second time would wait forever for another writer.
+TEST_F(FluidParticleFile, MayBeAPipe) {
+  const auto pipe = folder_.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(pipe) << "x,y,radius,mass,spin\n1,2,1,1,1\n"; });
+  EXPECT_THAT(bad_input([&] { read_particles(pipe, 2, false); }), HasSubstr("column 'spin'"));
+  writer.join();
 }
 
 TEST_F(FluidParticleFile, OfTheMotionHasARowForEachParticle) {

@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"TinyInterval", "every = 0.5", "every = 1e-300", "output.every"},
         {"MisspeltVelocity", "x,y,vx,vy,", "x,y,Vx,Vy,", "has a column 'Vx'"},
         {"HalfAVelocity", "x,y,vx,vy,radius,mass\n3,1,0,0,1,1\n6.5,4,0,-1,0.5,0.25",
-         "x,y,vx,radius,mass\n3,1,0,1,1", "has some of the columns vx, vy, vz"},
+         "x,y,vx,radius,mass\n3,1,0,1,1", "has the column vx of the velocity, but not vy"},
         {"TooSmallForTheTolerance", "0.5,0.25", "1e-6,0.25", "too small for solver.tolerance"},
         {"TooFar", "6.5,4,0", "6.5,4e12,0", "too far from the origin"},
         {"DenormalMass", "0.5,0.25", "0.5,1e-310", "at least 1e-100"},
