@@ -1,12 +1,13 @@
-// Many particles in Python: the class Particles, whose caller makes the steps and sets forces
-// between them. core.cpp adds it to the module, and python/viscontact/particles.py derives the
-// class of users from it. Arrays are views of the state of the simulation, without copies. Numbers
-// are in the units of the case; the texts for users below have their dimensions. A wrong argument
-// is an Error(kWrongUsage), a wrong case an Error(kBadInput); other errors are those of
-// particles/run/particle_simulation.hpp. A change must keep that views stay valid: no step may move
-// an array of the state to another place in memory.
+// Many particles in Python: the class Particles. Its caller makes the steps and may set forces on
+// the particles before each step. core.cpp adds it to the module, and
+// python/viscontact/particles.py derives the class of users from it. Arrays are views of the state
+// of the simulation, without copies. Numbers are in the units of the case; the texts for users
+// below have their dimensions. A wrong argument is an Error(kWrongUsage), a wrong case an
+// Error(kBadInput); other errors are those of particles/run/particle_simulation.hpp. A change must
+// keep that views stay valid: no step may move an array of the state to another place in memory.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -34,18 +35,22 @@ class PythonParticles {
                     threads, freefem_flow::start_fluid_solver, interrupt_token()) {}
 
   const particles::ParticlesCase& case_file() const { return case_; }
+  /// The simulation, without check_idle().
   particles::ParticleSimulation& simulation() { return simulation_; }
 
-  /// Throws Error(kWrongUsage) while another thread computes steps.
+  /// Throws Error(kWrongUsage) while another thread computes steps. All functions that read or
+  /// change the simulation call it; without the interpreter's lock, compute() and compute_step()
+  /// must not.
   void check_idle() const {
     if (is_computing_)
       throw Error(ErrorKind::kWrongUsage,
                   "another thread computes steps of these particles; wait for it");
   }
 
-  /// Calls `step` while other threads of Python may run; check_idle() refuses their calls
-  /// meanwhile. Without a fluid, Ctrl-C cannot stop a step, so Python's own handler stays in place
-  /// and acts after the step: to replace it would take 5 us, 2 % of a short step of 1000 discs.
+  /// Calls `step` while other threads of Python may run. Meanwhile check_idle() refuses their calls
+  /// for this object, but they can read the views that they already have. Without a fluid, Ctrl-C
+  /// cannot stop a step, so Python's own handler stays in place and acts after the step: to replace
+  /// it would take 5 us, 2 % of a short step of 1000 discs.
   template <class Step>
   particles::StepReport compute_step(const Step& step) {
     if (simulation_.has_fluid()) return compute([&](const StopToken&) { return step(); });
@@ -63,7 +68,10 @@ class PythonParticles {
     return long_call(compute);
   }
 
-  const State& state() const { return simulation_.state(); }
+  const State& state() const {
+    check_idle();
+    return simulation_.state();
+  }
   bool is_finished() const {
     return state().time >= case_.end_time - 1e-6 * case_.setting.time_step;
   }
@@ -143,13 +151,18 @@ particles::StepReport step(PythonParticles& self, const std::optional<double>& u
 std::int64_t run(PythonParticles& self, const std::optional<double>& until) {
   const double end = end_of_steps(self, until, self.case_file().end_time);
   const double tiny = tiny_time(self);
+  if (!std::isfinite(end))
+    throw Error(
+        ErrorKind::kWrongUsage,
+        fmt::format("until is {}; it must be finite, because run() ends at this time", end));
   return self.compute([&](const StopToken& stop) {
-    const auto before = self.state().steps;
-    while (self.state().time < end - tiny) {
+    auto& simulation = self.simulation();
+    const auto before = simulation.state().steps;
+    while (simulation.state().time < end - tiny) {
       stop.throw_if_stop_requested();
-      (void)self.simulation().step(end);
+      (void)simulation.step(end);
     }
-    return self.state().steps - before;
+    return simulation.state().steps - before;
   });
 }
 
@@ -169,7 +182,6 @@ py::array vectors(const std::vector<particles::CurrentContact>& contacts, int di
 }
 
 py::object contacts(const PythonParticles& self) {
-  self.check_idle();
   const auto& p = self.state().particles;
   const auto all = particles::contacts_of(self.case_file().setting, self.state());
   using Contact = particles::CurrentContact;
@@ -230,7 +242,9 @@ restart    restart.bin of an earlier run, whose state is the start; None: that o
 
 N is the number of particles and D the number of dimensions: 2 for discs, 3 for spheres, 1 for
 spheres on an axis. Arrays are views: they show the present state after each step, cannot be written
-(but forces and torques), and keep the object alive. No file is written.)")
+(but forces and torques), and keep the object alive. While a thread computes steps, calls from
+other threads raise InputError, and the views that they already have show an unfinished step. For
+discs in a fluid M is a mass per length of the third dimension. No file is written.)")
       .def(py::init(&open_case), py::arg("case"), py::kw_only(), py::arg("threads") = 1,
            py::arg("restart") = py::none())
       .def("step", &step, R"(Computes one step and returns its StepReport.
@@ -242,25 +256,25 @@ Raises NotConvergedError if the step cannot be computed; the state is then that 
            py::arg("until") = py::none())
       .def("run", &run, R"(Computes steps until a time and returns their number.
 
-until      the time [T]; None: end_time of the case)",
+until      the time [T], finite; None: end_time of the case)",
            py::arg("until") = py::none())
       .def_property_readonly(
           "forces",
           [](const py::object& self) {
-            auto& simulation = self.cast<PythonParticles&>().simulation();
-            const auto forces = simulation.added_forces();
-            return view(self, forces.data(), forces.size(), simulation.state().particles.count(),
-                        false, true);
+            auto& particles = self.cast<PythonParticles&>();
+            const auto count = particles.state().particles.count();
+            const auto forces = particles.simulation().added_forces();
+            return view(self, forces.data(), forces.size(), count, false, true);
           },
           "Forces of the caller (N, D) [M L/T^2], 0 at first, in addition to those of the case.\n\n"
           "They act in each of the next steps with the values that they have when it begins.")
       .def_property_readonly(
           "torques",
           [](const py::object& self) {
-            auto& simulation = self.cast<PythonParticles&>().simulation();
-            const auto torques = simulation.added_torques();
-            return view(self, torques.data(), torques.size(), simulation.state().particles.count(),
-                        simulation.state().particles.dimension != 3, true);
+            auto& particles = self.cast<PythonParticles&>();
+            const auto& p = particles.state().particles;
+            const auto torques = particles.simulation().added_torques();
+            return view(self, torques.data(), torques.size(), p.count(), p.dimension != 3, true);
           },
           "Torques of the caller [M L^2/T^2]: (N,) of discs, (N, 3) of spheres, likewise; empty "
           "if\n"

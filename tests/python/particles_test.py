@@ -3,6 +3,7 @@
 import gc
 import pathlib
 import tempfile
+import threading
 import unittest
 
 import numpy as np
@@ -235,6 +236,33 @@ mass = 2.0
             for time in 0.5 * p.time, float("nan"):
                 with self.assertRaisesRegex(viscontact.Error, "until is .* the present time"):
                     call(time)
+        with self.assertRaisesRegex(ValueError, "until is inf; it must be finite"):
+            p.run(float("inf"))
+        self.assertEqual(p.step(until=float("inf")).parts, 1)
+
+    def test_calls_from_other_threads_are_refused_during_steps(self):
+        p = self.open(falling().replace("time_step = 0.01", "time_step = 1e-5"))
+        p.step()
+        thread = threading.Thread(target=p.run)  # 3e5 steps
+        read = [lambda name=name: getattr(p, name) for name in (
+            "forces", "torques", "positions", "velocities", "angles", "orientations",
+            "angular_velocities", "radii", "masses", "ids", "time", "steps", "finished")]
+        read += [lambda: len(p), lambda: repr(p), p.contacts, p.reported_velocities, p.step,
+                 lambda: p.step(0), p.run, lambda: p.run(0)]
+        for call in read[:-4]:
+            call()
+        thread.start()
+        while thread.is_alive():  # until the thread has begun its steps
+            try:
+                p.time
+            except ValueError:
+                break
+        for call in read:
+            with self.assertRaisesRegex(viscontact.InputError, "another thread computes steps"):
+                call()
+        self.assertTrue(thread.is_alive())
+        thread.join()
+        self.assertTrue(p.finished)
 
     def test_errors_leave_the_state(self):
         p = self.open(falling())
