@@ -1,9 +1,8 @@
 // Reads all journals of a table (files of the rows that processes have finished), merges their rows
 // with those of the table, and removes from the journals what the table contains. Numbers are in
 // the units of the table (table_plan.hpp). A damaged line counts as no row; a journal that cannot
-// be read or replaced is an Error(kBadInput), one that cannot be removed a
-// std::filesystem::filesystem_error. Used by tabulate.cpp, pipeline/ and python/. A change must
-// keep that the table is read after the journals.
+// be read, replaced or removed is an Error(kBadInput). Used by tabulate.cpp, pipeline/ and python/.
+// A change must keep that the table is read after the journals.
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 
 #include <fcntl.h>
@@ -49,7 +48,8 @@ void for_each_line(const fs::path& journal, const Use& use) {
   try {
     text = read_file(journal);
   } catch (const Error&) {
-    if (fs::exists(journal)) throw;
+    std::error_code refused;
+    if (fs::status(journal, refused).type() != fs::file_type::not_found) throw;
   }
   for (std::size_t start = 0, end = 0; (end = text.find('\n', start)) != std::string::npos;
        start = end + 1)
@@ -112,7 +112,7 @@ void remove_journals(const fs::path& table_path, const std::string& hash) {
         others += std::string(line) + "\n";
     });
     if (others.empty())
-      fs::remove(journal);
+      remove_file(journal);
     else if (has_ours)
       write_file(journal, others);
   }

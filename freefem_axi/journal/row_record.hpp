@@ -30,8 +30,7 @@ std::vector<std::string> failures_of(const RowRecord& record, const std::vector<
 /// The caller has written the table before. Rows with another hash, of a case that was edited
 /// meanwhile, stay, because only the journal contains them; a journal without such rows is deleted.
 /// A journal that another process has locked, or that cannot be opened for writing, is not changed.
-/// Throws Error(kBadInput) if a journal
-/// cannot be read or replaced.
+/// Throws Error(kBadInput) if a journal cannot be read, replaced or removed.
 void remove_journals(const std::filesystem::path& table_path, const std::string& hash);
 
 }  // namespace viscontact::freefem_axi

@@ -1,10 +1,9 @@
 // Reads the columns to draw from a sweep's CSV file and draws them (sweep_plot.hpp). Values are in
 // the units of the case, sizes in pixels; heights and margins are free choices. A column that is
-// missing or has no number is an Error(kBadInput), a row with too few fields a std::out_of_range, a
-// missing or failing gnuplot an Error(kExternalProgram), and a requested stop an
-// Error(kInterrupted). Used by `sweep` (app/commands/sweep/). Files larger than the memory must be
-// read row by row. kMean and kError must be the ends of names in
-// particles/case/particles_study.cpp.
+// missing or has no number is an Error(kBadInput), a missing or failing gnuplot an
+// Error(kExternalProgram), and a requested stop an Error(kInterrupted). Used by `sweep`
+// (app/commands/sweep/). Files larger than the memory must be read row by row. kMean and kError
+// must be the ends of names in particles/case/particles_study.cpp.
 #include "viscontact/report/pictures/sweep_plot.hpp"
 
 #include <fmt/format.h>
@@ -61,14 +60,16 @@ class SweepRows {
     return true;
   }
 
-  /// The value in the row that was read last; NaN if it is not a number.
+  /// The value in the row that was read last; NaN if it is missing or not a number.
   double value(const Place& place) const {
-    const double value = parse_number(fields_.at(place.column)).value_or(kNoValue);
-    return place.divisor ? value / parse_number(fields_.at(*place.divisor)).value_or(kNoValue)
-                         : value;
+    return place.divisor ? number(place.column) / number(*place.divisor) : number(place.column);
   }
 
  private:
+  double number(std::size_t column) const {
+    return column < fields_.size() ? parse_number(fields_[column]).value_or(kNoValue) : kNoValue;
+  }
+
   std::size_t index_of(const std::string& name) const {
     const auto found = std::ranges::find(names_, name);
     if (found == names_.end())

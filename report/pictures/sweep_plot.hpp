@@ -28,9 +28,9 @@ struct SweepPlot {
 /// The content of a picture with lines, or with colours over the grid of two keys. Axes and colours
 /// are logarithmic if all values are > 0 and span a decade or more. Throws Error(kBadInput) if a
 /// column does not exist or the file cannot be read, in a message that lists the columns, if there
-/// is no number to draw, or if a map has fewer than two values along an axis; std::out_of_range if
-/// a row has too few fields; Error(kExternalProgram) if gnuplot is missing or fails; and
-/// Error(kInterrupted) if `stop` requests a stop. A field that is no number is not drawn.
+/// is no number to draw, or if a map has fewer than two values along an axis;
+/// Error(kExternalProgram) if gnuplot is missing or fails; and Error(kInterrupted) if `stop`
+/// requests a stop. A field that is missing or no number is not drawn.
 std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot& plot,
                        const results::PictureFormat& format, const StopToken& stop = {});
 

@@ -127,7 +127,11 @@ RollingTrajectory read_trajectory(const fs::path& path) {
       throw_bad_input({path.string(), line}, "lacks a number");
     auto& row = trajectory.emplace_back();
     for (std::size_t i = 0; i < kColumns.size(); ++i) row.*kColumns[i] = *fields[i];
-    row.contact = static_cast<SolidContact>(static_cast<int>(*fields.back()));
+    const double contact = *fields.back();
+    if (contact != 0 && contact != 1 && contact != 2)
+      throw_bad_input({path.string(), line},
+                      fmt::format("contact is {}; it must be 0, 1 or 2", contact));
+    row.contact = static_cast<SolidContact>(static_cast<int>(contact));
   }
   if (trajectory.empty()) throw_bad_input({path.string()}, "has no rows");
   return trajectory;

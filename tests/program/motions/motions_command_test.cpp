@@ -283,6 +283,12 @@ TEST_F(MotionsCommand, RollingWritesTrajectoriesResultsAndAReport) {
   EXPECT_EQ(*rows.rows.back().fields[0], 20);
   EXPECT_THAT(read_file(path("out/report.html")),
               AllOf(HasSubstr("A sphere rolls down an incline"), HasSubstr("plots/slip.svg")));
+  const auto rough = read_file(path("out/rough.csv"));
+  for (const std::string contact : {"3", "0.5", "-1"}) {
+    put_text(path("out/rough.csv"), replaced(rough, ",0\n", "," + contact + "\n"));
+    expect_refusal(run_viscontact({"report", path("out")}), ErrorKind::kBadInput,
+                   HasSubstr("rough.csv:6: contact is " + contact + "; it must be 0, 1 or 2"));
+  }
 }
 
 TEST_F(MotionsCommand, TheReportOfARollingSphereHasTheUnitsOfItsCase) {
