@@ -144,7 +144,8 @@ void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
   const bool has_fluid = c.setting.fluid.has_value();
   section.require(
       std::holds_alternative<DiscDomain>(domain) || std::holds_alternative<BoxDomain>(domain),
-      "radius", "belongs to an arrangement, which needs a section [domain] with a disc or a box");
+      section.has("species") ? "species" : "radius",
+      "belongs to an arrangement, which needs a section [domain] with a disc or a box");
   ArrangementKeys keys;
   case_file::read_keys(section, arrangement_keys, keys, p.dimension, has_fluid);
   const std::string_view key = keys.count > 0     ? "count"

@@ -51,6 +51,8 @@ TEST(ArrangementSection, InAFluidDiscsHaveAnglesAndNeedNoMass) {
   EXPECT_THAT(p.angles, SizeIs(19));
   EXPECT_THAT(p.inertias, AllOf(SizeIs(19), Each(0.0)));
   EXPECT_THAT(read("count = 1\nradius = 1.0\nmass = 3.0\n", kBox, true).inertias, ElementsAre(1.5));
+  // At least one disc is drawn.
+  EXPECT_EQ(read("area_fraction = 1e-9\nradius = 1.0\n", kBox, true).count(), 1U);
 }
 
 TEST(ArrangementSection, DefaultsAreSeed1AndAGapOfATwentiethOfTheRadius) {
@@ -101,6 +103,8 @@ TEST(ArrangementSection, WrongKeysAreRefusedAtTheirLine) {
   spheres.dimension = 3;
   EXPECT_THAT(bad_input([&] { read("count = 2\nradius = 1.0\n", {}, false, spheres); }),
               HasSubstr("needs a section [domain] with a disc or a box"));
+  EXPECT_THAT(bad_input([] { read("count = 2\nspecies = [ { radius = 1.0 } ]\n", {}); }),
+              HasSubstr("case.toml:4: arrangement.species belongs to an arrangement, which needs"));
 }
 
 const Domain kCuboid = BoxDomain{{0, 0, 0}, {20, 10, 15}, {true, true, false}};
@@ -138,6 +142,8 @@ TEST(ArrangementSection, WrongSpeciesAreRefusedAtTheirLine) {
   };
   EXPECT_THAT(refused("species = [ { radius = 1.0, mass = 1.0 } ]\nradius = 1.0\n"),
               HasSubstr("case.toml:5: arrangement.radius must be left out, because species"));
+  EXPECT_THAT(refused("species = []\n"),
+              HasSubstr("arrangement.species is []; it must be a list of at least one table"));
   EXPECT_THAT(refused("species = [ { radius = 1.0 } ]\n"),
               HasSubstr("case.toml:4: arrangement.species[0].mass is missing"));
   EXPECT_THAT(refused("radius = { uniform = [1.0, 0.5] }\nmass = 1.0\n"),
