@@ -2,8 +2,8 @@
 // step() calls. Lengths, masses and times are in any consistent units; fluid_simulation.hpp and
 // fluid_motion.hpp have shapes and ranges. A step that is refused is an Error(kNotConverged), which
 // must leave the state as it was. In a fluid with inertia accept() also throws the errors of
-// FluidSolver::keep_flow(). A change must also keep that a continued run gives the same bits as one
-// without a break.
+// FluidSolver::keep_flow(), before it changes the state. A change must also keep that a continued
+// run gives the same bits as one without a break.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -85,6 +85,9 @@ void FluidSimulation::remember_friction(const StepContacts& step, double share) 
 
 /// Changes the state by a step of length h that ends at `next` [T]; counts contacts in the report.
 void FluidSimulation::accept(Motion motion, double h, double next, StepReport& report) {
+  // The flow of the first step is not kept, because the next step computes it again.
+  const bool keeps_flow = setting_.fluid->has_inertia() && state_.earlier_step > 0;
+  if (keeps_flow) solver_->keep_flow(false, motion.kept);
   auto& p = state_.particles;
   state_.pairs = std::move(motion.contact.pairs);
   state_.walls = std::move(motion.contact.walls);
@@ -127,13 +130,10 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   place_members(p);
   state_.link_forces = std::move(motion.link_forces);
   state_.arm_powers = std::move(motion.arm_powers);
-  if (!setting_.fluid->has_inertia()) {
+  if (!setting_.fluid->has_inertia())
     state_.earlier_velocities = std::move(motion.flow);
-  } else if (state_.earlier_step > 0) {
-    // The flow of the first step is not kept, because the next step computes it again.
-    solver_->keep_flow(false, motion.kept);
+  else if (keeps_flow)
     state_.earlier_velocities = std::move(motion.kept);
-  }
   state_.earlier_forces = std::move(motion.drag);
   state_.step_before = state_.earlier_step;
   state_.earlier_step = h;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/common/failure.hpp"
 #include "tests/particles/fluid/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
 
@@ -74,6 +75,32 @@ InFluid with_inertia(double h) {
 
 FluidSimulation simulation_of(const InFluid& system, double drag = 0, double added_mass = 0) {
   return {system.setting, system.state, std::make_unique<InertialStandIn>(drag, added_mass)};
+}
+
+TEST(InertiaOfFluid, AFlowThatCannotBeKeptLeavesTheStateAsItWas) {
+  class Failing : public InertialStandIn {
+   public:
+    Failing() : InertialStandIn(1, 0) {}
+    void keep_flow(bool at_rest, std::span<const double> motions) override {
+      if (++calls_ == 3) throw Error(ErrorKind::kExternalProgram, "the third flow is lost");
+      InertialStandIn::keep_flow(at_rest, motions);
+    }
+
+   private:
+    int calls_ = 0;
+  };
+  auto system = with_inertia(0.1);
+  add_particle(system.state, {20, 0, 0}, 1, 1, {1, 0, 0});
+  FluidSimulation simulation(system.setting, system.state, std::make_unique<Failing>());
+  // The start and the second step keep a flow, the first step does not.
+  simulation.step(1);
+  simulation.step(1);
+  const State before = simulation.state();
+  EXPECT_EQ(failure(ErrorKind::kExternalProgram, [&] { simulation.step(1); }),
+            "the third flow is lost");
+  EXPECT_EQ(simulation.state().particles.positions, before.particles.positions);
+  EXPECT_EQ(simulation.state().particles.velocities, before.particles.velocities);
+  EXPECT_EQ(simulation.state().time, before.time);
 }
 
 TEST(InertiaOfFluid, EachForceGivesItsWholeImpulse) {
