@@ -1,5 +1,6 @@
 // Solves a time step of membranes in a fluid by Newton's method; membrane_motion.hpp has the
-// equations, and the shapes and dimensions of all arrays; units are any consistent ones.
+// equations, and the shapes and dimensions of all arrays. Units are any consistent ones; M is a
+// mass per length of the third dimension.
 // membrane_simulation.cpp and membrane.cpp use it. Throws Error(kNotConverged) if it cannot solve a
 // step. A change must keep that step_matrix() is the derivative of the equations, so that the
 // method converges quadratically.
@@ -138,9 +139,10 @@ Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const 
   return columns;
 }
 
-/// The matrix of Newton's method for step(). Its unknowns are scaled so that its entries have
-/// similar sizes. They are the positions [L]; the tensions over `unit`, a force [M L/T^2]; and the
-/// pressures times the norm of their column of area_columns(), over `unit`.
+/// The matrix of Newton's method for step(). Its unknowns are scaled to lengths, so that its
+/// entries have similar sizes. They are the positions [L]; the tensions over `unit`, a force per
+/// length [M/T^2]; and the pressures times the norm of their column of area_columns(), over `unit`.
+/// MembraneMotion::flow_forces must be without the loads.
 Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
                                        const Eigen::VectorXd& positions,
                                        const MembraneMotion& motion, double unit) const {
@@ -173,7 +175,7 @@ Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
 bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,
                            Eigen::VectorXd& positions, MembraneMotion& motion) const {
   const auto n = beads(), count = static_cast<Eigen::Index>(curves_.size());
-  // The unit of tensions is a force that moves a bead by about the length 1 in the step.
+  // A force on a bead moves it by about this force over `unit` in the step.
   const double unit = static_cast<double>(2 * n) / (time * answer.mobility.trace());
   Eigen::VectorXd wanted(n);
   double size = 0;
@@ -255,11 +257,14 @@ MembraneMotion Membranes::step(const Eigen::VectorXd& from, double time, const F
 }
 
 LoadResponse Membranes::response(double time, const FluidAnswer& answer,
-                                 const MembraneMotion& motion, const Eigen::VectorXd& positions,
+                                 const Eigen::VectorXd& loads, const MembraneMotion& motion,
+                                 const Eigen::VectorXd& positions,
                                  const Eigen::MatrixXd& moves) const {
   const auto n = beads(), count = static_cast<Eigen::Index>(curves_.size());
   const double unit = static_cast<double>(2 * n) / (time * answer.mobility.trace());
-  const Eigen::MatrixXd matrix = step_matrix(time, answer, positions, motion, unit);
+  MembraneMotion unloaded = motion;
+  unloaded.flow_forces -= loads;
+  const Eigen::MatrixXd matrix = step_matrix(time, answer, positions, unloaded, unit);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(matrix.rows(), moves.cols());
   right.topRows(2 * n) = moves;
   const Eigen::MatrixXd solved = matrix.partialPivLu().solve(right);

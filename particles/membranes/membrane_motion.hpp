@@ -97,8 +97,9 @@ class Membranes {
   /// column for each load with the displacements that the load alone would cause; the response also
   /// contains the bending forces and tensions that oppose them. `motion` is what step() returned
   /// with these `positions`.
-  LoadResponse response(double time, const FluidAnswer& answer, const MembraneMotion& motion,
-                        const Eigen::VectorXd& positions, const Eigen::MatrixXd& moves) const;
+  LoadResponse response(double time, const FluidAnswer& answer, const Eigen::VectorXd& loads,
+                        const MembraneMotion& motion, const Eigen::VectorXd& positions,
+                        const Eigen::MatrixXd& moves) const;
 
  private:
   bool solve_step(const Eigen::VectorXd& from, double time, const FluidAnswer& answer,

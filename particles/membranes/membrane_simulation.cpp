@@ -56,8 +56,8 @@ class MembraneSimulation::Implementation {
   FluidAnswer answer_to_beads(const FluidAnswer& answer, const Eigen::VectorXd& loads) const;
   Eigen::VectorXd velocities_of_all(const FluidAnswer& answer, const MembraneMotion& motion,
                                     const Eigen::VectorXd& loads) const;
-  Eigen::MatrixXd response(double time, const FluidAnswer& answer, const MembraneMotion& motion,
-                           const Eigen::VectorXd& positions) const;
+  Eigen::MatrixXd response(double time, const FluidAnswer& answer, const Eigen::VectorXd& loads,
+                           const MembraneMotion& motion, const Eigen::VectorXd& positions) const;
   Eigen::VectorXd moved_discs(const Eigen::VectorXd& now, const Eigen::VectorXd& from, double time,
                               const Eigen::VectorXd& velocities, double h) const;
   StepContacts solve_contacts_of(const Eigen::VectorXd& free, double h, double next,
@@ -253,14 +253,16 @@ Eigen::VectorXd MembraneSimulation::Implementation::velocities_of_all(
 
 /// Change of the places at the end of a step per force on beads and discs, a symmetric matrix:
 /// displacements per force [T^2/M], turns per force and displacements per torque [T^2/(M L)], turns
-/// per torque [T^2/(M L^2)]. `time` and `motion` are those of Membranes::step.
+/// per torque [T^2/(M L^2)]. `time` and `motion` are those of Membranes::step, `loads` the forces
+/// on all in this step.
 Eigen::MatrixXd MembraneSimulation::Implementation::response(
-    double time, const FluidAnswer& answer, const MembraneMotion& motion,
-    const Eigen::VectorXd& positions) const {
+    double time, const FluidAnswer& answer, const Eigen::VectorXd& loads,
+    const MembraneMotion& motion, const Eigen::VectorXd& positions) const {
   const auto b = bead_components(), n = answer.flow.size();
   const Eigen::MatrixXd moves = time * answer.mobility;
   const FluidAnswer of_beads{answer.flow.head(b), answer.mobility.topLeftCorner(b, b)};
-  const auto changes = membranes_.response(time, of_beads, motion, positions, moves.topRows(b));
+  const auto changes =
+      membranes_.response(time, of_beads, loads.head(b), motion, positions, moves.topRows(b));
   Eigen::MatrixXd response(n, n);
   response.topRows(b) = changes.positions;
   response.bottomRows(n - b) =
@@ -386,7 +388,7 @@ StepReport MembraneSimulation::Implementation::step(double end) {
   StepReport report{.time = interval->end, .parts = 1};
   auto contacts =
       solve_contacts_of((reached - now) / h, h, interval->end,
-                        [&] { return response(time, answer, motion, positions); }, report);
+                        [&] { return response(time, answer, loads, motion, positions); }, report);
   const auto of_contacts = from_particles(contacts.loads);
   if (of_contacts.squaredNorm() > 0) {
     loads += of_contacts;

@@ -12,6 +12,7 @@
 #include "tests/common/failure.hpp"
 #include "viscontact/particles/membranes/membrane.hpp"
 #include "viscontact/particles/membranes/membrane_curve.hpp"
+#include "viscontact/particles/membranes/membrane_motion.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -185,6 +186,55 @@ TEST(MembraneSimulation, DoesNotContinueWithAnotherShape) {
   vesicle.reduced_area += 0.05;
   EXPECT_THAT(bad_input([&] { vesicle.simulation(0.1, &between); }),
               ::testing::HasSubstr("membrane 0 of the restart file has the perimeter 7 "));
+}
+
+// The loads are far larger than the forces of the membrane.
+TEST(Membranes, TheResponseIsTheDerivativeOfAStepWithLoads) {
+  constexpr Eigen::Index kBeads = 16;
+  constexpr double kTime = 2e-5, kSmall = 0.01;
+  Membrane membrane;
+  membrane.set_beads(0, kBeads);
+  membrane.perimeter = 7;
+  membrane.area = 0.7 * 49 / (4 * std::numbers::pi);
+  const Membranes membranes({&membrane, 1});
+  Particles p;
+  p.positions = *ellipse_of(membrane, {}, 0.4);
+  Stokeslets fluid(1, 0.3);
+  fluid.place({&p, {}, {}, {}});
+  std::vector<double> unit(3 * kBeads);
+  const Eigen::VectorXd from = membranes.places(p.positions, {});
+  FluidAnswer answer{membranes.from_particles(fluid.velocities(unit, true), 3),
+                     Eigen::MatrixXd(2 * kBeads, 2 * kBeads)};
+  Eigen::VectorXd loads(2 * kBeads), small = Eigen::VectorXd::Zero(2 * kBeads);
+  for (Eigen::Index k = 0; k < kBeads; ++k) {
+    for (Eigen::Index d = 0; d < 2; ++d) {
+      const auto at = static_cast<std::size_t>(3 * k + d);
+      unit[at] = 1;
+      answer.mobility.col(d * kBeads + k) =
+          membranes.from_particles(fluid.velocities(unit, false), 3);
+      unit[at] = 0;
+    }
+    const double angle = kTwoPi * static_cast<double>(k) / kBeads;
+    loads(k) = 50 * std::sin(2 * angle);
+    loads(kBeads + k) = 80 * std::cos(angle);
+  }
+  small(3) = 1;
+  const auto step = [&](double share, Eigen::VectorXd& positions) {
+    positions = from;
+    return membranes.step(from, kTime, answer, loads + share * small, positions);
+  };
+  Eigen::VectorXd positions, changed;
+  const auto motion = step(0, positions);
+  const auto more = step(kSmall, changed), less = step(-kSmall, changed);
+  const Eigen::VectorXd forces = (more.flow_forces - less.flow_forces) / (2 * kSmall) - small;
+  const Eigen::VectorXd moved = kTime * (more.velocities - less.velocities) / (2 * kSmall);
+  const auto response =
+      membranes.response(kTime, answer, loads, motion, positions, kTime * answer.mobility * small);
+  // At the end of a step the beads are moved a little, to make lengths and areas exact, so that the
+  // response belongs to slightly other places (8e-6). With the loads in the condition for the
+  // pressure the difference would be 1e-4.
+  EXPECT_LT((response.forces - forces).norm(), 2e-5 * forces.norm());
+  EXPECT_LT((response.positions - moved).norm(), 2e-5 * moved.norm());
 }
 
 /// Two vesicles, one above the other, that a straining flow presses together, and the floor of a
