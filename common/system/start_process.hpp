@@ -43,9 +43,9 @@ struct StartedProcess {
 /// not looked at.
 StartedProcess start_process(const ProcessCommand& command, ErrorStream errors);
 
-/// The end of a process by a signal in words: "ended by signal 11 (Segmentation fault)". `signal`
-/// is its number, from 1 to 31; for a real-time signal (32 to 64), which has no words, throws
-/// fmt::format_error.
+/// The end of a process by the signal with the number `signal`, 1 to 64, in words: "ended by signal
+/// 11 (Segmentation fault)". Real-time signals (32 to 64) have no description: "ended by signal
+/// 34".
 std::string end_by_signal_in_words(int signal);
 
 }  // namespace viscontact

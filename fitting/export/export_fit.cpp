@@ -1,11 +1,11 @@
 // Writes a fit as code or numbers: the resistance R of a sphere as a function of the gap q, the sum
 // of weight * term(q), and its primitive Gamma(q) = int_r^q R, with the sphere's radius r
 // (docs/physics.md (3.2), (3.3), (4.2)). Numbers are in the units of the fit; lubrication/fit.hpp
-// has their dimensions and ranges. An unknown target, a resistance that is not positive and a limit
-// that the fit lacks are an Error(kBadInput), csv with gaps outside the interval an
-// Error(kWrongUsage). Used by app/ and motions/fit/export_pair.cpp, which repeats the names of the
-// targets. A change must keep the names of functions and keys, which programs of users call, and
-// the order of the sums.
+// has their dimensions and ranges. An unknown target, a resistance that is not positive, and a
+// formula for small gaps whose coefficient k the fit lacks are an Error(kBadInput), csv with gaps
+// outside the interval an Error(kWrongUsage). Used by app/ and motions/fit/export_pair.cpp, which
+// repeats the names of the targets. A change must keep the names of functions and keys, which
+// programs of users call, and the order of the sums.
 #include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>
@@ -122,8 +122,8 @@ std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view sou
       fmt::format("Lubrication force of a sphere, written by 'viscontact export' (Viscontact {}).",
                   version == fit.versions.end() ? "of unknown version" : version->second),
       "F = -R(q) u: q the gap, u the normal velocity (positive away), F along the outward normal.",
-      ("Gamma(q) = integral of R from the sphere's radius to q: the impulse that the film has "
-       "absorbed."),
+      ("Gamma(q) = integral of R from the sphere's radius to q: minus the impulse that the film "
+       "absorbs while the gap falls from the radius to q."),
       fmt::format(
           "Valid for gaps in [{}, {}]; sphere of radius {}, viscosity {}, consistent units.",
           plain(fit.gap_interval[0]), plain(fit.gap_interval[1]), plain(fit.radius),

@@ -1,8 +1,9 @@
 // The dialogue with scripts/membranes.edp (membrane_process.hpp), which freefem_solver.cpp starts.
-// Numbers have the units of the arguments. A solver that fails is an Error(kExternalProgram), a
-// place outside the domain or a number that is not finite an Error(kNotConverged), too many
-// membranes or a wrong domain an Error(kBadInput), and a requested stop an Error(kInterrupted). A
-// change must agree with what the script reads and writes.
+// Lengths, masses (per length of the third dimension) and times are in the units of the arguments,
+// so that forces are in [M L/T^2] and entries of the mobility in [T/M]. A solver that fails is an
+// Error(kExternalProgram), a place outside the domain or a number that is not finite an
+// Error(kNotConverged), too many membranes or a wrong domain an Error(kBadInput), and a requested
+// stop an Error(kInterrupted). A change must agree with what the script reads and writes.
 #include "viscontact/freefem_flow/membranes/membrane_process.hpp"
 
 #include <fmt/format.h>
@@ -78,6 +79,7 @@ class MembraneProcess : public particles::FluidSolver {
     quantities.fluid_forces = forces_of_fluid_;
     return quantities;
   }
+  // Discs are rigid without a penalty, and there is no second mesh, so that no error is estimated.
   double vary_penalty() override { return 0; }
   particles::SecondMesh vary_mesh() override { return {}; }
   FlowField flow() override;
@@ -93,7 +95,7 @@ class MembraneProcess : public particles::FluidSolver {
   SolverLimits limits_;
   std::string opening_;
   particles::Domain domain_;
-  double unit_;
+  double unit_;  // unit of length of the arguments in that of the case
   std::vector<Membrane> membranes_;
   int edges_;          // on each membrane
   int edges_of_disc_;  // on each disc
@@ -104,7 +106,8 @@ class MembraneProcess : public particles::FluidSolver {
   // of the same beads, the motions of the discs. For each of them its place in the arrays of
   // FluidSolver.
   std::vector<std::size_t> components_;
-  // Of the last flow with moving walls, and of the fluid without membranes (0: not known).
+  // Dissipation of the last velocities() with `driving`, in which walls and driven discs move, and
+  // that of the fluid without membranes and discs with the same walls (0: not known) [M L^2/T^3].
   double dissipation_ = 0, dissipation_alone_;
   std::vector<double> forces_of_fluid_;  // on all particles
   std::unique_ptr<SolverDialogue> solver_;
@@ -177,6 +180,8 @@ void MembraneProcess::place(const particles::FluidParticles& bodies) {
   InnerCurves curves{.edges = edges_, .edges_of_disc = edges_of_disc_};
   auto& nodes = curves.membranes;
   for (std::size_t m = 0; m < nodes_.size(); ++m) {
+    // Trigonometric interpolation needs a curve without jumps: each bead is at its image nearest to
+    // the bead before it, as Membranes::places() gives them.
     Eigen::MatrixXd own(membranes_[m].count(), 2);
     for (Eigen::Index k = 0; k < own.rows(); ++k) {
       const auto at = bodies.particles->position(

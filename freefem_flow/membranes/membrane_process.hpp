@@ -23,8 +23,11 @@ namespace viscontact::freefem_flow {
 ///
 /// The mesh has `edges_per_particle` edges on each membrane, but at least two thirds as many as any
 /// membrane has beads. In a box that is periodic along x the mesh ends at a straight line that no
-/// membrane or disc crosses. place() throws Error(kNotConverged) if there is no such line, and if a
-/// membrane meets a disc or leaves the domain. vary_penalty() and vary_mesh() return zeros.
+/// membrane or disc crosses. place() needs the beads of each membrane at images without jumps by a
+/// period between neighbours (not checked); they may be outside the box. It throws
+/// Error(kNotConverged) if there is no such line, and if a membrane meets a disc or leaves the
+/// domain. vary_penalty() and vary_mesh() return zeros: there is neither a penalty nor a second
+/// mesh.
 std::unique_ptr<particles::FluidSolver> start_membrane_solver(const particles::Fluid& fluid,
                                                               const particles::Domain& domain,
                                                               std::span<const double> radii,

@@ -28,7 +28,8 @@ struct PairRadii {
   double second = 0;  ///< of the second surface, which is that of a particle, > 0
 };
 
-/// The radii of two particles, or of an obstacle, a place in `obstacles`, and a particle.
+/// The radii of the surfaces of `pair`, which are two particles, or an obstacle and a particle. The
+/// obstacle is the one with the number pair.plane() in `obstacles`.
 inline PairRadii radii_of(const Pair& pair, const Particles& particles,
                           std::span<const Plane> obstacles) {
   PairRadii radii;
@@ -42,10 +43,11 @@ inline PairRadii radii_of(const Pair& pair, const Particles& particles,
 
 /// The laws of a case.
 struct ContactLaws {
-  FilmLaw film;                         ///< how strong the film may pull
-  std::optional<FrictionLaw> friction;  ///< of the solids, only for particles that turn. In a fluid
-                                        ///< kFixedPoint only, without restitution and membranes
-  RestitutionLaw restitution;           ///< of the solids; needs a `film` with solid contact
+  FilmLaw film;  ///< how strong the film may pull
+  /// Friction of the solids, only for particles that turn. In a fluid its method must be
+  /// FrictionMethod::kFixedPoint, and a case with friction has no restitution and no membranes.
+  std::optional<FrictionLaw> friction;
+  RestitutionLaw restitution;  ///< of the solids; needs a `film` with solid contact
 
   /// gamma_min of a pair, the value of gamma at which its solids touch, in the unit of gamma, <= 0;
   /// minus infinity if they never touch.

@@ -85,7 +85,7 @@ struct AreaMoments {
   double xx = 0,  ///< integral of x^2 over the area, with x from the centre [L^4]
       yy = 0,     ///< integral of y^2, likewise [L^4]
       xy = 0;     ///< integral of x y, likewise [L^4]
-  /// The direction of the long axis, in (-pi/2, pi/2] [rad].
+  /// The angle from the direction of x to the long axis, in (-pi/2, pi/2] [rad].
   double inclination() const;
   /// Changes moments about another point (x, y) to those about the centre. `area` [L^2] is the area
   /// inside, which must not be 0; mx and my are its first moments about the point [L^3].
@@ -103,8 +103,8 @@ struct MeasuredLine {
 };
 
 /// Measures a membrane by its line. `positions` [L] and `velocities` [L/T] of the beads have 2 N
-/// numbers, x of all beads and then y; if `velocities` is empty or uniform, the speed and the
-/// frequency are 0.
+/// numbers, x of all beads and then y; if `velocities` is empty or uniform, membrane_speed and
+/// tank_treading_frequency of the result are 0.
 MembraneMeasures measure(const MeasuredLine& line, const Eigen::VectorXd& positions,
                          const Eigen::VectorXd& velocities);
 /// The same for the curve of a membrane in a fluid.

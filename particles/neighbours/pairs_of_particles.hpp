@@ -42,10 +42,12 @@ class PairsOfParticles {
     return std::span(pairs_of_).subspan(offsets_[k], offsets_[k + 1] - offsets_[k]);
   }
 
-  /// Returns the numbers `start` and those of all pairs that are connected with them through at
-  /// most `depth` >= 0 pairs f for which may_close(f) is true. may_close is called at most once for
-  /// each pair. `start` may contain pairs of State::walls, but the search follows pairs of
-  /// particles only, because an obstacle does not pass an impact on.
+  /// Returns the numbers `start`, and then those of the pairs of particles that the search finds in
+  /// `depth` >= 0 rounds; 0 rounds find none. Each round finds the pairs f that share a particle
+  /// with a pair found before (in the first round, of `start`) and for which may_close(f) is true.
+  /// may_close is called at most once for each pair, and not for those of `start`. `start` may
+  /// contain pairs of State::walls, but the search finds no others, because an obstacle does not
+  /// pass an impact on.
   template <class Predicate>
   std::vector<std::size_t> connected(std::span<const std::size_t> start, int depth,
                                      const Predicate& may_close) const {
