@@ -45,7 +45,7 @@ inline PairRadii radii_of(const Pair& pair, const Particles& particles,
 struct ContactLaws {
   FilmLaw film;  ///< how strong the film may pull
   /// Friction of the solids, only for particles that turn. In a fluid its method must be
-  /// FrictionMethod::kFixedPoint, and a case with friction has no restitution and no membranes.
+  /// FrictionMethod::kFixedPoint, and such a case has neither restitution nor membranes.
   std::optional<FrictionLaw> friction;
   RestitutionLaw restitution;  ///< of the solids; needs a `film` with solid contact
 
