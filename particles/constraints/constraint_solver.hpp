@@ -21,7 +21,7 @@ struct ConstraintSolution {
   std::vector<BlockResidual> residuals;  ///< residuals of all blocks, in order [L]
 };
 
-/// The method with which a solution begins.
+/// The method with which a solution with Coulomb's law begins.
 enum class ConstraintStart {
   /// Gauss-Seidel sweeps, which are fast. If rows are redundant, so that several impulses solve the
   /// problem, the result depends on the order of the rows.
@@ -36,9 +36,11 @@ enum class ConstraintStart {
 /// leaves in problem.impulses, the iterate with the smallest residual. Each given_load may be
 /// changed, too (below).
 ///
-/// Gauss-Seidel sweeps are made first, as long as each reduces the residual fast. For Coulomb's
-/// law, steps of the proximal method (proximal_step.hpp) follow. A convex problem (is_convex) is
-/// solved by interior points (interior_points.hpp), and proximal steps make the solution accurate.
+/// With Coulomb's law, Gauss-Seidel sweeps are made first, as long as they reduce the residual
+/// fast, and steps of the proximal method (proximal_step.hpp) follow. A convex problem (is_convex)
+/// is solved by interior points (interior_points.hpp), and proximal steps make the solution
+/// accurate. If it is_rough, interior points stop early, and the residual may be several times the
+/// allowed one.
 /// If contacts have given loads (FrictionBound::kGiven), these are replaced by the loads of a first
 /// solution, and a second solution follows, unless problem.keeps_loads.
 template <int D>
