@@ -312,7 +312,7 @@ ConstraintSolution<D> ConstraintSystem<D>::solve_problem(int max_iterations) {
 
 template <int D>
 SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
-                                        double allowed_slip, int max_iterations) {
+                                        double roughly_allowed, int max_iterations) {
   problem_ = {};
   problem_.is_convex =
       step_.laws.friction && step_.laws.friction->method == FrictionMethod::kConvex;
@@ -320,12 +320,12 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   problem_.has_long_chains = !step_.links->membranes.empty();
   number_units(system);
   for (std::size_t c = 0; c < system.contacts.size(); ++c)
-    add_contact(system.contacts[c], c, allowed_slip);
+    add_contact(system.contacts[c], c, is_rough ? roughly_allowed : slips_allowed[c]);
   // In a rough solution the impulses at work are not known yet.
   if (is_rough)
-    for (auto& block : problem_.blocks) block.allowed = allowed_slip;
+    for (auto& block : problem_.blocks) block.allowed = roughly_allowed;
   for (std::size_t l = 0; l < links_.size(); ++l)
-    add_link(l, is_rough ? allowed_slip : links_allowed[l]);
+    add_link(l, is_rough ? roughly_allowed : links_allowed[l]);
   if (has_given_up_) give_loads_of_step();
   // Each correction multiplies the error by about the turn of the bodies in the step [rad]. With
   // turns of 1 it gains little; then more corrections than this would not help either.

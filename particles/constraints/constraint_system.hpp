@@ -61,12 +61,16 @@ class ConstraintSystem {
   const std::vector<LinkEquations>& links() const { return links_; }
   /// Allowed residuals of links() [L], > 0; of angles times the mean radius. Set before solve().
   std::vector<double> links_allowed;
+  /// Allowed residuals of the slips of all contacts [L], > 0, in the order of add(). Set before
+  /// solve().
+  std::vector<double> slips_allowed;
 
   /// Solves the step. Sets the impulses of the contacts of `system`, the displacements and turns of
-  /// its particles, the motions of the rigid bodies, and the forces of the links. `allowed_slip` is
-  /// the largest allowed residual of tangential displacements [L]; if `is_rough`, also of gaps and
-  /// links. Returns the number of iterations, and the largest residual of the last problem plus the
-  /// largest correction that would follow, both over what is allowed [1].
+  /// its particles, the motions of the rigid bodies, and the forces of the links. If `is_rough`, the
+  /// largest allowed residual of gaps, slips and links is `roughly_allowed` [L]; otherwise those are
+  /// Contact::allowed, slips_allowed and links_allowed. Returns the number of iterations, and the
+  /// largest residual of the last problem plus the largest correction that would follow, both over
+  /// what is allowed [1].
   ///
   /// The equations of the problem are linear in the turns of rigid bodies. The problem is therefore
   /// solved again, with offsets corrected by the difference between the gaps and lengths after
@@ -75,7 +79,7 @@ class ConstraintSystem {
   /// If Coulomb's law is not solved in `max_iterations`, the friction is bounded by the loads of
   /// the best iterate (give_loads()), in this and all later calls, so that at least gaps, films and
   /// links are exact. residual() remains that of Coulomb's law.
-  SolverResult solve(ContactSystem<D>& system, bool is_rough, double allowed_slip,
+  SolverResult solve(ContactSystem<D>& system, bool is_rough, double roughly_allowed,
                      int max_iterations);
 
   /// True if solve() did not solve Coulomb's law, and given loads bound the friction.

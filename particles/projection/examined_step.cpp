@@ -126,11 +126,10 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
                                 ? constraints_->residual(c).normal
                                 : contact_residual(gap, here.w * (here.impulse - here.lowest));
     take(residual, scale, settings, mean_radius, result);
-    // A sticking contact may slip by the tolerance of the gaps. Its impulse needs no tolerance of
-    // its own, because it is not unique in packings and gamma does not depend on it.
     if (constraints_)
-      result.residuals.take(constraints_->residual(c).tangential,
-                            settings.tolerance * mean_radius / 2);
+      result.residuals.take(
+          constraints_->residual(c).tangential,
+          scale.allowed_slip(settings.tolerance * mean_radius / 2, settings.impulse_tolerance));
     result.residuals.impulse_errors[c] = residual / scale.w;
     result.residuals.take_gap(gap - here.tolerated, pair(chosen_[c]));
     if ((here.impulse != 0 || here.lowest < 0) &&

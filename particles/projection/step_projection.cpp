@@ -148,8 +148,8 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
   }
 }
 
-/// Solves for the impulses of the chosen contacts and of the links. With constraints, the allowed
-/// residual of tangential displacements is half of `length` [L].
+/// Solves for the impulses of the chosen contacts and of the links, after allow(). With constraints,
+/// half of `length` [L] is what a rough solution allows for all residuals.
 template <int D>
 SolverResult StepProjection<D>::solve_contacts(bool is_rough, double length, int max_iterations) {
   if (constraints_) return constraints_->solve(system_, is_rough, length / 2, max_iterations);
@@ -157,13 +157,19 @@ SolverResult StepProjection<D>::solve_contacts(bool is_rough, double length, int
 }
 
 /// Sets the allowed residual of each chosen contact to half of ResidualScale::allowed() for
-/// `length` [L] and `fraction` [1], and that of each link to half of that for half the length.
+/// `length` [L] and `fraction` [1], that of its slip to half of allowed_slip(), and that of each
+/// link to half of allowed() for half the length.
 template <int D>
 void StepProjection<D>::allow(double length, double fraction) {
   auto scales = residual_scales();
   // The other half is for rounding errors: examine() computes residuals in another way.
-  for (auto& contact : system_.contacts)
-    contact.allowed = scales.of(contact).allowed(length, fraction) / 2;
+  if (constraints_) constraints_->slips_allowed.clear();
+  for (auto& contact : system_.contacts) {
+    const auto scale = scales.of(contact);
+    contact.allowed = scale.allowed(length, fraction) / 2;
+    if (constraints_)
+      constraints_->slips_allowed.push_back(scale.allowed_slip(length, fraction) / 2);
+  }
   if (!constraints_) return;
   constraints_->links_allowed.clear();
   for (const auto& link : constraints_->links())

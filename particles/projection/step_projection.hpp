@@ -40,6 +40,14 @@ struct ResidualScale {
   double allowed(double length, double fraction) const {
     return std::min(length, std::max(fraction * impulse * w, rounding));
   }
+  /// Allowed residual of a slip [L], > 0: that of allowed(), with the part kOfSlips of the impulse
+  /// at work at least. Without this part friction would not obey its law in short steps, in which
+  /// it moves nothing by `length`. In a packing, where many slips are redundant, impulses must grow
+  /// until the slips are allowed, so that a smaller part makes more steps fail.
+  double allowed_slip(double length, double fraction) const {
+    constexpr double kOfSlips = 1e-6;
+    return allowed(length, std::max(fraction, kOfSlips));
+  }
 };
 
 /// Computes the ResidualScale of contacts and links of a step.
