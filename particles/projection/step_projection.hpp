@@ -43,9 +43,10 @@ struct ResidualScale {
   /// Allowed residual of a slip [L], > 0: that of allowed(), with the part kOfSlips of the impulse
   /// at work at least. Without this part friction would not obey its law in short steps, in which
   /// it moves nothing by `length`. In a packing, where many slips are redundant, impulses must grow
-  /// until the slips are allowed, so that a smaller part makes more steps fail.
+  /// until the slips are allowed: with a part of 1e-6, 1000 settled discs of bench/box2d.cpp
+  /// without films take twice as many iterations as without the part.
   double allowed_slip(double length, double fraction) const {
-    constexpr double kOfSlips = 1e-6;
+    constexpr double kOfSlips = 1e-5;
     return allowed(length, std::max(fraction, kOfSlips));
   }
 };
