@@ -129,7 +129,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
     if (constraints_)
       result.residuals.take(
           constraints_->residual(c).tangential,
-          scale.allowed_slip(settings.tolerance * mean_radius / 2, settings.impulse_tolerance));
+          scale.allowed(settings.tolerance * mean_radius / 2, fraction_of_slips(settings)));
     result.residuals.impulse_errors[c] = residual / scale.w;
     result.residuals.take_gap(gap - here.tolerated, pair(chosen_[c]));
     if ((here.impulse != 0 || here.lowest < 0) &&

@@ -157,18 +157,17 @@ SolverResult StepProjection<D>::solve_contacts(bool is_rough, double length, int
 }
 
 /// Sets the allowed residual of each chosen contact to half of ResidualScale::allowed() for
-/// `length` [L] and `fraction` [1], that of its slip to half of allowed_slip(), and that of each
-/// link to half of allowed() for half the length.
+/// `length` [L] and `fraction` [1], that of its slip to half of that for the fraction `of_slips`, and
+/// that of each link to half of that for `fraction` and half the length.
 template <int D>
-void StepProjection<D>::allow(double length, double fraction) {
+void StepProjection<D>::allow(double length, double fraction, double of_slips) {
   auto scales = residual_scales();
   // The other half is for rounding errors: examine() computes residuals in another way.
   if (constraints_) constraints_->slips_allowed.clear();
   for (auto& contact : system_.contacts) {
     const auto scale = scales.of(contact);
     contact.allowed = scale.allowed(length, fraction) / 2;
-    if (constraints_)
-      constraints_->slips_allowed.push_back(scale.allowed_slip(length, fraction) / 2);
+    if (constraints_) constraints_->slips_allowed.push_back(scale.allowed(length, of_slips) / 2);
   }
   if (!constraints_) return;
   constraints_->links_allowed.clear();
@@ -236,7 +235,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   double least_excess = std::numeric_limits<double>::infinity();
   while (!system_.bodies().empty()) {
     const double length = (is_rough ? kRoughLength : settings.tolerance / 2) * mean_radius;
-    allow(length, is_rough ? kRoughImpulse : settings.impulse_tolerance);
+    allow(length, is_rough ? kRoughImpulse : settings.impulse_tolerance,
+          is_rough ? kRoughImpulse : fraction_of_slips(settings));
     // A rough solution with friction or links leaves half of the iterations to the accurate one.
     const int most =
         is_rough && constraints_ ? settings.max_iterations / 2 : settings.max_iterations;

@@ -40,16 +40,18 @@ struct ResidualScale {
   double allowed(double length, double fraction) const {
     return std::min(length, std::max(fraction * impulse * w, rounding));
   }
-  /// Allowed residual of a slip [L], > 0: that of allowed(), with the part kOfSlips of the impulse
-  /// at work at least. Without this part friction would not obey its law in short steps, in which
-  /// it moves nothing by `length`. In a packing, where many slips are redundant, impulses must grow
-  /// until the slips are allowed: with a part of 1e-6, 1000 settled discs of bench/box2d.cpp
-  /// without films take twice as many iterations as without the part.
-  double allowed_slip(double length, double fraction) const {
-    constexpr double kOfSlips = 1e-5;
-    return allowed(length, std::max(fraction, kOfSlips));
-  }
 };
+
+/// The fraction of the impulse at work with which ResidualScale::allowed() allows slips [1], in (0,
+/// 1). It keeps friction to its law in short steps, in which friction moves nothing by the tolerance
+/// of gaps. In a packing, where many slips are redundant, impulses must grow until the slips are
+/// allowed. Therefore the fraction is larger than that of gaps: with the default tolerance 1e-4,
+/// about what the tolerance of gaps allows in the steps of bench/box2d.cpp. With 1e-6, 1000 settled
+/// discs without films would take twice as many iterations.
+inline double fraction_of_slips(const SolverSettings& settings) {
+  constexpr double kOfTolerance = 100;
+  return std::max(settings.impulse_tolerance, std::min(0.5, kOfTolerance * settings.tolerance));
+}
 
 /// Computes the ResidualScale of contacts and links of a step.
 template <int D>
@@ -182,7 +184,7 @@ class StepProjection {
   void choose(const std::vector<std::size_t>& pairs);
   SolverResult solve_contacts(bool is_rough, double length, int max_iterations);
   std::vector<std::size_t> with_connected_pairs(const std::vector<std::size_t>& pairs, int round);
-  void allow(double length, double fraction);
+  void allow(double length, double fraction, double of_slips);
   std::vector<std::size_t> examine(const SolverSettings& settings, double mean_radius,
                                    bool is_final, ProjectionResult& result);
   ResidualScale scale_of_link(const LinkEquations& link, ResidualScales<D>& scales) const;

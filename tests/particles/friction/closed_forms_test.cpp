@@ -129,7 +129,7 @@ TEST_P(Friction, IsThatOfItsLawInAnyStepWithTheDefaultTolerances) {
   // Sliding ends at the velocity v0/(1 + I/(m r^2)), which stays. With a film of the impulse
   // -gamma_min, friction begins at the time -gamma_min/(m g). In the steps of 1e-5 friction moves
   // nothing by more than a hundredth of the tolerance of gaps, also beside a much larger particle.
-  // Friction may be wrong by 1e-5 of the weight, which changes v by 2e-6 and the rim by 5e-6.
+  // Friction may be wrong by 1e-4 of the weight, which changes v by 2e-5 and the rim by 5e-5.
   for (const auto method : {FrictionMethod::kFixedPoint, FrictionMethod::kConvex})
     for (const double gamma_min : {0.0, -0.02})
       for (const double h : {1e-3, 1e-4, 1e-5}) {
@@ -143,8 +143,8 @@ TEST_P(Friction, IsThatOfItsLawInAnyStepWithTheDefaultTolerances) {
         Simulation simulation(setting, state, 1);
         run(simulation, 0.02, [](const StepReport& report) { EXPECT_TRUE(report.converged); });
         const auto& particles = simulation.state().particles;
-        EXPECT_NEAR(particles.velocity(0)[0], 0.02 / (1 + inertia()), 1e-5);
-        EXPECT_NEAR(-0.5 * spin(simulation.state()), 0.02 / (1 + inertia()), 1e-5);
+        EXPECT_NEAR(particles.velocity(0)[0], 0.02 / (1 + inertia()), 1e-4);
+        EXPECT_NEAR(-0.5 * spin(simulation.state()), 0.02 / (1 + inertia()), 1e-4);
       }
 }
 
