@@ -30,8 +30,8 @@ namespace viscontact::particles {
 struct SolverSettings {
   /// Largest error of a gap after a step, divided by the mean radius; > 0.
   double tolerance = 1e-6;
-  /// Largest error of the impulse of a contact, divided by the largest impulse that acts on the
-  /// less loaded of its two particles; > 0.
+  /// Largest error of the normal impulse of a contact, divided by the largest impulse that acts on
+  /// the less loaded of its two particles; > 0. Friction may have the error 100 `tolerance`.
   double impulse_tolerance = 1e-10;
   /// Largest number of iterations in a step, >= 1. An iteration is a product of the matrix W,
   /// docs/physics.md (5.4), and a vector, or a sweep over the contacts, or a factorisation.

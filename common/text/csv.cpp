@@ -176,6 +176,21 @@ std::vector<std::string> csv_fields(const std::string& line) {
   return fields;
 }
 
+CsvHeader csv_header(const std::string& text) {
+  std::istringstream lines(text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size())
+                                                            : text);
+  CsvHeader header;
+  std::string line;
+  do ++header.line;
+  while (std::getline(lines, line) && (line.empty() || line[0] == '#'));
+  std::istringstream fields(line);
+  for (std::string name; std::getline(fields, name, ',');) {
+    const auto first = name.find_first_not_of(" \t\r"), last = name.find_last_not_of(" \t\r");
+    header.names.push_back(first == std::string::npos ? "" : name.substr(first, last - first + 1));
+  }
+  return header;
+}
+
 std::string shortened(const std::string& text) {
   constexpr std::size_t kLongest = 60;  // a free choice
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";

@@ -60,6 +60,15 @@ std::vector<std::string> csv_fields(const std::string& line);
 /// The text for a message: if it has more than 60 bytes, the first 60 of them and "...".
 std::string shortened(const std::string& text);
 
+/// The header line of a CSV file: the first one that is neither empty nor a comment.
+struct CsvHeader {
+  std::vector<std::string> names;  ///< of the columns, without blanks around them
+  int line = 0;  ///< number of the line, from 1; after the last one if there is none
+};
+/// The header line of `text`, the content of a file, which may begin with a byte order mark.
+/// Nothing is thrown; a text without a header line has no names.
+CsvHeader csv_header(const std::string& text);
+
 /// As read_csv below, and with its errors, for a number of columns that is known at run time:
 /// `text` is the content of the file, `file` its name in messages. Calls `add_row` with the fields
 /// of each row, as many as `names` (at least one), and the number of its line, from 1; rows above a

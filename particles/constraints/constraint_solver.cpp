@@ -226,9 +226,10 @@ class Iteration {
   /// Solves a convex problem with its present loads: by interior points, and then by proximal
   /// steps, if needed, which are few: it is known which contacts stick and slide.
   void solve_convex(int max_iterations) {
-    // No sweeps are made first: they seldom solve a problem, the time of interior points does not
-    // depend on their start, and if rows are redundant, their impulses would depend on the order.
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return;
+    // No sweeps are made first. They seldom solve a problem, and the time of interior points does
+    // not depend on their start. If rows are redundant, impulses found by sweeps depend on the order
+    // of the rows, and those found by interior points do not.
     find_interior_solution(max_iterations);
     if (problem_.is_rough) return;
     // Errors of impulses are rounding errors of gaps over epsilon, too large with a smaller one.

@@ -66,8 +66,8 @@ class ConstraintSystem {
   std::vector<double> slips_allowed;
 
   /// Solves the step. Sets the impulses of the contacts of `system`, the displacements and turns of
-  /// its particles, the motions of the rigid bodies, and the forces of the links. If `is_rough`, the
-  /// largest allowed residual of gaps, slips and links is `roughly_allowed` [L]; otherwise those are
+  /// its particles, the motions of the rigid bodies, and the forces of the links. If `is_rough`, all
+  /// residuals may be `roughly_allowed` [L], > 0. Otherwise those of gaps, slips and links may be
   /// Contact::allowed, slips_allowed and links_allowed. Returns the number of iterations, and the
   /// largest residual of the last problem plus the largest correction that would follow, both over
   /// what is allowed [1].

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <sstream>
 #include <string_view>
 #include <unordered_map>
 
@@ -97,18 +96,10 @@ void check_header(const std::string& text, const std::string& file, const Names&
   // The columns of kDiscs up to `id` are those that each file may have, whatever its dimension.
   const std::span known(kDiscs.begin(), kId + 1);
   const auto of_fluid = in_fluid ? fluid_columns(dimension) : turning_columns(dimension);
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  std::istringstream lines(text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size())
-                                                            : text);
-  std::string line;
-  FilePosition here{file, 0};
-  do ++here.line;
-  while (std::getline(lines, line) && (line.empty() || line[0] == '#'));
+  const auto header = csv_header(text);
+  const FilePosition here{file, header.line};
   std::vector<std::string> velocities;
-  std::istringstream columns(line);
-  for (std::string name; std::getline(columns, name, ',');) {
-    const auto first = name.find_first_not_of(" \t\r"), last = name.find_last_not_of(" \t\r");
-    name = first == std::string::npos ? "" : name.substr(first, last - first + 1);
+  for (const auto& name : header.names) {
     if (name.starts_with("semi_axis_"))
       throw_bad_input(here, fmt::format("has a column '{}' of ellipses or plates; the particles of "
                                         "a file must be discs or spheres, and each ellipse or "

@@ -156,9 +156,9 @@ SolverResult StepProjection<D>::solve_contacts(bool is_rough, double length, int
   return system_.solve(is_rough, max_iterations, pool_);
 }
 
-/// Sets the allowed residual of each chosen contact to half of ResidualScale::allowed() for
-/// `length` [L] and `fraction` [1], that of its slip to half of that for the fraction `of_slips`, and
-/// that of each link to half of that for `fraction` and half the length.
+/// Sets allowed residuals to halves of ResidualScale::allowed(): those of the chosen contacts for
+/// `length` [L] and `fraction` [1], those of their slips for `length` and the fraction `of_slips`,
+/// and those of the links for half the length and `fraction`.
 template <int D>
 void StepProjection<D>::allow(double length, double fraction, double of_slips) {
   auto scales = residual_scales();
@@ -236,7 +236,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   while (!system_.bodies().empty()) {
     const double length = (is_rough ? kRoughLength : settings.tolerance / 2) * mean_radius;
     allow(length, is_rough ? kRoughImpulse : settings.impulse_tolerance,
-          is_rough ? kRoughImpulse : fraction_of_slips(settings));
+          fraction_of_slips(settings));
     // A rough solution with friction or links leaves half of the iterations to the accurate one.
     const int most =
         is_rough && constraints_ ? settings.max_iterations / 2 : settings.max_iterations;

@@ -42,15 +42,15 @@ struct ResidualScale {
   }
 };
 
-/// The fraction of the impulse at work with which ResidualScale::allowed() allows slips [1], in (0,
-/// 1). It keeps friction to its law in short steps, in which friction moves nothing by the tolerance
-/// of gaps. In a packing, where many slips are redundant, impulses must grow until the slips are
-/// allowed. Therefore the fraction is larger than that of gaps: with the default tolerance 1e-4,
-/// about what the tolerance of gaps allows in the steps of bench/box2d.cpp. With 1e-6, 1000 settled
-/// discs without films would take twice as many iterations.
+/// The fraction of the impulse at work that ResidualScale::allowed() gets for slips [1], > 0. It
+/// keeps friction to its law in short steps, in which friction moves nothing by the tolerance of
+/// gaps. The fraction is larger than that of gaps, because redundant impulses in a packing must grow
+/// until the slips are allowed. With the default tolerance it is 1e-4, about what the tolerance of
+/// gaps allows in the steps of bench/box2d.cpp. With 1e-6, 1000 settled discs without films take
+/// twice as many iterations.
 inline double fraction_of_slips(const SolverSettings& settings) {
   constexpr double kOfTolerance = 100;
-  return std::max(settings.impulse_tolerance, std::min(0.5, kOfTolerance * settings.tolerance));
+  return std::max(settings.impulse_tolerance, kOfTolerance * settings.tolerance);
 }
 
 /// Computes the ResidualScale of contacts and links of a step.

@@ -71,6 +71,13 @@ TEST_F(Csv, TakesWindowsLineEnds) {
   EXPECT_THAT(csv.rows[0].fields, ElementsAre(1.0, 2.0, -3.0));
 }
 
+TEST_F(Csv, HasTheNamesAndTheLineOfItsHeader) {
+  const auto header = csv_header("\xEF\xBB\xBF# a comment\n\n x,\t\"y\" ,,z\r\n1,2,3,4\n");
+  EXPECT_EQ(header.names, (std::vector<std::string>{"x", "\"y\"", "", "z"}));
+  EXPECT_EQ(header.line, 3);
+  EXPECT_TRUE(csv_header("# a comment\n").names.empty());
+}
+
 TEST_F(Csv, TakesAByteOrderMark) {
   const auto csv = read("\xEF\xBB\xBF# viscosity: 3\ntime,gap\n1,2\n");
   EXPECT_THAT(csv.comments, ElementsAre(Pair("viscosity", "3")));
