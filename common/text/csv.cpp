@@ -183,6 +183,7 @@ CsvHeader csv_header(const std::string& text) {
   std::string line;
   do ++header.line;
   while (std::getline(lines, line) && (line.empty() || line[0] == '#'));
+  if (!lines) return header;
   std::istringstream fields(line);
   for (std::string name; std::getline(fields, name, ',');) {
     const auto first = name.find_first_not_of(" \t\r"), last = name.find_last_not_of(" \t\r");
