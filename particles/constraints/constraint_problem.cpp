@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "viscontact/particles/contact/contact.hpp"
 
@@ -93,9 +94,13 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
 BlockResidual residual_of(const ConstraintBlock& block, const double* v, const double* p,
                           const double* w) {
   BlockResidual residual;
+  const auto rounding = [&](std::size_t k) {
+    return std::numeric_limits<double>::epsilon() * w[k] * std::abs(p[k]);
+  };
   if (!block.is_contact) {
     for (std::size_t k = 0; k < block.rows; ++k)
-      residual.normal = largest_or_nan(residual.normal, std::abs(v[k] + block.compliance * p[k]));
+      residual.normal = largest_or_nan(
+          residual.normal, std::max(std::abs(v[k] + block.compliance * p[k]), rounding(k)));
     return residual;
   }
   double square = 0;
@@ -120,6 +125,9 @@ BlockResidual residual_of(const ConstraintBlock& block, const double* v, const d
     off += difference * difference;
   }
   residual.tangential = std::sqrt(off);
+  residual.normal = largest_or_nan(residual.normal, rounding(0));
+  for (std::size_t k = 1; k < block.rows; ++k)
+    residual.tangential = largest_or_nan(residual.tangential, rounding(k));
   return residual;
 }
 

@@ -157,6 +157,8 @@ struct ConstraintProblem {
   bool is_convex = false;
   /// True if an approximate solution of a convex problem is enough.
   bool is_rough = false;
+  /// True if a solution of a convex problem is to be as accurate as rounding errors permit.
+  bool is_exact = false;
   /// False: the solver replaces each given_load by that of a first solution, and solves again.
   bool keeps_loads = false;
   /// True if links hold long chains of units together, as those of a membrane do. The solver then
@@ -226,6 +228,8 @@ struct BlockResidual {
 /// - of a contact with kCone the normal and the tangential part of w |p - P(p - v/w)|, where P
 ///   projects impulses on the FrictionCone;
 /// - of a link the largest |v + compliance p|.
+/// It is at least the rounding error of w p, because impulses so large that this error is not
+/// allowed move units by their rounding errors.
 BlockResidual residual_of(const ConstraintBlock& block, const double* v, const double* p,
                           const double* w);
 

@@ -37,6 +37,7 @@ ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particle
       displacements_(displacements),
       mobilities_(mobilities),
       mean_radius_(mean_radius(particles)),
+      is_convex_(step.laws.friction && step.laws.friction->method == FrictionMethod::kConvex),
       times_{step.end - step.begin, step.kick, step.end, step.is_first},
       free_turns_(step.turns.begin(), step.turns.end()),
       free_bodies_(step.bodies.begin(), step.bodies.end()),
@@ -58,6 +59,26 @@ void ConstraintSystem<D>::join_linked(ContactSystem<D>& system) const {
   for (const auto& link : links_)
     for (const auto& part : link.parts())
       system.connect(link.parts().front().particle, part.particle);
+}
+
+template <int D>
+bool ConstraintSystem<D>::is_held_apart(const Pair& pair, double tolerated) const {
+  if (pair.first < 0 || step_.links->arms.empty()) return false;
+  const double touching =
+      particles_.radii[index_of(pair.first)] + particles_.radii[index_of(pair.second)];
+  double square = 0;
+  for (const double x : separation<D>(particles_, pair.first, pair.second, pair.image))
+    square += x * x;
+  return std::ranges::any_of(links_, [&](const LinkEquations& link) {
+    if (link.kind != LinkEquations::Kind::kArm) return false;
+    const auto& arm = step_.links->arms[link.number];
+    if (std::minmax(arm.first, arm.second) != std::minmax(pair.first, pair.second)) return false;
+    const double length = length_at(arm.length, times_.end);
+    // An arm holds the nearest image. Images that are farther away may still touch.
+    constexpr double kRounding = 1e-9;
+    const double distance = link.rows.front().value + length;
+    return length >= touching - tolerated && std::sqrt(square) <= (1 + kRounding) * distance;
+  });
 }
 
 template <int D>
@@ -250,12 +271,13 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
   }
 }
 
-/// The residual of a contact [L], that of Coulomb's law also if the solution has given loads.
+/// The residual of a contact [L]. If Coulomb's law was asked for, it is the residual of this law,
+/// also if the solution has given loads.
 template <int D>
 BlockResidual ConstraintSystem<D>::residual_of_contact(
     std::size_t c, const ConstraintSolution<D>& solution) const {
   auto block = problem_.blocks[c];
-  if (!has_given_up_ || block.rows == 1) return solution.residuals[c];
+  if (is_convex_ || !has_given_up_ || block.rows == 1) return solution.residuals[c];
   block.friction_bound = FrictionBound::kCoulomb;
   std::array<double, kMostRows> v{}, w{};
   for (std::size_t k = 0; k < block.rows; ++k) {
@@ -270,8 +292,8 @@ BlockResidual ConstraintSystem<D>::residual_of_contact(
   return residual_of(block, v.data(), &problem_.impulses[block.row], w.data());
 }
 
-/// Bounds friction by the loads that the contacts had when Coulomb's law was given up. Contacts
-/// that were added later get the loads of the step before.
+/// Bounds friction by the loads that the contacts had when the solver gave up its own problem.
+/// Contacts that were added later get the loads of the step before.
 template <int D>
 void ConstraintSystem<D>::give_loads_of_step() {
   for (std::size_t c = given_loads_.size(); c < carried_.size(); ++c)
@@ -281,41 +303,52 @@ void ConstraintSystem<D>::give_loads_of_step() {
     problem_.blocks[c].given_load = given_loads_[c];
 }
 
-/// Solves problem_ as it is. If Coulomb's law is not solved in `max_iterations`, solves it with
-/// given loads, in more iterations, and sets has_given_up_.
+/// Solves problem_ as it is. If the problem, in which loads of the solution bound the friction, is
+/// not solved in `max_iterations`, solves it with given loads, in more iterations, and sets
+/// has_given_up_.
 template <int D>
 ConstraintSolution<D> ConstraintSystem<D>::solve_problem(int max_iterations) {
   // Solutions with given loads take 100 to 200 iterations, and some of them 1000.
   constexpr int kMostOfGivenLoads = 3000;
   if (has_given_up_) return solve_constraints(problem_, kMostOfGivenLoads);
   auto solution = solve_constraints(problem_, std::max(1, max_iterations));
-  const bool has_friction = std::ranges::any_of(problem_.blocks, [](const ConstraintBlock& block) {
-    return block.is_contact && block.rows > 1;
+  const bool has_own_loads = std::ranges::any_of(problem_.blocks, [](const ConstraintBlock& block) {
+    return block.is_contact && block.rows > 1 && block.friction_bound != FrictionBound::kGiven;
   });
-  if (solution.result.residual <= 1 || problem_.is_rough || problem_.is_convex || !has_friction ||
-      !can_give_up_)
+  if (solution.result.residual <= 1 || problem_.is_rough || !has_own_loads || !can_give_up_)
     return solution;
-  const auto of_coulomb = problem_;
-  give_loads(problem_);
-  auto with_given_loads = solve_constraints(problem_, kMostOfGivenLoads);
-  with_given_loads.result.iterations += solution.result.iterations;
-  // If the problem is not solved with given loads either, links contradict each other.
-  can_give_up_ = has_given_up_ = with_given_loads.result.residual <= 1;
-  if (!has_given_up_) {
-    problem_ = of_coulomb;
-    return solution;
+  const auto with_own_loads = problem_;
+  const int taken = solution.result.iterations;
+  // If impulses grew without bound, because friction locks particles that must move, the loads of
+  // the best iterate have no meaning. This is so in each convex problem without a solution.
+  for (const bool is_first_without_friction : {false, true}) {
+    if (is_convex_ && !is_first_without_friction) continue;
+    problem_ = with_own_loads;
+    give_loads(problem_);
+    if (is_first_without_friction) {
+      for (auto& block : problem_.blocks) block.given_load = 0;
+      std::ranges::fill(problem_.impulses, 0.0);
+      problem_.keeps_loads = false;
+    }
+    auto with_given_loads = solve_constraints(problem_, kMostOfGivenLoads);
+    with_given_loads.result.iterations += taken;
+    has_given_up_ = with_given_loads.result.residual <= 1;
+    if (!has_given_up_) continue;
+    for (std::size_t c = 0; c < carried_.size(); ++c)
+      given_loads_.push_back(problem_.blocks[c].given_load);
+    return with_given_loads;
   }
-  for (std::size_t c = 0; c < carried_.size(); ++c)
-    given_loads_.push_back(problem_.blocks[c].given_load);
-  return with_given_loads;
+  // If the problem is not solved with given loads either, links contradict each other.
+  can_give_up_ = false;
+  problem_ = with_own_loads;
+  return solution;
 }
 
 template <int D>
 SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
                                         double roughly_allowed, int max_iterations) {
   problem_ = {};
-  problem_.is_convex =
-      step_.laws.friction && step_.laws.friction->method == FrictionMethod::kConvex;
+  problem_.is_convex = is_convex_;
   problem_.is_rough = is_rough;
   problem_.has_long_chains = !step_.links->membranes.empty();
   number_units(system);
@@ -346,6 +379,12 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     constexpr int kPatience = 3;
     growing = change < last_change ? 0 : growing + 1;
     last_change = change;
+    // Otherwise errors of the solutions are left, which slips allow and turns pass on to gaps.
+    problem_.is_exact = problem_.is_exact || growing > 0;
+    // The loads of a solution bound the friction of the next one. With large friction this may
+    // repeat without end, while corrections would follow the loads instead of vanishing. The first
+    // correction contains most of what turns add to the loads, so that later ones keep them.
+    problem_.keeps_loads = problem_.keeps_loads || n > 0;
     // Half of what is allowed is left to the residual of the solution.
     if (change <= 0.5 || growing == kPatience || is_rough || n == kMostCorrections ||
         (result.iterations >= max_iterations && !has_given_up_) || !(solution.result.residual <= 1))

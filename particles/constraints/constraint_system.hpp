@@ -53,6 +53,11 @@ class ConstraintSystem {
   /// Adds the particles of all links to `system`. Must be called before a contact is added.
   void join_linked(ContactSystem<D>& system) const;
 
+  /// True if an arm keeps the particles of `pair` from overlapping by more than `tolerated` [L] at
+  /// the end of the step. Their contact would repeat the equation of the arm to first order in the
+  /// arm's turn, and contradict it to second order. It must therefore not be added.
+  bool is_held_apart(const Pair& pair, double tolerated) const;
+
   /// Adds the contact of `pair`. `memory` holds the guess of the friction. Call it for each contact
   /// of the ContactSystem in order.
   void add(const Contact<D>& contact, const Pair& pair, const PairMemory& memory);
@@ -78,11 +83,14 @@ class ConstraintSystem {
   ///
   /// If Coulomb's law is not solved in `max_iterations`, the friction is bounded by the loads of
   /// the best iterate (give_loads()), in this and all later calls, so that at least gaps, films and
-  /// links are exact. residual() remains that of Coulomb's law.
+  /// links are exact. residual() remains that of Coulomb's law. The convex relaxation (5.9) has no
+  /// solution where friction locks particles that must move. Its friction is then bounded by the
+  /// loads of a solution without friction, as in (5.17), and residual() is that of (5.17).
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double roughly_allowed,
                      int max_iterations);
 
-  /// True if solve() did not solve Coulomb's law, and given loads bound the friction.
+  /// True if solve() did not solve the problem that was asked for, and given loads bound the
+  /// friction.
   bool has_given_up() const { return has_given_up_; }
 
   /// Writes friction of contact `c`, and the impulse that its solids carry, to memory [M L/T]. This
@@ -122,6 +130,7 @@ class ConstraintSystem {
   std::span<double> displacements_;
   std::span<const double> mobilities_;
   double mean_radius_;
+  bool is_convex_;  // the friction's method is kConvex
   LinkTimes times_;
   std::vector<double> free_turns_;     // h w* of all particles
   std::vector<BodyStep> free_bodies_;  // motions of bodies without contacts and links

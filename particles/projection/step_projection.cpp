@@ -141,6 +141,7 @@ template <int D>
 void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
   for (const auto k : interleaved(pairs)) {
     is_chosen_[k] = 1;
+    if (constraints_ && constraints_->is_held_apart(pair(k), tolerated_)) continue;
     chosen_.push_back(k);
     system_.add(contact(k));
     if (constraints_)
@@ -244,7 +245,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     const bool is_last = result.iterations >= settings.max_iterations;
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
     if (result.residuals.converged) break;
-    if (constraints_ && constraints_->has_given_up()) {
+    if (constraints_ && constraints_->has_given_up() && !is_convex) {
       // Coulomb's law was not solved, and its friction is bounded by given loads instead
       // (ConstraintSystem). Pairs that the solution closes are still added, in at most kMostRounds
       // rounds, a free choice that bounds the time of such a step.

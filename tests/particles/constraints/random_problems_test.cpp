@@ -105,6 +105,23 @@ void solve_random_problems(bool is_convex, bool has_films) {
         }
 }
 
+TEST(Residuals, AreAtLeastTheRoundingErrorsOfTheImpulses) {
+  // The gap -0.1 is lost in the impulse 1e18, from which a residual subtracts it over the mobility.
+  const double w[2] = {1, 3}, v[2] = {-0.1, 0}, p[2] = {1e18, 0};
+  ConstraintBlock block;
+  block.rows = 2;
+  block.friction = 0.5;
+  for (const auto bound : {FrictionBound::kCone, FrictionBound::kCoulomb, FrictionBound::kGiven}) {
+    block.friction_bound = bound;
+    block.given_load = 1e18;
+    EXPECT_GE(residual_of(block, v, p, w).normal, 0.1);
+    const double tangential[2] = {1e18, -4e17}, none[2] = {0, 0};
+    EXPECT_GE(residual_of(block, none, tangential, w).tangential, 100);
+  }
+  block.is_contact = false;
+  EXPECT_GE(residual_of(block, v, p, w).normal, 100);
+}
+
 TEST(RandomConstraintProblems, ObeyCoulombsLawInThePlane) {
   solve_random_problems<2>(false, false);
 }
