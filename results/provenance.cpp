@@ -393,7 +393,8 @@ std::vector<std::filesystem::path> given_inputs(const std::filesystem::path& pat
     const auto place = place_of(input.file, *provenance, folder);
     if (const auto change = change_of({place.string(), input.sha256}, folder); !change.empty())
       throw_bad_input({path.string()}, fmt::format("was made from other inputs: {}", change));
-    files.push_back(is_here ? std::filesystem::path(input.file) : place);
+    const std::filesystem::path file = input.file;
+    files.push_back(is_here && file.is_relative() ? file : place);
   }
   return files;
 }

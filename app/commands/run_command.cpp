@@ -146,12 +146,12 @@ void report_again(const std::filesystem::path& folder) {
     swimmer::report_swimmer(folder, interrupt_token());
   else if (has("particles.pvd"))
     particles::report_particles(folder);
-  else if (has("case.toml") || has("comparison.json"))
+  else if (has("case.toml") || std::filesystem::is_directory(folder / "trajectories"))
     report::write_report(folder, {}, interrupt_token());
   else
     throw_bad_input({folder.string()},
-                    "is not the folder of a finished run: it has none of comparison.json, "
-                    "rolling.json, swimmer.json and particles.pvd");
+                    "is not the folder of a run: it has none of trajectories/, rolling.json, "
+                    "swimmer.json and particles.pvd");
 }
 
 }  // namespace

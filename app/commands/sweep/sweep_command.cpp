@@ -18,6 +18,7 @@
 #include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/app/commands/sweep/sweep_options.hpp"
 #include "viscontact/case_file/case_file.hpp"
+#include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/pipeline/sweep_stage.hpp"
@@ -174,6 +175,15 @@ void run_study(const SweepOptions& o, const CaseStudy& s) {
 
 void run_sweep(const SweepOptions& o) {
   check_array_options(o.array);
+  // A name that is no model of any kind of case is refused before the case is read.
+  for (const auto& model : o.models)
+    if (!reduced_model::known_model(model) &&
+        find_named(rolling::rolling_models(), model) == nullptr)
+      throw Error(ErrorKind::kWrongUsage,
+                  fmt::format("--models: no model is named '{}'; there are: {}; for a rolling "
+                              "sphere: {}",
+                              model, names_of(reduced_model::all_models()),
+                              names_of(rolling::rolling_models())));
   check_outputs(o.plot.path.empty() ? std::vector{o.output} : std::vector{o.output, o.plot.path});
   check_picture(o.plot.path);
   switch (case_file::kind_of_case(o.case_file)) {

@@ -381,7 +381,7 @@ TEST_F(MotionsCommand, SweepOfARollingSphereHasTheEndsThatRollingHas) {
                  HasSubstr("no motion depends on it without rolling.gravity"));
   expect_refusal(sweep({"--vary", "rolling.incline=0,1", "--models", "inertia"}),
                  ErrorKind::kWrongUsage,
-                 HasSubstr("is no model of a rolling sphere; the models are: smooth"));
+                 HasSubstr("for a rolling sphere: smooth, rough, viscous_contact"));
   const auto tables = small_case("motion = \"all\"",
                                  "container = \"unbounded\"\n[rolling]\ninitial_gap = 0.1\n"
                                  "weight = 1.0\nend_time = 1.0\ntime_step = 0.1\n");

@@ -122,16 +122,19 @@ TEST_F(PagesAgain, InAMovedFolderWhoseCaseNamesAFileElsewhere) {
   expect_done(run_viscontact({"rolling", path("old/case.toml"), "-o", "out"}, {}, enter));
   const auto made = rest_of(path("old/out/report.html"));
   fs::rename(path("old"), path("new"));
-  fs::remove(path("new/out/report.html"));
-  expect_done(run_viscontact({"report", path("new/out")}));
-  EXPECT_EQ(rest_of(path("new/out/report.html")), made);
+  for (const auto& enter_new : {std::string(), "cd '" + path("new") + "';"}) {
+    fs::remove(path("new/out/report.html"));
+    expect_done(
+        run_viscontact({"report", enter_new.empty() ? path("new/out") : "out"}, {}, enter_new));
+    EXPECT_EQ(rest_of(path("new/out/report.html")), made);
+  }
 }
 
 TEST_F(PagesAgain, NotOfAFolderInWhichNothingWasRun) {
   fs::create_directory(out());
   for (const auto& folder : {path("out"), path("none")})
     expect_refusal(run_viscontact({"report", folder}), ErrorKind::kBadInput,
-                   HasSubstr(folder + ": is not the folder of a finished run"));
+                   HasSubstr(folder + ": is not the folder of a run: "));
 }
 
 /// Expects that the command changes no file of `folder` if it is given again at another time.
