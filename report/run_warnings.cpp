@@ -17,6 +17,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/results/provenance.hpp"
 
 namespace viscontact::report {
 namespace {

@@ -217,6 +217,20 @@ std::optional<Line> find_line(const std::string& text) {
   return {};
 }
 
+/// A PDF whose date of creation is `made`, a time in UTC to the second, so that SOURCE_DATE_EPOCH
+/// replaces it, too. Its length stays, because a table in the file has the places of its objects.
+std::string with_creation_date(std::string pdf, const std::string& made) {
+  constexpr std::string_view kDate = "/CreationDate (D:";
+  const auto begin = pdf.find(kDate);
+  if (begin == std::string::npos) return pdf;
+  std::string digits = made;
+  std::erase_if(digits, [](char c) { return c < '0' || c > '9'; });
+  // After the 14 digits of the time, those of its distance from UTC follow, unless they are left out.
+  for (std::size_t at = begin + kDate.size(), i = 0; at < pdf.size() && pdf[at] != ')'; ++at)
+    if (pdf[at] >= '0' && pdf[at] <= '9') pdf[at] = i < digits.size() ? digits[i++] : '0';
+  return pdf;
+}
+
 /// The folder from which the relative path `output` leads to `file`; nothing if there is none.
 std::optional<std::filesystem::path> folder_around(const std::filesystem::path& file,
                                                    const std::string& output) {
@@ -408,7 +422,8 @@ std::string output_text(const std::filesystem::path& path, TextKind kind, const 
     provenance.folder = std::filesystem::current_path().string();
     provenance = without_folders(provenance);
   }
-  return with_provenance(kind, text, provenance);
+  return with_provenance(
+      kind, kind == TextKind::kPdf ? with_creation_date(text, provenance.made) : text, provenance);
 }
 
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
