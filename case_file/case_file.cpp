@@ -42,7 +42,7 @@ void read_fix(const TomlSection& section, std::string_view key, fitting::FitSett
 
 void fit_keys(Keys& keys, FitRequest& fit, const fs::path& folder) {
   const auto read_file_name = [&](const TomlSection& section, std::string_view key) {
-    fit.file = folder / section.text(key);
+    fit.file = folder / section.file_name(key);
   };
   const auto read_exact = [&](const TomlSection& section, std::string_view key) {
     const auto walls = freefem_axi::geometries_with_exact_drag();
@@ -129,7 +129,7 @@ void sinusoid_keys(Keys& keys, ExternalForce::Sinusoid& sinusoid) {
 }
 
 void force_file_keys(Keys& keys, std::string& file) {
-  keys.required("file", text(file), {"CSV file with the columns `time,force`"});
+  keys.required("file", file_name(file), {"CSV file with the columns `time,force`"});
 }
 
 /// The path of a file that the case names relative to `folder`, the folder of the case. If there is
@@ -353,6 +353,10 @@ const Part& required(const std::optional<Part>& part, const Case& c, std::string
 }  // namespace
 
 CaseKind kind_of_case(const fs::path& path) {
+  std::error_code none;  // read_toml_file() says what is wrong
+  if (fs::is_fifo(path, none))
+    throw_bad_input({path.string()},
+                    "is a pipe, which can be read only once; save the case in a file first");
   const auto root = read_toml_file(path).root;
   if (root.has("space")) return CaseKind::kParticles;
   if (root.has("swimmer")) return CaseKind::kSwimmer;

@@ -34,6 +34,7 @@ void read_units(const TomlSection& root, Units& units) {
 }
 
 void points_and_plot_keys(Keys& keys, SweepRequest& sweep) {
+  if (keys.reads()) sweep.vary_line = keys.section().line("vary");
   keys.optional("samples", number(sweep.samples, kWholeNumber),
                 {"number of random points", "the whole grid"});
   keys.optional("x", text(sweep.x),

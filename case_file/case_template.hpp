@@ -23,6 +23,7 @@ namespace viscontact::case_file {
 /// replace these values. Each kind of case has some of these keys.
 struct SweepRequest {
   std::vector<std::string> vary;    ///< "KEY=RANGE" each (sweep/variation.hpp); empty: one point
+  int vary_line = 0;                ///< line of `vary` in the case, from 1; 0 without `vary`
   std::vector<std::string> models;  ///< names; empty: the default of the command
   std::string reference;            ///< a model; empty: the default of the command
   std::string x;                    ///< key of the horizontal axis of the plot; may be empty

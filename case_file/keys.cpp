@@ -109,6 +109,12 @@ KeyValue text(std::string& place) {
   });
 }
 
+KeyValue file_name(std::string& place) {
+  return custom("a text", [&place](const TomlSection& section, std::string_view key) {
+    place = section.file_name(key);
+  });
+}
+
 KeyValue texts(std::vector<std::string>& place) {
   return custom("a list of texts", [&place](const TomlSection& section, std::string_view key) {
     place = section.texts(key);

@@ -151,7 +151,7 @@ inline constexpr Allowed kWholeNumber = {
     "from 1 to 1e12 without a fraction"};
 
 /// A number between 0 and 1, such as an accuracy.
-inline constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "between 0 and 1"};
+inline constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "> 0 and < 1"};
 
 /// A number as text for the tables, such as "1e-6".
 std::string number_in_words(double number);
@@ -197,6 +197,8 @@ KeyValue count(Place& place, int least, int most) {
 
 /// A text, which may be empty.
 KeyValue text(std::string& place);
+/// The name of a file, which is not empty.
+KeyValue file_name(std::string& place);
 /// A list of at least one text.
 KeyValue texts(std::vector<std::string>& place);
 /// A list of at least one number, each of which is `allowed`.

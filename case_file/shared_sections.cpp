@@ -230,18 +230,20 @@ void sphere_keys(Keys& keys, double& radius, double& density, double& mass, bool
     keys.require(std::isnormal(mass), "density",
                  "makes the mass {} with the radius {}; a double does not hold this mass", mass,
                  radius);
-    if (keys.has("mass"))
-      keys.section().fail("mass",
-                          fmt::format("must be left out, because the mass follows from density in "
-                                      "line {}; only one of the two may be given",
-                                      keys.section().line("density")));
+    const int line = keys.has("mass") ? keys.section().line("density") : 0;
+    keys.require(!keys.has("mass"), "mass",
+                 "must be left out, because the mass follows from density{}; only one of the two "
+                 "may be given",
+                 line > 0 ? fmt::format(" in line {}", line) : "");
   }
   keys.require(!needs_mass || given || keys.has("mass"), "mass",
                "is missing; it must be a number {}, or the sphere must have a density",
                kPositive.words);
-  keys.required_if(
-      needs_mass && !given, "mass", number(mass, kPositive),
-      {"mass m of the sphere", "required with a section `[motion]`, or `density`", {}, "20.0"});
+  keys.required_if(needs_mass && !given, "mass", number(mass, kPositive),
+                   {"mass m of the sphere",
+                    "required with a section `[motion]` or `[rolling]`, or `density`",
+                    {},
+                    "20.0"});
 }
 
 double mass_less_displaced_fluid(double mass, double fluid_density, double radius) {

@@ -226,6 +226,12 @@ std::string TomlSection::text(std::string_view key) const {
   return *value;
 }
 
+std::string TomlSection::file_name(std::string_view key) const {
+  auto name = text(key);
+  require(!name.empty(), key, "is empty; it must be the name of a file");
+  return name;
+}
+
 bool TomlSection::truth(std::string_view key) const {
   if (!has(key)) fail(key, "is missing; it must be true or false");
   const auto value = node_->table->get(key)->value_exact<bool>();

@@ -58,6 +58,7 @@ class TomlSection {
   double number(std::string_view key, const Allowed& allowed) const;
   int count(std::string_view key, int least, int most) const;  ///< an integer in [least, most]
   std::string text(std::string_view key) const;                ///< a text, which may be empty
+  std::string file_name(std::string_view key) const;           ///< a text that is not empty
   bool truth(std::string_view key) const;                      ///< true or false
   /// An array of `count` values, each true or false.
   std::vector<bool> truths(std::string_view key, std::size_t count) const;

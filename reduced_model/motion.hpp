@@ -75,7 +75,7 @@ inline constexpr ModelParameter kRestitution = {
     "viscous_contact.restitution",
     "coefficient of restitution of the solids",
     "1",
-    {[](double v) { return v >= 0 && v <= 1; }, "between 0 and 1"},
+    {[](double v) { return v >= 0 && v <= 1; }, "from 0 to 1"},
     [](const Motion&, double) { return 0.0; },
     false,
     "0"};

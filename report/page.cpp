@@ -254,6 +254,27 @@ std::string page_head(std::string_view title, std::string_view style, bool has_i
       has_images ? "; img-src data:" : "", more, escaped(title), style);
 }
 
+bool page_is_current(const std::filesystem::path& folder, std::span<const std::string_view> names) {
+  const results::RunFolder run{folder};
+  try {
+    if (!std::filesystem::exists(run.report())) return false;
+    const auto page = read_file(run.report());
+    if (page.find("<div class=still><svg") == std::string::npos) return false;  // html_of()
+    const auto provenance = results::provenance_in(page, run.report().string());
+    if (!provenance) return false;
+    // An input without a hash was a pipe. It is skipped: its content is in the copy of the case.
+    for (const auto& input : provenance->inputs)
+      if (!input.sha256.empty() && !results::change_of(input, provenance->folder).empty())
+        return false;
+    return std::ranges::all_of(names, [&](std::string_view name) {
+      return page.find(fmt::format("\"plots/{}.svg\"", name)) == std::string::npos ||
+             std::filesystem::exists(run.plot(std::string(name)));
+    });
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 Report::Report(std::filesystem::path folder, std::span<const std::string_view> names)
     : run_{std::move(folder)}, names_(names) {
   results::refuse_other_kind(run_.report(), "id=\"provenance\"", "report");

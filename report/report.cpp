@@ -395,24 +395,7 @@ std::string sections_of(const results::RunResults& run, const Report& report) {
 void check_report_files(const std::filesystem::path& folder) { (void)Report(folder, kPlotNames); }
 
 bool report_is_current(const std::filesystem::path& folder) {
-  const results::RunFolder run{folder};
-  try {
-    if (!std::filesystem::exists(run.report())) return false;
-    const auto page = read_file(run.report());
-    if (page.find(kStillPicture) == std::string::npos) return false;
-    const auto provenance = results::provenance_in(page, run.report().string());
-    if (!provenance) return false;
-    // An input without a hash was a pipe. It is skipped: its content is in the copy of the case.
-    for (const auto& input : provenance->inputs)
-      if (!input.sha256.empty() && !results::change_of(input, provenance->folder).empty())
-        return false;
-    return std::ranges::all_of(kPlotNames, [&](std::string_view name) {
-      return page.find(fmt::format("\"plots/{}.svg\"", name)) == std::string::npos ||
-             std::filesystem::exists(run.plot(std::string(name)));
-    });
-  } catch (const Error&) {
-    return false;
-  }
+  return page_is_current(folder, kPlotNames);
 }
 
 void write_report(const std::filesystem::path& folder,

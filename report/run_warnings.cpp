@@ -9,11 +9,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <set>
 #include <utility>
 
+#include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/results/provenance.hpp"
 
 namespace viscontact::report {
 namespace {
@@ -183,6 +187,28 @@ void add_other_origin(Warnings& warnings, const results::RunResults& run) {
                    model.model);
 }
 
+/// Warns of trajectories that were written again after the comparison was made from them.
+void add_old_comparison(Warnings& warnings, const results::RunResults& run) {
+  std::vector<results::InputFile> compared;
+  try {
+    if (const auto provenance = results::read_provenance(run.folder.comparison()))
+      compared = provenance->inputs;
+  } catch (const Error&) {  // a damaged record; the section "How it was made" says so
+  }
+  for (const auto& trajectory : run.trajectories) {
+    const auto file = run.folder.trajectory(trajectory.model);
+    std::set<std::string> hashes;  // of the files of this name that were compared
+    for (const auto& input : compared)
+      if (std::filesystem::path(input.file).filename() == file.filename())
+        hashes.insert(input.sha256);
+    if (!hashes.empty() && !hashes.contains(sha256(read_file(file))))
+      warnings.add("comparison.json",
+                   "The comparison was made from another trajectory of {} than the one in this "
+                   "folder; compare again",
+                   trajectory.model);
+  }
+}
+
 }  // namespace
 
 std::vector<ReportWarning> warnings_of(const results::RunResults& run) {
@@ -195,6 +221,7 @@ std::vector<ReportWarning> warnings_of(const results::RunResults& run) {
   add_roughness(warnings, run);
   add_refused_draws(warnings, run);
   add_other_origin(warnings, run);
+  add_old_comparison(warnings, run);
   return warnings.all;
 }
 

@@ -135,19 +135,23 @@ std::string plot_bases(const lubrication::MotionTable& table,
 }
 
 std::string comparison_table(const reduced_model::Comparison& comparison) {
-  constexpr std::string_view kLine = "{:<30} {:>12} {:>9} {:>15} {:>16} {:>10}";
+  // As wide as the longest name, at least 30, wider than most.
+  std::size_t width = 30;
+  for (const auto& model : comparison.models) width = std::max(width, model.model.size());
+  for (const auto& model : comparison.failed_models) width = std::max(width, model.model.size());
+  constexpr std::string_view kLine = "{:<{}} {:>12} {:>9} {:>15} {:>16} {:>10}";
   // The last two columns are left out if solids touch in no model.
   const bool solids = std::ranges::any_of(
       comparison.models, [](const auto& model) { return model.solid_contact_from.has_value(); });
   const auto solid_columns = [&](const std::string& time, const std::string& velocity) {
     return solids ? fmt::format(" {:>15} {:>12}\n", time, velocity) : std::string("\n");
   };
-  std::string text = fmt::format(kLine, "model", "smallest gap", "at time", "film from gamma",
-                                 "in contact", "sup |dq|") +
+  std::string text = fmt::format(kLine, "model", width, "smallest gap", "at time",
+                                 "film from gamma", "in contact", "sup |dq|") +
                      solid_columns("solids touch at", "velocity");
   for (const auto& model : comparison.models) {
     text += fmt::format(
-        kLine, model.model, fmt::format("{:.6g}", model.minimal_gap),
+        kLine, model.model, width, fmt::format("{:.6g}", model.minimal_gap),
         fmt::format("{:.6g}", model.minimal_gap_time),
         model.recovered_minimal_gap ? fmt::format("{:.6g}", *model.recovered_minimal_gap) : "-",
         model.contact_interval ? fmt::format("[{:.4g}, {:.4g}]", (*model.contact_interval)[0],
@@ -159,7 +163,7 @@ std::string comparison_table(const reduced_model::Comparison& comparison) {
                           touch ? fmt::format("{:.4g}", touch->velocity) : "-");
   }
   for (const auto& failed : comparison.failed_models)
-    text += fmt::format("{:<30} failed: {}\n", failed.model, failed.reason);
+    text += fmt::format("{:<{}} failed: {}\n", failed.model, width, failed.reason);
   if (!comparison.units.empty()) text += fmt::format("units: {}\n", comparison.units);
   return text;
 }

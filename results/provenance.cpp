@@ -217,6 +217,20 @@ std::optional<Line> find_line(const std::string& text) {
   return {};
 }
 
+/// A PDF whose date of creation is `made`, a time in UTC to the second, so that SOURCE_DATE_EPOCH
+/// replaces it, too. Its length stays, because a table in the file has the places of its objects.
+std::string with_creation_date(std::string pdf, const std::string& made) {
+  constexpr std::string_view kDate = "/CreationDate (D:";
+  const auto begin = pdf.find(kDate);
+  if (begin == std::string::npos) return pdf;
+  std::string digits = made;
+  std::erase_if(digits, [](char c) { return c < '0' || c > '9'; });
+  // After the 14 digits of the time, those of its distance from UTC follow, unless they are left out.
+  for (std::size_t at = begin + kDate.size(), i = 0; at < pdf.size() && pdf[at] != ')'; ++at)
+    if (pdf[at] >= '0' && pdf[at] <= '9') pdf[at] = i < digits.size() ? digits[i++] : '0';
+  return pdf;
+}
+
 /// The folder from which the relative path `output` leads to `file`; nothing if there is none.
 std::optional<std::filesystem::path> folder_around(const std::filesystem::path& file,
                                                    const std::string& output) {
@@ -228,12 +242,30 @@ std::optional<std::filesystem::path> folder_around(const std::filesystem::path& 
   return folder;
 }
 
-/// True if all inputs that the user gave have relative paths, which lead from `folder` to files.
+/// True if `file`, a path in a provenance, is relative or below the folder of the command.
+bool moves_with_command(const std::string& file, const Provenance& provenance) {
+  return std::filesystem::path(file).is_relative() ||
+         (!provenance.folder.empty() && file.starts_with(provenance.folder + "/"));
+}
+
+/// Where this file is if the files of the command are in `folder` now.
+std::filesystem::path place_of(const std::string& file, const Provenance& provenance,
+                               const std::filesystem::path& folder) {
+  const bool is_below = !file.empty() && file[0] == '/' && moves_with_command(file, provenance);
+  return folder / (is_below ? file.substr(provenance.folder.size() + 1) : file);
+}
+
+/// True if all inputs that the user gave exist when the files of the command are in `folder`. An
+/// input elsewhere tells nothing about `folder`, so at least one must have moved with the command.
 bool has_inputs(const std::filesystem::path& folder, const Provenance& provenance) {
-  return std::ranges::all_of(provenance.inputs, [&](const InputFile& input) {
-    return input.intermediate || (std::filesystem::path(input.file).is_relative() &&
-                                  std::filesystem::exists(folder / input.file));
-  });
+  bool has_given = false, has_moved = false;
+  for (const auto& input : provenance.inputs) {
+    if (input.intermediate) continue;
+    if (!std::filesystem::exists(place_of(input.file, provenance, folder))) return false;
+    has_given = true;
+    has_moved = has_moved || moves_with_command(input.file, provenance);
+  }
+  return has_moved || !has_given;
 }
 
 }  // namespace
@@ -372,9 +404,11 @@ std::vector<std::filesystem::path> given_inputs(const std::filesystem::path& pat
   std::vector<std::filesystem::path> files;
   for (const auto& input : provenance->inputs) {
     if (input.intermediate) continue;
-    if (const auto change = change_of(input, folder); !change.empty())
+    const auto place = place_of(input.file, *provenance, folder);
+    if (const auto change = change_of({place.string(), input.sha256}, folder); !change.empty())
       throw_bad_input({path.string()}, fmt::format("was made from other inputs: {}", change));
-    files.push_back(is_here ? std::filesystem::path(input.file) : folder / input.file);
+    const std::filesystem::path file = input.file;
+    files.push_back(is_here && file.is_relative() ? file : place);
   }
   return files;
 }
@@ -388,12 +422,27 @@ std::string output_text(const std::filesystem::path& path, TextKind kind, const 
     provenance.folder = std::filesystem::current_path().string();
     provenance = without_folders(provenance);
   }
-  return with_provenance(kind, text, provenance);
+  return with_provenance(
+      kind, kind == TextKind::kPdf ? with_creation_date(text, provenance.made) : text, provenance);
 }
 
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
                   Provenance provenance) {
   write_file(path, output_text(path, kind, text, std::move(provenance)));
+}
+
+bool write_if_changed(const std::filesystem::path& path, TextKind kind, const std::string& text,
+                      const Provenance& provenance) {
+  const auto origin_of = [](const Provenance& p) {
+    std::vector<std::string> words = {p.folder};
+    for (const auto& input : p.inputs) words.insert(words.end(), {input.file, input.sha256});
+    return words;
+  };
+  // A provenance that is damaged has changed the text, too.
+  if (has_content(path, text) && origin_of(*read_provenance(path)) == origin_of(provenance))
+    return false;
+  write_output(path, kind, text, provenance);
+  return true;
 }
 
 std::map<std::string, std::string> library_versions() {

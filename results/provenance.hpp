@@ -118,6 +118,11 @@ std::string output_text(const std::filesystem::path& path, TextKind kind, const 
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
                   Provenance provenance);
 
+/// As write_output(), but leaves a file alone that has this text and was made in the same folder from
+/// the same inputs. Returns true if it wrote.
+bool write_if_changed(const std::filesystem::path& path, TextKind kind, const std::string& text,
+                      const Provenance& provenance);
+
 /// The versions of Viscontact and of the libraries it was built with, by name.
 std::map<std::string, std::string> library_versions();
 

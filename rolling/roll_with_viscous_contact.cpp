@@ -3,14 +3,18 @@
 // gamma is minus the impulse that the film of fluid has absorbed, gamma_min its value at which the
 // solids touch, q0 the initial gap. Lengths, masses and times are in any consistent units;
 // rolling_motion.hpp has the dimensions and ranges. A fit that lacks a resistance and too many
-// steps are an Error(kBadInput), a stop is an Error(kInterrupted). Used by rolling/case,
+// steps are an Error(kBadInput), a number beyond any double is an Error(kNotConverged), a stop an
+// Error(kInterrupted). Used by rolling/case,
 // rolling/job, app/ and python/. A change must keep the balance of contact_step.hpp and the order
 // of the models, which gives their colours in pages.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "viscontact/common/error.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/models/contact/contact_step.hpp"
 #include "viscontact/reduced_model/motion.hpp"
@@ -95,6 +99,12 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
     row.position += step * row.velocity;
     row.angle += step * row.angular_velocity;
     row.time = time;
+    // At a velocity beyond any double the position is none either.
+    if (!(std::isfinite(row.gap) && std::isfinite(row.position) && std::isfinite(row.angle) &&
+          std::isfinite(row.friction_force)))
+      throw Error(
+          ErrorKind::kNotConverged,
+          fmt::format("a number of the motion leaves the range of a double at time {:.6g}", time));
     rows.push_back(row);
   }
   return rows;

@@ -73,7 +73,7 @@ RollingTrajectory roll_rough(const RollingMotion& motion, const motions::PairFit
 /// thickness, or without contact those at the gap (at gaps above the interval of the fit those at
 /// its end). The error of the trajectory is of first order in the time step. Throws
 /// Error(kBadInput) if the fit lacks squeeze, slide, roll or slide_roll, or if there are more than
-/// 1e8 steps.
+/// 1e8 steps; Error(kNotConverged) if a number leaves the range of a double.
 RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
                                             const motions::PairFit& fit);
 

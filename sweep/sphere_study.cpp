@@ -63,7 +63,7 @@ void add_model(const reduced_model::ModelComparison& model,
   }
 }
 
-/// Throws Error(kWrongUsage) if the key of a case changes no row because a sweep does not read it.
+/// Throws Error(kWrongUsage) if the key of a case changes no row because a sweep does not use it.
 void refuse_unread(const std::string& key) {
   constexpr std::array kNotOfAMotion = {"tabulation", "fit", "published", "sweep", "units"};
   if (std::ranges::find(kNotOfAMotion, key.substr(0, key.find('.'))) != kNotOfAMotion.end()) {
@@ -76,6 +76,11 @@ void refuse_unread(const std::string& key) {
                             "varies keys of [{}] and [{}]",
                             key, fmt::join(sections, "], ["), last));
   }
+  if (key == "motion.rows")
+    throw Error(
+        ErrorKind::kWrongUsage,
+        "motion.rows cannot be varied, because it changes only files of trajectories, which "
+        "a sweep does not write");
 }
 
 /// True if the motion of a model of the case depends on a key. With gravity, all models depend on
@@ -173,7 +178,7 @@ SpherePlan planned_sphere(const case_file::Case& c) {
     plan.fit = lubrication::read_fit(*fit.file);
   else if (fit.exact)
     plan.fit = lubrication::exact_plane_fit(c.viscosity, c.radius);
-  plan.points.variations = variations_of_case(request.vary, c.path);
+  plan.points = points_of_case(request.vary, c.path, request.vary_line);
   plan.points.samples = request.samples;
   plan.models = request.models;
   if (plan.models.empty())
@@ -189,7 +194,7 @@ Study sphere_study(SpherePlan plan, const std::string& version) {
   if (plan.reference.empty()) plan.reference = reduced_model::reference_of(plan.models);
   refuse_doubles(plan.models, "the model");
   for (const auto& model : plan.models) (void)reduced_model::find_model(model);
-  for (const auto& key : plan.points.keys()) refuse_unread(key);
+  check_keys(plan.points, refuse_unread);
   if (std::ranges::find(plan.models, plan.reference) == plan.models.end())
     throw Error(
         ErrorKind::kWrongUsage,

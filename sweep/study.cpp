@@ -116,17 +116,38 @@ void refuse_doubles(const std::vector<std::string>& names, std::string_view kind
       throw Error(ErrorKind::kWrongUsage, fmt::format("{} {} is given twice", kind, name));
 }
 
-std::vector<Variation> variations_of_case(const std::vector<std::string>& ranges,
-                                          const fs::path& case_path) {
-  std::vector<Variation> variations;
-  for (const auto& text : ranges) {
-    try {
-      variations.push_back(parse_variation(text));
-    } catch (const Error& error) {
-      throw_bad_input({case_path.string()}, fmt::format("sweep.vary: {}", error.what()));
-    }
+Points points_of_case(const std::vector<std::string>& ranges, const fs::path& case_path, int line) {
+  Points points;
+  points.file = case_path.string();
+  points.line = line;
+  try {
+    for (const auto& text : ranges) points.variations.push_back(parse_variation(text));
+  } catch (const Error& error) {
+    throw with_origin(points, error);
   }
-  return variations;
+  return points;
+}
+
+Error with_origin(const Points& points, const Error& error) {
+  if (error.kind() == ErrorKind::kInterrupted) return error;
+  std::string message = error.what();
+  if (points.file.empty()) return {error.kind(), "--vary: " + message};
+  // The message of a case that is wrong at a point begins with the file, which is named once.
+  if (message.starts_with(points.file + ": ")) message.erase(0, points.file.size() + 2);
+  const auto line = points.line > 0 ? fmt::format(":{}", points.line) : "";
+  return {error.kind() == ErrorKind::kWrongUsage ? ErrorKind::kBadInput : error.kind(),
+          fmt::format("{}{}: sweep.vary: {}", points.file, line, message)};
+}
+
+void check_ranges(const Points& points) {
+  refuse_doubles(points.keys(), "the key");
+  for (const auto& v : points.variations)
+    if (points.samples == 0 && v.values.empty() && v.count == 1 && v.first != v.last)
+      throw Error(
+          ErrorKind::kWrongUsage,
+          fmt::format("{}={}:{} has COUNT 1, which leaves out {}; it must be at least 2, or "
+                      "the range must be one value",
+                      v.key, v.first, v.last, v.last));
 }
 
 // Threads compute rows in any order, but the rows must be passed on in order, so that the file does
@@ -193,9 +214,9 @@ std::uint64_t write_sweep(
     const StopToken& stop) {
   const std::uint64_t size = study.size();
   const std::string header = header_of(study);
+  const fs::path target = check_output_file(path);
   if (const auto finished = kept_rows(path, header, study); finished && finished->rows == size)
     return 0;
-  const fs::path target = check_output_file(path);
   fs::path part = target;
   part += ".part";
   if (part.has_parent_path()) make_folder(part.parent_path());

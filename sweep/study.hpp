@@ -70,10 +70,27 @@ std::map<std::string, std::string> head_of(const std::string& kind, const std::s
 /// such as "the key".
 void refuse_doubles(const std::vector<std::string>& names, std::string_view kind);
 
-/// Reads the ranges "KEY=RANGE" (variation.hpp) of the section [sweep] of a case. Throws
-/// Error(kBadInput), which names the case, if one is not valid.
-std::vector<Variation> variations_of_case(const std::vector<std::string>& ranges,
-                                          const std::filesystem::path& case_path);
+/// The grid of the ranges "KEY=RANGE" (variation.hpp) of the section [sweep] of a case, which are in
+/// this line. Throws Error(kBadInput), which names case and line, if a range is not valid.
+Points points_of_case(const std::vector<std::string>& ranges,
+                      const std::filesystem::path& case_path, int line);
+
+/// The error that tells where the ranges that caused `error` stand: "--vary: ..." or "case.toml:3:
+/// sweep.vary: ...". In a case, wrong usage is bad input; an interruption stays as it is.
+Error with_origin(const Points& points, const Error& error);
+
+/// Calls `check(key)` for each varied key. An Error that it throws is thrown again with_origin().
+template <class Check>
+void check_keys(const Points& points, const Check& check) {
+  try {
+    for (const auto& key : points.keys()) check(key);
+  } catch (const Error& error) {
+    throw with_origin(points, error);
+  }
+}
+
+/// Throws Error(kWrongUsage) if a key is varied twice, or if the grid leaves out the end of a range.
+void check_ranges(const Points& points);
 
 /// Returns `make(numbers)` for the keys and values of row `index` < points.rows(). An Error that it
 /// throws is thrown again with the point in its message.
@@ -87,17 +104,22 @@ auto at_point(const Points& points, std::uint64_t index, const Make& make) {
   }
 }
 
-/// Throws Error(kWrongUsage) if nothing or a key twice is varied. Then calls `make`, which makes a
-/// case, for the first and the last row, so that a range that leads to a wrong case is an Error
-/// before rows are computed; rows between are not checked. Throws the Errors of `make` and
-/// Points::rows().
+/// Throws Error(kWrongUsage) if nothing or a key twice is varied, or if the grid leaves out the end
+/// of a range. Then calls `make`, which makes a case, for the first and the last row, so that a
+/// range that leads to a wrong case is an Error before rows are computed; rows between are not
+/// checked. Throws the Errors of `make` and Points::rows(), with_origin().
 template <class Make>
 void check_ends(const Points& points, const Make& make) {
   if (points.variations.empty() && points.draws == 0)
     throw Error(ErrorKind::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
-  refuse_doubles(points.keys(), "the key");
-  for (const std::uint64_t index : {std::uint64_t{0}, points.rows() - 1})
-    at_point(points, index, make);
+  try {
+    check_ranges(points);
+    for (const std::uint64_t index : {std::uint64_t{0}, points.rows() - 1})
+      at_point(points, index, make);
+  } catch (const Error& error) {
+    if (points.variations.empty()) throw;
+    throw with_origin(points, error);
+  }
 }
 
 /// Computes the rows `begin`, ..., `size` - 1 with `jobs` >= 1 threads and passes them to `take` in

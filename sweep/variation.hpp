@@ -64,6 +64,8 @@ struct Points {
   std::uint64_t draws = 0;
   /// The value of arrangement.seed in the first draw; it grows by 1 from draw to draw.
   std::uint64_t first_draw = 1;
+  std::string file;  ///< the case whose section [sweep] gives `variations`; empty: --vary does
+  int line = 0;      ///< line of `vary` in this case, from 1; 0: not known
 
   std::uint64_t count() const;  ///< number of points
   std::uint64_t rows() const;   ///< number of rows: points times draws, or points if `draws` is 0

@@ -95,6 +95,20 @@ CLI::Validator one_of(std::vector<std::string> words) {
   return CLI::IsMember(std::move(words)).description("");
 }
 
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
+  const auto check = [least, most](const std::string& text) {
+    std::uint64_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto number = std::from_chars(text.data(), end, value);
+    const bool is_right =
+        number.ec == std::errc() && number.ptr == end && value >= least && value <= most;
+    return is_right ? ""
+                    : fmt::format("is {}; it must be a whole number from {} to {}, in digits", text,
+                                  least, most);
+  };
+  return {check, ""};
+}
+
 CLI::Option* add_json(CLI::App& command, bool& json) {
   return command.add_flag("--json", json, "print the table as JSON");
 }

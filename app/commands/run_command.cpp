@@ -14,6 +14,7 @@
 #include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/commands/interrupt.hpp"
+#include "viscontact/common/error.hpp"
 #include "viscontact/common/files/locks.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/particles/run/particles_pages.hpp"
@@ -145,8 +146,12 @@ void report_again(const std::filesystem::path& folder) {
     swimmer::report_swimmer(folder, interrupt_token());
   else if (has("particles.pvd"))
     particles::report_particles(folder);
-  else
+  else if (has("case.toml") || std::filesystem::is_directory(folder / "trajectories"))
     report::write_report(folder, {}, interrupt_token());
+  else
+    throw_bad_input({folder.string()},
+                    "is not the folder of a run: it has none of trajectories/, rolling.json, "
+                    "swimmer.json and particles.pvd");
 }
 
 }  // namespace

@@ -115,8 +115,16 @@ void finish_replacement(const std::filesystem::path& place) {
 }  // namespace
 
 std::string read_file(const std::filesystem::path& path) {
+  // A signal ends open and read only while they wait for a pipe. It then asks the program to stop,
+  // because any other signal has no handler or lets them go on (SA_RESTART).
+  const auto fail = [&] {
+    if (errno == EINTR)
+      throw Error(ErrorKind::kInterrupted,
+                  fmt::format("interrupted while {} was read", path.string()));
+    throw_system_error(path, "read", errno);
+  };
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0) throw_system_error(path, "read", errno);
+  if (file.get() < 0) fail();
   // A device, such as /dev/zero, may have no end.
   struct stat status = {};
   if (::fstat(file.get(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)))
@@ -125,8 +133,7 @@ std::string read_file(const std::filesystem::path& path) {
   std::array<char, 1 << 16> buffer{};  // bytes; any size works
   for (;;) {
     const ssize_t count = ::read(file.get(), buffer.data(), buffer.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw_system_error(path, "read", errno);
+    if (count < 0) fail();
     if (count == 0) return content;
     content.append(buffer.data(), static_cast<std::size_t>(count));
   }
@@ -159,6 +166,12 @@ void sync_folder_of(const std::filesystem::path& path) {
 std::filesystem::path check_output_file(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   std::error_code error;
+  // The system follows links here, because the text of the link /dev/stdout to a pipe is no path.
+  const auto status = fs::status(path, error);
+  if (fs::is_directory(status)) throw_system_error(path, "written", EISDIR);
+  // Renaming over a device or a pipe would remove it for all processes.
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw_bad_input({path.string()}, "cannot be written (not a regular file)");
   // A symbolic link is kept; the file that it points to is replaced.
   fs::path place = path;
   if (fs::is_symlink(fs::symlink_status(path, error))) {
@@ -168,11 +181,6 @@ std::filesystem::path check_output_file(const std::filesystem::path& path) {
       place = place.parent_path() / fs::read_symlink(place, error);
     if (error) throw_system_error(path, "written", error.value());
   }
-  const auto status = fs::status(place, error);
-  if (fs::is_directory(status)) throw_system_error(path, "written", EISDIR);
-  // Renaming over a device or a pipe would remove it for all processes.
-  if (fs::exists(status) && !fs::is_regular_file(status))
-    throw_bad_input({path.string()}, "cannot be written (not a regular file)");
   return place;
 }
 

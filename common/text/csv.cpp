@@ -13,6 +13,7 @@
 #include <libfccp/csv.h>
 #pragma GCC diagnostic pop
 
+#include <algorithm>
 #include <sstream>
 #include <tuple>
 
@@ -194,7 +195,11 @@ CsvHeader csv_header(const std::string& text) {
 
 std::string shortened(const std::string& text) {
   constexpr std::size_t kLongest = 60;  // a free choice
-  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+  auto shown = text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+  // A terminal would take control characters for commands.
+  std::ranges::replace_if(
+      shown, [](unsigned char c) { return c < ' ' || c == 127; }, '?');
+  return shown;
 }
 
 double csv_comment_number(const CsvComments& comments, const std::string& key,

@@ -79,8 +79,9 @@ void species_keys(case_file::Keys& keys, Species& species, bool has_fluid, bool 
   keys.required_if(
       !has_fluid, "mass",
       case_file::number(species.mass, has_fluid ? kModeratelyPositiveOr0 : kModeratelyPositive),
-      {"mass of each particle", "required without `density`; in a fluid 0",
-       "from 1e-100 to 1e100, in a fluid also 0"});
+      {"mass of each particle",
+       has_fluid ? "required without `density`; in a fluid 0" : "required without `density`",
+       has_fluid ? "from 1e-100 to 1e100, in a fluid also 0" : "from 1e-100 to 1e100"});
 }
 
 void read_species(const case_file::TomlSection& section, std::string_view key,
@@ -181,8 +182,8 @@ void read_arrangement(const case_file::TomlSection& section, ParticlesCase& c) {
 }
 
 std::vector<case_file::KeyTable> arrangement_tables() {
-  return {case_file::describe_keys("[arrangement]", arrangement_keys, 2, false),
-          case_file::describe_keys("a table of species", species_keys, false, true),
+  return {case_file::describe_keys("[arrangement]", arrangement_keys, 2, true),
+          case_file::describe_keys("a table of species", species_keys, true, true),
           case_file::describe_keys("a table of radii", distribution_keys)};
 }
 

@@ -252,7 +252,7 @@ void read_particle(const case_file::TomlSection& section, ParticlesCase& c) {
 }
 
 void file_keys(case_file::Keys& keys, std::string& file) {
-  keys.required("file", case_file::text(file), {"a CSV file, see below"});
+  keys.required("file", case_file::file_name(file), {"a CSV file, see below"});
 }
 
 /// Reads the CSV file that [particles] names.

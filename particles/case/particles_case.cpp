@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr Allowed kNotPositive = {[](double v) { return v <= 0; }, "<= 0"};
 constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
-                                "between 1e-12 and 0.1"};
+                                "from 1e-12 to 0.1"};
 constexpr Allowed kShare = {[](double v) { return v >= 0 && v <= 1; }, "from 0 to 1"};
 
 /// Reads the dimension: 2, 3, or "axisymmetric", which becomes 1.

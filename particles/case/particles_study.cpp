@@ -25,16 +25,15 @@ namespace {
 
 /// Throws Error(kWrongUsage) for keys that a sweep cannot vary.
 void check_varied_keys(const sweep::Points& points) {
-  for (const auto& variation : points.variations) {
-    const auto& key = variation.key;
-    if (key == sweep::kDrawKey && points.draws > 0)
-      throw Error(ErrorKind::kWrongUsage,
-                  fmt::format("{} cannot be varied beside draws, which vary it", key));
+  if (points.draws > 0 && points.is_varied(sweep::kDrawKey))
+    throw Error(ErrorKind::kWrongUsage,
+                fmt::format("{} cannot be varied beside draws, which vary it", sweep::kDrawKey));
+  sweep::check_keys(points, [](const std::string& key) {
     const auto section = key.substr(0, key.find('.'));
     if (section == "sweep" || section == "output")
       throw Error(ErrorKind::kWrongUsage,
                   fmt::format("{} cannot be varied, because it changes no motion of a run", key));
-  }
+  });
 }
 
 /// Names of the columns with results of a case (docs/file-formats.md).
@@ -86,8 +85,7 @@ std::string row_of(const Draws& draws) {
 sweep::Points planned_particles(const std::filesystem::path& case_path) {
   const auto c = read_particles_case(case_path);
   const auto request = c.sweep.value_or(case_file::SweepRequest{});
-  sweep::Points points;
-  points.variations = sweep::variations_of_case(request.vary, case_path);
+  auto points = sweep::points_of_case(request.vary, case_path, request.vary_line);
   points.samples = request.samples;
   points.draws = request.draws;
   return points;

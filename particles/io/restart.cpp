@@ -194,7 +194,7 @@ class Reader {
   void operator()(std::vector<T>& values) {
     std::uint64_t count = 0;
     (*this)(count);
-    if (count > bytes_.size() / sizeof(T)) throw_short();
+    if (count > bytes_.size() / sizeof(T)) throw_damaged();
     values.resize(static_cast<std::size_t>(count));
     if (count > 0) std::memcpy(values.data(), take(count * sizeof(T)), count * sizeof(T));
   }
@@ -218,13 +218,13 @@ class Reader {
       pairs.push_back({pair.first, pair.second, pair.gamma, pair.impulse, 0});
   }
   bool at_end() const { return bytes_.empty(); }
-  [[noreturn]] void throw_short() const {
-    throw_bad_input({file_}, "is not a whole restart file; it seems to be cut short");
+  [[noreturn]] void throw_damaged() const {
+    throw_bad_input({file_}, "is damaged: it was cut short, or its bytes have changed");
   }
 
  private:
   const char* take(std::size_t size) {
-    if (size > bytes_.size()) throw_short();
+    if (size > bytes_.size()) throw_damaged();
     const char* at = bytes_.data();
     bytes_.remove_prefix(size);
     return at;
@@ -341,24 +341,24 @@ State read_restart(const std::filesystem::path& path) {
   const int version = read_version(rest, file);
   const auto hash = line_of(rest, kHash, file);
   Reader reader(rest, file, version);
-  if (hash != sha256(rest)) reader.throw_short();
+  if (hash != sha256(rest)) reader.throw_damaged();
   State state;
   StoredArrays arrays;
   for_fields(state, arrays, version, reader);
   const auto of_pairs = state.pairs.size(), of_all = of_pairs + state.walls.size();
   if (!reader.at_end() || (!arrays.images.empty() && arrays.images.size() != of_pairs) ||
       (!arrays.places.empty() && arrays.places.size() != of_all) || !take_memories(arrays, state))
-    reader.throw_short();
+    reader.throw_damaged();
   for (std::size_t k = 0; k < arrays.images.size(); ++k) state.pairs[k].image = arrays.images[k];
   for (std::size_t k = 0; k < arrays.places.size(); ++k)
     (k < of_pairs ? state.pairs[k] : state.walls[k - of_pairs]).place = arrays.places[k];
   for (const auto& motion : arrays.bodies)
     state.particles.bodies.bodies.emplace_back().BodyMotion::operator=(motion);
-  if (!is_consistent(state)) reader.throw_short();
+  if (!is_consistent(state)) reader.throw_damaged();
   for (const auto* pairs : {&state.pairs, &state.walls})
     for (const auto& pair : *pairs)
       if (!is_consistent(pair, pairs == &state.walls, state.particles.count()))
-        reader.throw_short();
+        reader.throw_damaged();
   return state;
 }
 

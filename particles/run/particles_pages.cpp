@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "viscontact/particles/io/vtk.hpp"
 #include "viscontact/particles/picture/particles_picture.hpp"
 #include "viscontact/particles/run/particles_folder.hpp"
+#include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::particles {
@@ -126,6 +128,11 @@ void write_pages(const ParticlesCase& c, const fs::path& folder,
                  const results::Provenance& provenance) {
   constexpr int kPanels = 4;  // number of times that the still picture shows; free choice
   const auto playback = read_playback(c, folder);
+  if (!std::ranges::all_of(playback.radii, [](float radius) { return std::isnormal(radius); }))
+    terminal::warn(
+        "particles: warning: particles.html and particles.svg show nothing, because a radius is "
+        "not "
+        "within 1e-37 and 3e38, the lengths that they can have; choose another unit of length");
   results::write_output(folder / "particles.html", TextKind::kHtml,
                         particles_page(playback, c.title), provenance);
   results::write_output(folder / "particles.svg", TextKind::kSvg,
@@ -133,7 +140,8 @@ void write_pages(const ParticlesCase& c, const fs::path& folder,
 }
 
 void report_particles(const fs::path& folder) {
-  check_results(folder);
+  for (const auto* name : {"particles.html", "particles.svg"})
+    results::refuse_other_kind(folder / name, "", "result");
   auto files = results::given_inputs(folder / "particles.pvd");
   const auto c = read_particles_case(files.front());
   files.push_back(folder / "particles.pvd");

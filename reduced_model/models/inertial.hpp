@@ -18,7 +18,7 @@ inline constexpr ModelParameter kRelativeTolerance = {
     "inertial.relative_tolerance",
     "relative tolerance of the gap in inertial",
     "1",
-    {[](double v) { return v >= 1e-13 && v <= 1e-2; }, "between 1e-13 and 1e-2"},
+    {[](double v) { return v >= 1e-13 && v <= 1e-2; }, "from 1e-13 to 1e-2"},
     [](const Motion&, double) { return 1e-9; },
     false,
     "1e-9"};

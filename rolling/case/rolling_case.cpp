@@ -6,6 +6,7 @@
 #include "viscontact/rolling/case/rolling_case.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "viscontact/case_file/shared_sections.hpp"
@@ -31,8 +32,18 @@ void weight_keys(case_file::Keys& keys, WeightKeys& given, double mass) {
   // A little more than a right angle.
   constexpr Allowed kAngle = {[](double v) { return std::abs(v) <= 1.6; },
                               "of radians from -1.6 to 1.6"};
-  keys.require(keys.has("weight") + keys.has("force") + keys.has("gravity") == 1, "force",
-               "or weight or gravity must be there, one of the three");
+  constexpr std::array kOneOf = {"force", "weight", "gravity"};
+  std::string_view first;
+  for (const auto* key : kOneOf)
+    if (keys.has(key)) {
+      keys.require(first.empty(), key,
+                   "must be left out, because {} is given; only one of force, "
+                   "weight and gravity may be",
+                   first);
+      first = key;
+    }
+  keys.require(!first.empty(), "force",
+               "is missing; it must be two numbers, or weight or gravity must be given");
   keys.optional("force", case_file::numbers(given.force, kFinite, "two numbers"),
                 {"along the plane, and away from it", "from `weight` or `gravity`, and `incline`"});
   keys.require(!keys.has("incline") || !keys.has("force"), "incline",
@@ -77,6 +88,7 @@ void rolling_keys(case_file::Keys& keys, RollingCase& c) {
                 {"at the start, along the plane"});
   keys.optional("angular_velocity", case_file::number(motion.angular_velocity, kFinite),
                 {"at the start, about y (> 0 rolls along +x)"});
+  c.has_gravity = keys.has("gravity");
   WeightKeys force;
   weight_keys(keys, force,
               case_file::mass_less_displaced_fluid(motion.mass, c.fluid_density, c.radius));
@@ -137,7 +149,7 @@ void rolling_sphere_keys(case_file::Keys& keys, RollingCase& c) {
 void pair_fit_keys(case_file::Keys& keys, RollingCase& c) {
   std::string file;
   keys.required(
-      "file", case_file::text(file),
+      "file", case_file::file_name(file),
       {"fit of a pair (JSON) beside a plane, which is [scaled](physics.md#3-the-fit-fitting) "
        "to radius and viscosity of the case"});
   c.fit = c.path.parent_path() / file;

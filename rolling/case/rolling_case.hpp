@@ -19,11 +19,12 @@ namespace viscontact::rolling {
 
 /// Content of a case file of a sphere that rolls along a plane.
 struct RollingCase {
-  std::string title;      ///< a title for pages; may be empty
-  Units units{};          ///< words for pages; may be empty
-  double viscosity = 0,   ///< mu of the fluid [M/(L T)], > 0
-      radius = 0,         ///< r of the sphere [L], > 0
-      fluid_density = 0;  ///< rho_f [M/L^3], >= 0; only buoyancy depends on it
+  std::string title;         ///< a title for pages; may be empty
+  Units units{};             ///< words for pages; may be empty
+  double viscosity = 0,      ///< mu of the fluid [M/(L T)], > 0
+      radius = 0,            ///< r of the sphere [L], > 0
+      fluid_density = 0;     ///< rho_f [M/L^3], >= 0; only buoyancy depends on it
+  bool has_gravity = false;  ///< true: the forces follow from gravity, less the buoyancy
   /// The motion that the models compute.
   RollingMotion motion;
   std::vector<std::string> models;  ///< names of rolling_models(), each at most once

@@ -3,7 +3,7 @@
 // A key that cannot be varied and an unknown model are an Error(kWrongUsage), a wrong case or fit
 // is an Error(kBadInput), a stop an Error(kInterrupted); a model that fails leaves its columns
 // empty. A change must keep the names of the columns, which users' scripts read and which
-// add_rolling_end() repeats.
+// add_rolling_end() repeats. refuse_useless() repeats which keys a model uses.
 #include "viscontact/rolling/case/rolling_study.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +12,7 @@
 #include <array>
 #include <utility>
 
+#include "viscontact/common/error.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/rolling/rolling_motion.hpp"
@@ -42,6 +43,25 @@ void check_rolling_model(const std::string& model) {
     throw Error(ErrorKind::kWrongUsage,
                 fmt::format("'{}' is no model of a rolling sphere; the models are: {}", model,
                             names_of(all)));
+}
+
+/// Throws Error(kWrongUsage) if none of the models depends on a key of the case.
+void refuse_useless(const RollingCase& c, const std::string& key,
+                    const std::vector<std::string>& models) {
+  const bool is_of_solids = key == "rolling.roughness" || key == "rolling.friction";
+  const bool is_of_integrator = key == "rolling.relative_tolerance";
+  if (key == "fluid.density" && !c.has_gravity)
+    throw Error(ErrorKind::kWrongUsage,
+                "fluid.density cannot be varied, because no motion depends on it without "
+                "rolling.gravity");
+  if (std::ranges::all_of(models, [&](const auto& model) {
+        return (is_of_solids && model == "smooth") ||
+               (is_of_integrator && model == "viscous_contact");
+      }))
+    throw Error(ErrorKind::kWrongUsage,
+                fmt::format("{} cannot be varied, because none of the models that are run depends "
+                            "on it ({}); leave it out, or add a model that depends on it",
+                            key, fmt::join(models, ", ")));
 }
 
 void add_rolling_end(const std::string& model, const RollingEnd& end, sweep::RowResults& results) {
@@ -82,7 +102,7 @@ RollingPlan planned_rolling(const RollingCase& c) {
   RollingPlan plan;
   plan.case_path = c.path;
   if (c.fit) plan.fit_path = *c.fit;
-  plan.points.variations = sweep::variations_of_case(request.vary, c.path);
+  plan.points = sweep::points_of_case(request.vary, c.path, request.vary_line);
   plan.points.samples = request.samples;
   return plan;
 }
@@ -90,12 +110,14 @@ RollingPlan planned_rolling(const RollingCase& c) {
 sweep::Study rolling_study(RollingPlan plan, const std::string& version) {
   const case_file::CaseTemplate<RollingCase> cases(plan.case_path);
   if (plan.models.empty()) plan.models = cases.with({}).models;
-  for (const auto& key : plan.points.keys()) check_rolling_key(key);
+  sweep::check_keys(plan.points, check_rolling_key);
   for (const auto& model : plan.models) check_rolling_model(model);
   sweep::refuse_doubles(plan.models, "the model");
   const auto fit = motions::read_pair_fit(plan.fit_path);
   sweep::check_ends(plan.points, [&](const auto& numbers) {
-    (void)fit_for(cases.with(numbers), fit, plan.fit_path);
+    const auto c = cases.with(numbers);
+    (void)fit_for(c, fit, plan.fit_path);
+    for (const auto& key : plan.points.keys()) refuse_useless(c, key, plan.models);
   });
   sweep::Study study;
   study.points = plan.points;

@@ -133,6 +133,10 @@ void check_rolling_report(const std::filesystem::path& folder) {
   (void)report::Report(folder, kRollingPictures);
 }
 
+bool rolling_report_is_current(const std::filesystem::path& folder) {
+  return report::page_is_current(folder, kRollingPictures);
+}
+
 void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop) {
   const auto& units = results.c.units;

@@ -33,6 +33,9 @@ std::vector<std::string> rolling_warnings(const RollingResults& results);
 /// write.
 void check_rolling_report(const std::filesystem::path& folder);
 
+/// True if the report is there and its inputs have not changed (report::page_is_current()).
+bool rolling_report_is_current(const std::filesystem::path& folder);
+
 /// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no
 /// still pictures, and a warning says so. Throws Error(kExternalProgram) if gnuplot fails,
 /// Error(kBadInput) if a file cannot be written, and Error(kInterrupted) if `stop` requests a stop.

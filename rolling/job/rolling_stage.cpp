@@ -173,18 +173,21 @@ void run_models(const RollingCase& c, RollingResults& results) {
   if (results.trajectories.empty()) throw results::error_of(results.failed, 0, c.path);
 }
 
-void write_trajectories(const RollingFolder& folder, const RollingResults& results,
+/// Writes the trajectories that are not up to date. Returns true if there were any.
+bool write_trajectories(const RollingFolder& folder, const RollingResults& results,
                         const results::Provenance& provenance) {
+  bool wrote = false;
   for (const auto& model : rolling_models()) {
     const std::string name(model.name);
     const auto found = std::ranges::find(results.trajectories, name,
                                          [](const auto& trajectory) { return trajectory.first; });
     if (found == results.trajectories.end())
       remove_file(folder.trajectory(name));
-    else
-      results::write_output(folder.trajectory(name), TextKind::kHashComment,
-                            trajectory_csv(name, found->second), provenance);
+    else if (results::write_if_changed(folder.trajectory(name), TextKind::kHashComment,
+                                       trajectory_csv(name, found->second), provenance))
+      wrote = true;
   }
+  return wrote;
 }
 
 void say_end(const std::string& model, const RollingRow& last) {
@@ -211,13 +214,16 @@ void run_rolling(const RollingRequest& request) {
       {given, results.c.fit ? std::vector<fs::path>{} : std::vector{folder.fit()}});
   results.c.motion.stop = request.stop;
   pipeline::with_failure(rows_failed, [&] { run_models(results.c, results); });
-  write_trajectories(folder, results, provenance);
+  bool wrote = write_trajectories(folder, results, provenance);
   for (const auto& [model, rows] : results.trajectories) say_end(model, rows.back());
   for (const auto& warning : rolling_warnings(results))
     terminal::warn("rolling: warning: " + warning);
   const auto json = rolling_json(results);
-  results::write_output(folder.results(), TextKind::kJson, json, provenance);
-  write_rolling_report(results, folder.path, provenance, request.stop);
+  if (results::write_if_changed(folder.results(), TextKind::kJson, json, provenance)) wrote = true;
+  if (wrote || !rolling_report_is_current(folder.path))
+    write_rolling_report(results, folder.path, provenance, request.stop);
+  else
+    terminal::say(fmt::format("rolling: {} is up to date", folder.path.string()));
   if (request.json) fmt::print("{}", json);
   pipeline::with_failure(rows_failed, [&] {
     if (!results.failed.empty())

@@ -106,7 +106,7 @@ void read_grid(const case_file::TomlSection& section, std::string_view key, Swim
 void read_given_table(const case_file::TomlSection& section, std::string_view key, SwimmerCase& c) {
   for (const auto* other : {"arms", "relative_accuracy"})
     section.require(!section.has(other), other, "must be left out, because `table` gives a table");
-  c.table_file = c.path.parent_path() / section.text(key);
+  c.table_file = c.path.parent_path() / section.file_name(key);
   const auto table = read_resistance_table(*c.table_file);
   section.require(table.radii.size() == c.spheres.radii.size(), key,
                   "is a table of {} spheres; it must have {}, as many as `radii`",

@@ -62,7 +62,7 @@ sweep::RowResults swim_strokes(const SwimmerCase& c, ResistanceFit fit, const St
 sweep::Study swimmer_study(const std::filesystem::path& case_path, sweep::Points points,
                            const ResistanceFit& fit, const std::string& version) {
   const case_file::CaseTemplate<SwimmerCase> cases(case_path);
-  for (const auto& key : points.keys()) check_swimmer_key(key);
+  sweep::check_keys(points, check_swimmer_key);
   SwimmerCase last;
   sweep::check_ends(points, [&](const auto& numbers) {
     last = cases.with(numbers);

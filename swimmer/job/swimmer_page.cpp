@@ -322,6 +322,10 @@ void check_swimmer_report(const std::filesystem::path& folder) {
   (void)report::Report(folder, kPictureNames);
 }
 
+bool swimmer_report_is_current(const std::filesystem::path& folder) {
+  return report::page_is_current(folder, kPictureNames);
+}
+
 void write_swimmer_report(const SwimmerResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop) {
   const auto& units = results.c.units;

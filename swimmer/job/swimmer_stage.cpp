@@ -147,13 +147,14 @@ void compute_strokes(SwimmerResults& results, const StopToken& stop) {
   terminal::clear_progress();
 }
 
-/// Writes the file of a stroke, or removes that of an earlier run.
-void write_stroke(const fs::path& path, const std::optional<StrokeResult>& stroke,
+/// Writes the file of a stroke, unless it is up to date, or removes that of an earlier run. Returns
+/// true if it wrote.
+bool write_stroke(const fs::path& path, const std::optional<StrokeResult>& stroke,
                   const results::Provenance& provenance) {
   if (stroke)
-    results::write_output(path, TextKind::kHashComment, stroke_csv(*stroke), provenance);
-  else
-    remove_file(path);
+    return results::write_if_changed(path, TextKind::kHashComment, stroke_csv(*stroke), provenance);
+  remove_file(path);
+  return false;
 }
 
 /// Reads what json_of() and stroke_csv() wrote for a swimmer with this number of spheres.
@@ -226,8 +227,8 @@ void run_swimmer(const SwimmerRequest& request) {
   const auto of_fit = results::provenance_of({given, {}});
 
   if (results.c.table_file)
-    results::write_output(folder.table(), TextKind::kHashComment,
-                          write_resistance_table(results.c.table), of_fit);
+    (void)results::write_if_changed(folder.table(), TextKind::kHashComment,
+                                    write_resistance_table(results.c.table), of_fit);
   else  // tabulate_stage() throws if a row fails, because the table needs all its rows
     (void)pipeline::tabulate_stage({case_table(results.c, folder.table())}, request.jobs,
                                    request.stop);
@@ -237,13 +238,16 @@ void run_swimmer(const SwimmerRequest& request) {
   compute_strokes(results, request.stop);
 
   const auto provenance = results::provenance_of({given, {folder.table(), folder.fit()}});
-  write_stroke(folder.stroke(), results.stroke, provenance);
-  write_stroke(folder.optimal(), results.optimal, provenance);
+  bool wrote = write_stroke(folder.stroke(), results.stroke, provenance);
+  if (write_stroke(folder.optimal(), results.optimal, provenance)) wrote = true;
   const auto json = results_json(results);
-  results::write_output(folder.results(), TextKind::kJson, json, provenance);
+  if (results::write_if_changed(folder.results(), TextKind::kJson, json, provenance)) wrote = true;
   if (results.stroke) tell("stroke", *results.stroke);
   if (results.optimal) tell("optimal stroke", *results.optimal);
-  write_swimmer_report(results, folder.path, provenance, request.stop);
+  if (wrote || !swimmer_report_is_current(folder.path))
+    write_swimmer_report(results, folder.path, provenance, request.stop);
+  else
+    terminal::say(fmt::format("swimmer: {} is up to date", folder.path.string()));
   if (request.json) fmt::print("{}", json);
 }
 

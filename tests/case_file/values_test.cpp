@@ -193,8 +193,8 @@ TEST(Restitution, NeedsARoughness) {
   constexpr LectureKey kRestitution = {"viscous_contact.restitution", "[viscous_contact]",
                                        "restitution", "0.97"};
   expect_refused(with("[0.0, 0.0]", "0.97"), kRestitution.path, "roughness");
-  expect_refused(with("[1e-3, 0.0]", "1.1"), kRestitution.path, "between 0 and 1");
-  expect_refused(with("[1e-3, 0.0]", "-0.1"), kRestitution.path, "between 0 and 1");
+  expect_refused(with("[1e-3, 0.0]", "1.1"), kRestitution.path, "from 0 to 1");
+  expect_refused(with("[1e-3, 0.0]", "-0.1"), kRestitution.path, "from 0 to 1");
 }
 
 TEST(FitOfACase, MayBeAFileBesideTheCase) {

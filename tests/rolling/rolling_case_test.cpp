@@ -68,7 +68,9 @@ TEST_F(RollingCaseFile, WeightMayFollowFromDensitiesAndGravity) {
   EXPECT_DOUBLE_EQ(c.motion.force, 30 * volume * std::sin(0.3));
   EXPECT_DOUBLE_EQ(c.motion.normal_force, -30 * volume * std::cos(0.3));
   EXPECT_THAT(bad_input([&] { (void)changed("weight = 1.0", "weight = 1.0\ngravity = -1.0"); }),
-              HasSubstr("or weight or gravity must be there, one of the three"));
+              HasSubstr("rolling.gravity must be left out, because weight is given; only one of"));
+  EXPECT_THAT(bad_input([&] { (void)changed("weight = 1.0", ""); }),
+              HasSubstr("rolling.force is missing; it must be two numbers, or weight or gravity"));
   EXPECT_THAT(bad_input([&] { (void)changed("mass = 0.1", "mass = 0.1\ndensity = 5.0"); }),
               HasSubstr("sphere.mass must be left out, because the mass follows from density"));
 }
@@ -126,6 +128,8 @@ INSTANTIATE_TEST_SUITE_P(
                        "time_step = 0.01\nrelative_tolerance = 0.5", "from 1e-13 to 0.01"},
         RefusedRolling{"UnknownKey", "friction = 0.3", "frction = 0.3",
                        "is not a key that is known here"},
+        RefusedRolling{"FitWithoutName", "../../fits/pairs/plane.json", "",
+                       "fit.file is empty; it must be the name of a file"},
         RefusedRolling{"NoFit", "[fit]\nfile = \"../../fits/pairs/plane.json\"", "",
                        "or fit must be there, one of the two"}),
     [](const auto& p) { return p.param.name; });

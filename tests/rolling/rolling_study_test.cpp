@@ -28,6 +28,7 @@ class RollingStudy : public ::testing::Test {
             "time_step = 0.1\n" +
             more + sections);
     auto plan = planned_rolling(read_rolling_case(path));
+    plan.points.file.clear();  // as --vary does
     for (const auto& text : vary) plan.points.variations.push_back(sweep::parse_variation(text));
     return plan;
   }

@@ -137,7 +137,7 @@ TEST(CaseTemplate, RefusesWhatIsNoNumber) {
 TEST(CaseTemplate, RefusesValuesOutOfRangeWithWhatIsAllowed) {
   const Template lecture(case_file::lecture_text());
   lecture.expect_refused("fluid.viscosity", -1, "is -1; it must be a number > 0");
-  lecture.expect_refused("inertial.relative_tolerance", 0.5, "between 1e-13 and 1e-2");
+  lecture.expect_refused("inertial.relative_tolerance", 0.5, "from 1e-13 to 1e-2");
   lecture.expect_refused("motion.initial_velocity", std::numeric_limits<double>::infinity(), "inf");
   EXPECT_THAT(bad_input([&] { lecture.with("motion.external_force[1].until", 3.5); }),
               HasSubstr("ends at 3.5; it must reach motion.end_time, 4"));

@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"to = 12.0", "to = 2.1", 10, "it must be greater than from, 2.2"},
         Refusal{"count = 12", "count = 2", 10, "from 3 to 200"},
         Refusal{"count = 12 }", "count = 12, spacing = \"log\" }", 10, "spacing"},
-        Refusal{"1e-5 ", "1.5 ", 11, "between 0 and 1"},
+        Refusal{"1e-5 ", "1.5 ", 11, "> 0 and < 1"},
         Refusal{"relative_accuracy", "container = { radius = 0.5 }\nrelative_accuracy", 11,
                 "swimmer.container.radius is 0.5"},
         Refusal{"relative_accuracy",

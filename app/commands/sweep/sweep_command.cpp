@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +18,7 @@
 #include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/app/commands/sweep/sweep_options.hpp"
 #include "viscontact/case_file/case_file.hpp"
+#include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/pipeline/sweep_stage.hpp"
@@ -174,7 +177,13 @@ void run_sweep(const SweepOptions& o) {
   check_array_options(o.array);
   // A name that is no model of any kind of case is refused before the case is read.
   for (const auto& model : o.models)
-    if (find_named(rolling::rolling_models(), model) == nullptr) check_models("--models", {model});
+    if (!reduced_model::known_model(model) &&
+        find_named(rolling::rolling_models(), model) == nullptr)
+      throw Error(ErrorKind::kWrongUsage,
+                  fmt::format("--models: no model is named '{}'; there are: {}; for a rolling "
+                              "sphere: {}",
+                              model, names_of(reduced_model::all_models()),
+                              names_of(rolling::rolling_models())));
   check_outputs(o.plot.path.empty() ? std::vector{o.output} : std::vector{o.output, o.plot.path});
   check_picture(o.plot.path);
   switch (case_file::kind_of_case(o.case_file)) {
@@ -210,8 +219,10 @@ void add_sweep(CLI::App& app) {
   // The limit is kMostPoints of sweep/variation.cpp; that of --draws below is a free choice.
   add_value(*command, "--samples", o->samples, "N",
             "number of random points in the ranges, in place of the grid")
-      ->check(CLI::Range(1.0, 1e12));
-  command->add_option("--seed", o->seed, "seed of the random points")->capture_default_str();
+      ->check(whole_number(1, 1000000000000));
+  command->add_option("--seed", o->seed, "seed of the random points")
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->capture_default_str();
   add_value(*command, "--models", o->models, kModels,
             fmt::format("comma-separated; default: {}; for a rolling sphere: {}",
                         names_of(reduced_model::sweep_models(), ","),
@@ -227,7 +238,7 @@ void add_sweep(CLI::App& app) {
   command
       ->add_option("--draws", o->draws,
                    "for a case of particles: number of random arrangements at each point")
-      ->check(CLI::Range(1.0, 1e9));
+      ->check(whole_number(1, 1000000000));
   command->add_flag("--keep-runs", o->keep_runs,
                     "for a case of particles: keep all files of the runs, in OUTPUT.runs");
   o->jobs_option = add_jobs(*command, o->jobs,

@@ -30,7 +30,10 @@ namespace {
 
 /// Replaces in `points` what --vary, --samples and --seed give.
 void set_points(const SweepOptions& o, sweep::Points& points) {
-  if (!o.vary.empty()) points.variations.clear();
+  if (!o.vary.empty()) {
+    points.variations.clear();
+    points.file.clear();
+  }
   for (const auto& text : o.vary)
     points.variations.push_back(
         from_option("--vary", [&] { return sweep::parse_variation(text); }));

@@ -163,6 +163,18 @@ TEST(CheckOutputFile, RefusesAFolderAndADevice) {
               StartsWith("/dev/null: cannot be written"));
 }
 
+TEST(CheckOutputFile, RefusesALinkToAPipe) {
+  // As /dev/stdout of a command whose output another one reads.
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  for (const int end : ends) {
+    const auto message =
+        bad_input([&] { (void)check_output_file(fmt::format("/proc/self/fd/{}", end)); });
+    EXPECT_THAT(message, HasSubstr("cannot be written (not a regular file)"));
+    ::close(end);
+  }
+}
+
 TEST(WriteFile, TakesAwayWhatAKilledProcessLeftAndNothingElse) {
   const TemporaryFolder folder;
   const pid_t killed = ::fork();

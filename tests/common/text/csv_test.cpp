@@ -168,6 +168,11 @@ TEST_F(Csv, RefusesWhatIsNoFiniteNumber) {
               ":3: gap is not a finite number ('" + text + "')");
 }
 
+TEST_F(Csv, ShowsNoControlCharactersInItsMessage) {
+  EXPECT_EQ(refusal("time,gap\n0,\x1b[31m\x7f\u00e9\n"),
+            ":2: gap is not a finite number ('?[31m?\u00e9')");
+}
+
 TEST_F(Csv, RefusesFewerOrMoreRowsThanPromised) {
   EXPECT_THAT(refusal("# rows: 3\ntime,gap\n1,2\n3,4\n"),
               AllOf(HasSubstr("has 2 rows"), HasSubstr("says 3")));

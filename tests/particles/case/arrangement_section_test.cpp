@@ -88,7 +88,7 @@ TEST(ArrangementSection, WrongKeysAreRefusedAtTheirLine) {
   EXPECT_THAT(refused("count = 2\narea_fraction = 0.1\nradius = 1.0\nmass = 1.0\n"),
               HasSubstr("case.toml:3: arrangement.count must be left out"));
   EXPECT_THAT(refused("area_fraction = 1.2\nradius = 1.0\nmass = 1.0\n"),
-              HasSubstr("area_fraction is 1.2; it must be a number between 0 and 1"));
+              HasSubstr("area_fraction is 1.2; it must be a number > 0 and < 1"));
   EXPECT_THAT(refused("area_fraction = 0.5\nradius = 1e-5\nmass = 1.0\n"),
               HasSubstr("at most 1000000 are allowed"));
   EXPECT_THAT(refused("count = 60\nradius = 1.0\nmass = 1.0\n"),

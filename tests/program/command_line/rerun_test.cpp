@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::json;
 
 class Rerun : public Provenance {};
@@ -91,6 +92,23 @@ TEST_F(Rerun, GoesToTheFolderInWhichTheFileAndItsInputsAreNow) {
   // Without its inputs, a copy is made again where the command ran.
   fs::remove_all(path("clone/tables"));
   EXPECT_EQ(folder_of(path("clone/fit.json")), "cd " + path("project"));
+}
+
+TEST_F(Rerun, GoesToTheFolderInWhichTheCaseIsNowIfTheFitIsElsewhere) {
+  fit();
+  fs::create_directory(path("old"));
+  fs::copy(path("case.toml"), path("old/case.toml"));
+  expect_done(run_viscontact({"simulate", "case.toml", "--fit", path("fit.json"), "-o", "run"}, {},
+                             "cd '" + path("old") + "'; "));
+  fs::rename(path("old"), path("new"));
+  const auto dry = run({"rerun", path("new/run/trajectories/inertial.csv"), "--dry-run"});
+  expect_done(dry);
+  EXPECT_THAT(dry.output, HasSubstr("cd " + path("new") + " && "));
+  // A fit alone, of a table elsewhere, does not tell that anything has moved.
+  fs::create_directory(path("copy"));
+  fs::copy(path("fit.json"), path("copy/fit.json"));
+  EXPECT_THAT(run({"rerun", path("copy/fit.json"), "--dry-run"}).output,
+              Not(HasSubstr("cd " + path("copy"))));
 }
 
 /// The tables and fits below data/ that a command makes. Both fits of exact laws are written by

@@ -327,7 +327,8 @@ TEST_F(MotionsCommand, RollingRefusesWhatIsWrongWithItsLine) {
     EXPECT_FALSE(fs::exists(path("out/rolling.json")));
   };
   refused("friction = 0.3", "friction = -1.0", "rolling.friction is -1; it must be a number >= 0");
-  refused("weight = 1.0", "weight = 1.0\nforce = [1.0, 2.0]", "or weight or gravity must be there");
+  refused("weight = 1.0", "weight = 1.0\nforce = [1.0, 2.0]",
+          "rolling.weight must be left out, because force is given");
   refused("initial_gap = 0.5", "initial_gap = 1e-4", "it must be at least the roughness, 0.001");
   expect_done(run_viscontact(
       {"rolling", incline("radius = 1.0", "radius = 1.0000000000000002"), "-o", path("same")}));
@@ -373,6 +374,14 @@ TEST_F(MotionsCommand, SweepOfARollingSphereHasTheEndsThatRollingHas) {
                  ErrorKind::kWrongUsage, HasSubstr("cannot be varied with one fit"));
   expect_refusal(sweep({"--vary", "rolling.incline=0,1", "--draws", "2"}), ErrorKind::kWrongUsage,
                  HasSubstr("not for cases of a rolling sphere"));
+  expect_refusal(sweep({"--vary", "rolling.friction=0.1,0.2", "--models", "smooth"}),
+                 ErrorKind::kWrongUsage,
+                 HasSubstr("none of the models that are run depends on it"));
+  expect_refusal(sweep({"--vary", "fluid.density=0.1,0.2"}), ErrorKind::kWrongUsage,
+                 HasSubstr("no motion depends on it without rolling.gravity"));
+  expect_refusal(sweep({"--vary", "rolling.incline=0,1", "--models", "inertia"}),
+                 ErrorKind::kWrongUsage,
+                 HasSubstr("for a rolling sphere: smooth, rough, viscous_contact"));
   const auto tables = small_case("motion = \"all\"",
                                  "container = \"unbounded\"\n[rolling]\ninitial_gap = 0.1\n"
                                  "weight = 1.0\nend_time = 1.0\ntime_step = 0.1\n");
@@ -394,6 +403,13 @@ TEST_F(MotionsCommand, RollingWritesTheModelsThatDoNotFail) {
   EXPECT_FALSE(fs::exists(path("out/rough.csv")));
   EXPECT_TRUE(fs::exists(path("out/viscous_contact.csv")));
   EXPECT_THAT(read_file(path("out/report.html")), HasSubstr("failed: the sphere rises"));
+}
+
+TEST_F(MotionsCommand, RollingWritesNoNumbersBeyondADouble) {
+  expect_refusal(
+      run_viscontact({"rolling", incline("radius = 1.0", "radius = 1e300"), "-o", path("out")}),
+      ErrorKind::kBadInput, HasSubstr("2 more failed (rough, viscous_contact)"));
+  EXPECT_FALSE(fs::exists(path("out/viscous_contact.csv")));
 }
 
 }  // namespace

@@ -56,6 +56,18 @@ TEST_F(ParticlesCommand, WritesNoMessageIntoItsFilesIfItHasNoStandardStreams) {
     EXPECT_THAT(read_file(out() / name), ::testing::StartsWith("# provenance: ")) << name;
 }
 
+TEST_F(ParticlesCommand, WarnsThatItsPagesCannotHaveLengthsBeyondSinglePrecision) {
+  const auto text =
+      "title = \"t\"\n[space]\ndimension = 2\n[viscous_contact]\ntime_step = 0.1\n"
+      "end_time = 0.2\ngamma_min = 0.0\n[[particle]]\ncentre = [0.0, 0.0]\nmass = 1.0\n"
+      "radius = ";
+  for (const auto& [radius, is_shown] : {std::pair("1e38", true), std::pair("1e39", false)}) {
+    const auto result = run(put_case(std::string(text) + radius + "\n"), out());
+    expect_done(result);
+    EXPECT_EQ(result.errors.find("show nothing, because a radius") == std::string::npos, is_shown);
+  }
+}
+
 TEST_F(ParticlesCommand, FramesOfALongerRunDoNotStay) {
   expect_done(run(put_case(kCase), out()));
   put_text(out() / "particles_mine.vtp", "a user's own");

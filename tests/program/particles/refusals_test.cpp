@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"ForceOfThreeNumbers", "value = [0.7, -0.7]", "value = [0.7, -0.7, 0]",
          "contains 3 numbers; it must contain 2"},
         {"ZeroMass", "\nmass = 1.0", "\nmass = 0.0", "case.toml"},
-        {"Tolerance", "tolerance = 1e-6", "tolerance = 1e-20", "between 1e-12 and 0.1"},
+        {"Tolerance", "tolerance = 1e-6", "tolerance = 1e-20", "from 1e-12 to 0.1"},
         {"Method", "tolerance = 1e-6", "method = \"magic\"", "the only method"},
         {"TinyInterval", "every = 0.5", "every = 1e-300", "output.every"},
         {"MisspeltVelocity", "x,y,vx,vy,", "x,y,Vx,Vy,", "has a column 'Vx'"},

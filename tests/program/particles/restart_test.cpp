@@ -96,7 +96,7 @@ TEST_F(ParticlesCommand, ARestartIsOfTheSameParticles) {
   refused(longer, "cut short",
           folder_.file("half.bin", bytes.substr(0, bytes.size() - 100)).string());
   bytes[bytes.size() - 50] = static_cast<char>(bytes[bytes.size() - 50] + 1);
-  refused(longer, "cut short", folder_.file("bit.bin", bytes).string());
+  refused(longer, "its bytes have changed", folder_.file("bit.bin", bytes).string());
 }
 
 /// A source that the case of these tests may have, with other values of its keys if they are given.

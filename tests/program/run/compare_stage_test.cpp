@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <sstream>
+
 #include "tests/program/program.hpp"
 #include "tests/program/run/stages.hpp"
 #include "tests/program/sample_files.hpp"
@@ -36,6 +39,19 @@ TEST_F(Stages, CompareTakesATrajectoryOfTheUsersOwn) {
   EXPECT_NEAR(mine.l1_gap_distance, kShift * 4, 1e-10);
   EXPECT_EQ(mine.l1_velocity_distance, 0);
   EXPECT_FALSE(mine.recovered_minimal_gap || mine.contact_interval);
+}
+
+TEST_F(Stages, CompareKeepsItsColumnsBesideALongName) {
+  simulate();
+  const std::string file = path("viscous_contact_of_another_program.csv");
+  std::filesystem::copy_file(path("run/trajectories/viscous_contact.csv"), file);
+  put_text(file, replaced(read_file(file), "# model: viscous_contact\n", ""));
+  const auto result = run_viscontact({"compare", path("run"), file, "-o", path("c.json")});
+  expect_done(result);
+  std::set<std::size_t> lengths;
+  std::istringstream lines(result.output);
+  for (std::string line; std::getline(lines, line);) lengths.insert(line.size());
+  EXPECT_THAT(lengths, ::testing::SizeIs(1)) << result.output;
 }
 
 TEST_F(Stages, CompareTakesAnotherReferenceAndAnotherOutput) {

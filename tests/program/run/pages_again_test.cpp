@@ -73,6 +73,8 @@ TEST_F(PagesAgain, OfParticles) {
   put_case(replaced(kCase, "every = 0.5", "every = 0.7"));
   expect_done(run(out("case.toml"), out()));
   expect_same_again(2);
+  put_text(out() / "run.json", "{}\n");  // the pages do not need it
+  expect_done(report());
   put_text(out() / "particles.svg", "<svg>mine</svg>\n");
   expect_refusal(report(), ErrorKind::kBadInput, HasSubstr("particles.svg"));
 }
@@ -109,6 +111,58 @@ TEST_F(PagesAgain, InAFolderThatWasMovedWithItsCase) {
   for (const auto& [name, text] : made) fs::remove(out("moved") / "out" / name);
   expect_done(run_viscontact({"report", path("moved/out")}));
   for (const auto& [name, text] : made) EXPECT_EQ(rest_of(out("moved") / "out" / name), text);
+}
+
+TEST_F(PagesAgain, InAMovedFolderWhoseCaseNamesAFileElsewhere) {
+  fs::create_directory(path("old"));
+  put_text(path("old/case.toml"),
+           replaced(read_file(kData + "cases/rolling/incline.toml"), "../../fits", kData + "fits"));
+  // The case is named by its whole path, too.
+  const std::string enter = "cd '" + path("old") + "';";
+  expect_done(run_viscontact({"rolling", path("old/case.toml"), "-o", "out"}, {}, enter));
+  const auto made = rest_of(path("old/out/report.html"));
+  fs::rename(path("old"), path("new"));
+  for (const auto& enter_new : {std::string(), "cd '" + path("new") + "';"}) {
+    fs::remove(path("new/out/report.html"));
+    expect_done(
+        run_viscontact({"report", enter_new.empty() ? path("new/out") : "out"}, {}, enter_new));
+    EXPECT_EQ(rest_of(path("new/out/report.html")), made);
+  }
+}
+
+TEST_F(PagesAgain, NotOfAFolderInWhichNothingWasRun) {
+  fs::create_directory(out());
+  for (const auto& folder : {path("out"), path("none")})
+    expect_refusal(run_viscontact({"report", folder}), ErrorKind::kBadInput,
+                   HasSubstr(folder + ": is not the folder of a run: "));
+}
+
+/// Expects that the command changes no file of `folder` if it is given again at another time.
+void expect_left_alone(const std::vector<std::string>& command, const fs::path& folder) {
+  expect_done(run_viscontact(command, {"SOURCE_DATE_EPOCH=1000000000"}));
+  const auto before = files_below(folder);
+  const auto again = run_viscontact(command, {"SOURCE_DATE_EPOCH=1000000001"});
+  expect_done(again);
+  EXPECT_THAT(again.errors, HasSubstr(folder.string() + " is up to date"));
+  EXPECT_TRUE(files_below(folder) == before);
+}
+
+TEST_F(PagesAgain, NotOfARollingSphereOrASwimmerThatIsUpToDate) {
+  const auto text =
+      replaced(read_file(kData + "cases/rolling/incline.toml"), "../../fits", kData + "fits");
+  put_case(text);
+  const std::vector<std::string> rolling = {"rolling", path("case.toml"), "-o", path("out")};
+  expect_left_alone(rolling, out());
+  // A picture that is lost is drawn again, and a case that has changed is run again.
+  fs::remove(out() / "plots/gap.svg");
+  expect_done(run_viscontact(rolling));
+  EXPECT_TRUE(fs::exists(out() / "plots/gap.svg"));
+  put_case("# the same numbers\n" + text);
+  expect_done(run_viscontact(rolling));
+  expect_done(report());
+  put_text(path("swimmer.toml"), replaced(read_file(kData + "cases/swimmer/lecture.toml"),
+                                          "../../tables", kData + "tables"));
+  expect_left_alone({"swimmer", path("swimmer.toml"), "-o", path("swimmer")}, out("swimmer"));
 }
 
 }  // namespace

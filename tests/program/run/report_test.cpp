@@ -113,8 +113,10 @@ TEST_F(Report, WarnsOfEachThingThatIsWrong) {
         "The sphere of reference goes through the plane at time 4", "500 of 10000 draws",
         "inertial was made from another case", "inertial was made from another fit",
         "The fit was made from another table",
-        "The trajectory of viscous_contact_threshold is not in this folder"})
+        "The trajectory of viscous_contact_threshold is not in this folder",
+        "The comparison was made from another trajectory of reference than the one in this folder"})
     EXPECT_THAT(page(), HasSubstr(warning));
+  EXPECT_THAT(page(), Not(HasSubstr("made from another trajectory of inertial")));
   // viscous_contact has no drag at a distance to extrapolate.
   EXPECT_THAT(page(), Not(HasSubstr("viscous_contact gets up to")));
   expect_live_links(folder(), page());

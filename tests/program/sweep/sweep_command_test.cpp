@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -19,6 +20,7 @@ namespace viscontact {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -69,7 +71,11 @@ TEST_F(SweepCommand, DrawsPdfAndPngAsWell) {
     const auto provenance = results::read_provenance(picture);
     ASSERT_TRUE(provenance.has_value());
     EXPECT_EQ(provenance->output, picture);
-    expect_done(run_viscontact({"rerun", picture}));  // our own picture is replaced
+    // Our own picture is replaced.
+    expect_done(run_viscontact({"rerun", picture}, {"SOURCE_DATE_EPOCH=1000000000"}));
+    if (i == 0) {
+      EXPECT_THAT(read_file(picture), HasSubstr("/CreationDate (D:20010909014640"));
+    }
     put_text(picture, begins[i] + " of someone else");
     expect_refusal(sweep(kVanishing, options), ErrorKind::kBadInput,
                    HasSubstr("is not a picture that Viscontact wrote"));
@@ -248,7 +254,11 @@ TEST_F(SweepCommand, WrongUsageIsRefusedBeforeAnyWork) {
   wrong({"--plot", path("picture.svg"), "--x", "sphere.mass"}, "'sphere.mass' cannot be an axis");
   wrong({"--plot", path("rows.csv")}, "would be written twice");
   wrong({"--samples", "0"}, "--samples");
-  wrong({"--samples", "2.5"}, "--samples");
+  for (const std::string number : {"2.5", "1e3", "-1"})
+    for (const std::string option : {"--samples", "--seed", "--draws"})
+      wrong({option + "=" + number}, option + ": is " + number + "; it must be a whole number");
+  wrong({"--vary", "fluid.viscosity=1:2:1"}, "COUNT 1, which leaves out 2");
+  wrong({"--vary", "tabulation.gaps=1,2"}, "viscontact: --vary: tabulation.gaps cannot be varied");
   wrong({"--jobs", "0"}, "--jobs");
 }
 
@@ -256,12 +266,16 @@ TEST_F(SweepCommand, BadInputIsRefusedBeforeAnyWork) {
   const auto bad = [&](const std::vector<std::string>& options, const std::string& words) {
     expect_refused(kVanishing, options, ErrorKind::kBadInput,
                    AllOf(HasSubstr("vanishing_viscosity.toml"), HasSubstr(words)));
+    expect_refused(kVanishing, options, ErrorKind::kBadInput, StartsWith("viscontact: --vary: "));
   };
   bad({"--vary", "fluid.viscosty=1,2"}, "fluid.viscosty is not a key that is known here");
   bad({"--vary", "title=1,2"}, "title is not a number");
   bad({"--vary", "fluid.viscosity=1,-2"}, "fluid.viscosity is -2; it must be a number > 0");
   bad({"--vary", "sphere.radius=-1,2"}, "sphere.radius is -1; it must be a number > 0");
+  bad({"--vary", "sphere.density=1,2"}, "the mass follows from density; only one of the two");
   expect_refused(path("no_such.toml"), {}, ErrorKind::kBadInput, HasSubstr("no_such.toml"));
+  expect_refused(study("vanishing_viscosity.toml", "../fits/leading_term.json", ""), kTwoRows,
+                 ErrorKind::kBadInput, HasSubstr("fit.file is empty"));
 }
 
 TEST_F(SweepCommand, KeyThatChangesNoRowIsRefused) {
@@ -286,6 +300,7 @@ TEST_F(SweepCommand, KeyThatChangesNoRowIsRefused) {
   refused("fluid.viscosity", "inelastic_contact", none);
   refused("sphere.mass", "reference_exact", none);
   refused("motion.initial_velocity", "reference_exact", none);
+  refused("motion.rows", "inertial", "changes only files of trajectories");
   // With a model that does depend on the key the others are run beside it.
   expect_done(sweep(kVanishing,
                     {"--vary", "viscous_contact.roughness[0]=1e-3,1e-2", "--models",
@@ -301,8 +316,11 @@ TEST_F(SweepCommand, SamplesOfACaseAreAWholeNumber) {
 
 TEST_F(SweepCommand, RangeOfTheCaseThatIsNoneIsTheCasesFault) {
   // In the file it is bad input at a line, as any other value there.
-  expect_refused(study("vanishing_viscosity.toml", "0.006:1:log:25", "0:1:log:25"), {},
-                 ErrorKind::kBadInput, AllOf(HasSubstr("case.toml:"), HasSubstr("sweep.vary")));
+  for (const std::string range : {"0:1:log:25", "1,-2", "1:2:1"}) {
+    const auto file = study("vanishing_viscosity.toml", "0.006:1:log:25", range);
+    expect_refused(file, {}, ErrorKind::kBadInput,
+                   ContainsRegex("case.toml:[0-9]+: sweep.vary: .*fluid.viscosity"));
+  }
 }
 
 TEST_F(SweepCommand, AxisOfTheCommandLineIsTheOneThatIsDrawn) {
@@ -315,6 +333,16 @@ TEST_F(SweepCommand, AxisOfTheCommandLineIsTheOneThatIsDrawn) {
   EXPECT_THAT(rest_of(path("picture.svg")),
               AllOf(HasSubstr("fluid.viscosity"), HasSubstr("sphere.mass"),
                     Not(HasSubstr("motion.initial"))));
+}
+
+TEST_F(SweepCommand, ReadsNoPipe) {
+  // A case in a pipe could be read only once.
+  expect_refusal(sweep("/dev/stdin", {}, "rows.csv", "cat '" + kVanishing + "' |"),
+                 ErrorKind::kBadInput, HasSubstr("/dev/stdin: is a pipe"));
+  // An output that is a pipe would wait for itself.
+  ASSERT_EQ(::mkfifo(path("pipe.csv").c_str(), 0600), 0);
+  expect_refusal(sweep(kVanishing, kTwoRows, "pipe.csv"), ErrorKind::kBadInput,
+                 HasSubstr("pipe.csv: cannot be written (not a regular file)"));
 }
 
 TEST_F(SweepCommand, DoesNotReplaceAFileThatIsNoSweep) {

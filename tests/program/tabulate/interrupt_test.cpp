@@ -1,7 +1,8 @@
-// Ctrl-C, or the loss of the terminal, during a tabulation.
+// Ctrl-C, or the loss of the terminal, during a tabulation or while a case is awaited.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -56,6 +57,23 @@ fi
   EXPECT_THAT(lubrication::read_force_table(path("table.csv")).rows, SizeIs(6));
   EXPECT_THAT(fake.answered(), SizeIs(6));  // no row twice
   EXPECT_FALSE(std::filesystem::exists(path("table.csv.rows")));
+}
+
+TEST_P(Interrupt, EndsTheWaitForACaseInAPipe) {
+  const TemporaryFolder scratch;
+  const auto pipe = (scratch.path() / "case.toml").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  // The signals are sent after viscontact has said that it catches them (bit 2 of the mask is
+  // SIGINT), and again, because the first one may come before the pipe is read.
+  const auto interrupt =
+      "(until grep -q 'SigCgt:.*[2367abef]$' /proc/$$/status; do sleep 0.05; done; sleep 0.1; "
+      "while kill -" +
+      GetParam() + " $$; do sleep 0.1; done) >/dev/null 2>&1 & ";
+  // First nobody writes into the pipe, then somebody who says nothing.
+  for (const auto& writer : {std::string(), "exec 3<>'" + pipe + "';"})
+    expect_refusal(run_viscontact({"run", pipe, "-o", (scratch.path() / "out").string()}, {},
+                                  interrupt + writer),
+                   ErrorKind::kInterrupted, HasSubstr("interrupted while " + pipe + " was read"));
 }
 
 TEST(InterruptUnderNohup, HangupThatIsIgnoredStaysIgnored) {
