@@ -60,6 +60,54 @@ TEST(BlowOfABody, OfABodyThatTurnsKeepsItsEnergyAtEachStep) {
   }
 }
 
+TEST(BlowOfABody, TwiceInAStepKeepsTheEnergyAndHasTheVelocityOfThePointOfContact) {
+  // The ends of a dumbbell hit the plane one after the other within one step, between which the
+  // first blow has turned it.
+  constexpr double kRadius = 0.5, kHalf = 1.5, kStep = 0.02;
+  Random random(5);
+  int twice = 0;
+  for (int k = 0; k < 300; ++k) {
+    const double tilt = random.uniform(-0.02, 0.02), turns = random.uniform(-8, 8), falls = -3;
+    Scene scene{no_particles(2), {}};
+    auto& p = scene.state.particles;
+    for (const double side : {-kHalf, kHalf}) {
+      const Vector arm{side * std::cos(tilt), side * std::sin(tilt), 0};
+      const Vector centre{0, kRadius + kHalf * std::abs(std::sin(tilt)) + random.uniform(0, 0.03),
+                          0};
+      add_particle(scene.state, centre + arm, kRadius, random.uniform(0.5, 2),
+                   Vector{0, falls, 0} + cross(Vector{0, 0, turns}, arm));
+    }
+    add_rotation(p);
+    p.angular_velocities = {turns, turns};
+    add_rigid_body(p, {.members = {0, 1}});
+    scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
+    scene.setting.laws.film.gamma_min = 0;
+    scene.setting.laws.restitution.coefficient = 1;
+    scene.setting.time_step = kStep;
+    Simulation simulation(scene.setting, scene.state, 1);
+    const auto before = simulation.state().particles.bodies.bodies[0];
+    double speed = before.velocity[1], turning = before.angular_velocity[2], angle = 0, last = 0;
+    simulation.step(kStep);
+    const auto& after = simulation.state().particles.bodies.bodies[0];
+    if (simulation.rebounds().size() > 1) ++twice;
+    for (const auto& rebound : simulation.rebounds()) {
+      angle += turning * (rebound.time - last);
+      last = rebound.time;
+      const Vector offset = before.offsets[std::size_t(rebound.second)];
+      const double arm = std::cos(angle) * offset[0] - std::sin(angle) * offset[1];
+      const double approach = speed + turning * arm;
+      EXPECT_NEAR(rebound.approach_velocity, approach, 1e-10) << k;
+      EXPECT_NEAR(rebound.velocity, -approach, 1e-10) << k;
+      const double impulse = -2 * approach / (1 / before.mass + arm * arm / before.inertia[8]);
+      speed += impulse / before.mass;
+      turning += arm * impulse / before.inertia[8];
+    }
+    EXPECT_NEAR(after.velocity[1], speed, 1e-10) << k;
+    EXPECT_NEAR(after.angular_velocity[2], turning, 1e-10) << k;
+  }
+  EXPECT_GT(twice, 20);
+}
+
 TEST(BlowOfABody, OfABodyThatFallsFlatDoesNotDependOnTheOrderOfItsParticles) {
   // Five discs of which each takes a fifth of the blow, 0.8 of it in its film and 0.2 in its
   // solids.
