@@ -130,6 +130,28 @@ typename Impacts<D>::Arm Impacts<D>::arm_of(std::int32_t k) const {
           free_spin(k) - before};
 }
 
+/// The rigid body of particle `k` with the orientation, the angular momentum and the angular velocity
+/// that it has at the time `t` with the blows so far.
+template <int D>
+RigidBody Impacts<D>::body_at(std::int32_t k, double t) const {
+  const auto number = index_of(state_.particles.bodies.body_of(k));
+  auto body = state_.particles.bodies.bodies[number];
+  const auto arm = arm_of(k);
+  if (D == 3) body.orientation = turned(body.orientation, t * arm.rate - arm.late);
+  body.angular_momentum = step_.bodies[number].angular_momentum;
+  update_angular_velocity(body, D);
+  return body;
+}
+
+/// The angular velocity of particle `k` at a blow at the time `t` [1/T]. That of a rigid body in space
+/// changes between blows, while spin(), with which its particles move, is constant. A blow needs the
+/// true velocity of the point at which it acts, because otherwise e_d = 1 would not keep the energy.
+template <int D>
+Vector Impacts<D>::spin_at(std::int32_t k, double t) const {
+  const bool precesses = D == 3 && k >= 0 && state_.particles.bodies.body_of(k) >= 0;
+  return precesses ? body_at(k, t).angular_velocity : spin(k);
+}
+
 template <int D>
 typename Impacts<D>::Approach Impacts<D>::approach_of(std::size_t k) {
   const auto& p = state_.particles;
@@ -231,6 +253,7 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   };
   const double gap = gap_at(from), rate = rate_at(from);
   const Vector n = normal_of(approach, from), v = velocity_of(approach, from);
+  if (gap == 0 && rate < 0) return from;
   // This search misses a gap that closes and opens again before `until`.
   const auto search = [&]() -> std::optional<double> {
     if (gap_at(until) > 0) return std::nullopt;
@@ -302,23 +325,26 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
                         norm(flight_or_none(of.second).change);
   const double unseen = std::max(kUnseen * step_.touching / step_.h, kRounding * speeds);
   // `pulled` is five times the velocity that its load gives the pair in a step. `rests` is true if
-  // the pair touched at the beginning of the step and approached no faster than `unseen`, or, if it
-  // bore a load, no faster than `pulled`. Such a pair is hit only if it approaches faster than
-  // `pulled`, because slower hits would keep a packing shaking. A pair without load that left a blow
-  // at the end of the last step flies: it opens fast enough to open by `touching` in the step.
+  // the pair touched at the beginning of the step and neither approached nor opened faster than
+  // `unseen`, or, if it bore a load, approached no faster than `pulled`. Such a pair is hit only if
+  // it approaches faster than `pulled`, because slower hits would keep a packing shaking. A pair
+  // without load that opens is in the flight after a blow, also if its gap is still below `touching`.
   const double pulled = 5 * step_.h *
                         std::max({std::abs(dot(normal, acceleration(of.second))),
                                   std::abs(dot(normal, acceleration(of.first))), std::abs(pull)});
   const bool bore_load = of.impulse != 0 || of.gamma < 0;
   const Vector surface = surface_of(approach, time);
   const double closing = -dot(normal, approach.before - surface);
-  const bool rests =
-      gap_of(at_start, 0) <= step_.touching &&
-      (bore_load ? closing <= pulled : closing <= unseen && -closing <= step_.touching / step_.h);
-  const Vector flies = velocity_of(approach, time);
+  const bool rests = gap_of(at_start, 0) <= step_.touching &&
+                     (bore_load ? closing <= pulled : std::abs(closing) <= unseen);
+  const Vector turning =
+      cross(spin_at(of.second, time) - spin(of.second), approach.second.at(time)) -
+      cross(spin_at(of.first, time) - spin(of.first), approach.first.at(time));
+  const Vector flies = velocity_of(approach, time) + turning;
   const double rate =
       dot(normal,
-          rests ? approach.velocity_without_forces(time, step_.kick, step_.h) - surface : flies);
+          rests ? approach.velocity_without_forces(time, step_.kick, step_.h) - surface + turning
+                : flies);
   if (!(-rate > std::max({ended, unseen, rests ? pulled : 0.0}))) return std::nullopt;
   return Hit{k, normal, rate, flies};
 }
@@ -344,14 +370,9 @@ void Impacts<D>::expect(std::size_t k, double from) {
     if (approach.obstacle != nullptr)
       end = std::min(end, approach.obstacle->velocity.next_end(step_.begin + begin) - step_.begin);
     end = std::max(end, begin + kBeyondRounding * step_.h);
-    const double gap = gap_of(approach, begin);
     const auto at = time_of_meeting(approach, begin, end);
-    if (at && hit_at(k, std::min(*at, step_.h)))
-      expected_.push({std::min(*at, step_.h), k, versions});
-    else if (gap <= step_.touching && hit_at(k, begin))
-      expected_.push({begin, k, versions});
-    else
-      continue;
+    if (!at || !hit_at(k, std::min(*at, step_.h))) continue;
+    expected_.push({std::min(*at, step_.h), k, versions});
     return;
   }
 }

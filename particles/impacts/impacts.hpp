@@ -76,6 +76,8 @@ class Impacts {
 
   /// The contacts of all blows in which solids touched, in order of time.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
+  /// The impulses of all contacts of these blows.
+  const std::vector<BlowImpulse>& impulses() const { return impulses_; }
   /// Number of iterations of the solver in all blows, >= 0.
   int iterations() const { return iterations_; }
   /// Whether all blows were solved, to 1e-8 of the velocity of approach (strike.cpp).
@@ -179,6 +181,8 @@ class Impacts {
   Vector centre_velocity(std::int32_t k) const;
   Vector centre_acceleration(std::int32_t k) const;
   Arm arm_of(std::int32_t k) const;
+  RigidBody body_at(std::int32_t k, double t) const;
+  Vector spin_at(std::int32_t k, double t) const;
   Approach approach_of(std::size_t k);
   Vector normal_of(const Approach& approach, double t) const;
   double gap_of(const Approach& approach, double t) const;
@@ -204,6 +208,7 @@ class Impacts {
   std::optional<PairsOfParticles> pairs_of_;
   std::vector<int> hits_of_;  // number of hits of each pair
   std::vector<Rebound> rebounds_;
+  std::vector<BlowImpulse> impulses_;
   int iterations_ = 0;
   bool converged_ = true;
   struct Before {

@@ -50,6 +50,11 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       } else {
         auto still = step_.bodies[index_of(body)];
         still.displacement = still.turn = {};
+        if (D == 3) {
+          const auto inertia = present_inertia(body_at(k, time), D);
+          still.turn_mobility = scaled(step_.h, inverse_of(inertia));
+          still.inverse_turn_mobility = scaled(1 / step_.h, inertia);
+        }
         problem.units.push_back(unit_of_body<D>(still));
       }
     }
@@ -72,8 +77,8 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       if (k > 0) {
         // Velocity at which the surfaces slip before the blow.
         const Vector slip = hit.relative +
-                            cross(spin(of.second), -tangents.second_arm * hit.normal) -
-                            cross(spin(contact.first), tangents.first_arm * hit.normal);
+                            cross(spin_at(of.second, time), -tangents.second_arm * hit.normal) -
+                            cross(spin_at(contact.first, time), tangents.first_arm * hit.normal);
         row.offset = step_.h * dot(tangents.directions[k - 1], slip);
       }
     }
@@ -112,7 +117,7 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
   step.turn = step.turn + rest * turn;
   // In space, constrain() adds to this angular momentum. In the plane it computes the angular
   // momentum as I turn/h + late_momentum, and turn/h lacks the part time/h of the change.
-  const Vector momentum = step_.h * (step.inverse_turn_mobility * turn);
+  const Vector momentum = present_inertia(body_at(particle, time), D) * turn;
   step.angular_momentum = step.angular_momentum + momentum;
   step.late_momentum = step.late_momentum + (time / step_.h) * momentum;
 }
@@ -258,6 +263,13 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     of.impulse = impulse;
     const double after =
         (problem.rows[block.row].offset + problem.product(block.row, changes)) / step_.h;
+    Vector push{};
+    for (std::size_t r = block.row; r < block.row + block.rows; ++r) {
+      // The coefficients of the first part are the direction in which the second particle is pushed.
+      const auto& direction = problem.parts[problem.rows[r].first_part].coefficients;
+      for (std::size_t d = 0; d < D; ++d) push[d] += problem.impulses[r] * direction[d];
+    }
+    impulses_.push_back({of.first, push, approach_of(hits[c].pair).sum * hits[c].normal});
     if (phase.solid > 0)
       rebounds_.push_back({step_.begin + time, of.first, of.second, hits[c].approach, phase.solid,
                            std::abs(after) <= kExact * fastest ? 0 : after});

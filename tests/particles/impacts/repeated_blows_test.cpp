@@ -103,9 +103,10 @@ void expect_closed_form(const Bounces& bounces, Partner partner, int dimension, 
       << bounces.dry << " units " << length << " " << ball.time;
   double speed = bounces.first_speed();
   for (std::size_t k = 0; k < times.size(); ++k) {
-    // Positions of 10 have errors of 1e-15, which the slowest blows, at 1e-3, turn into 1e-12.
-    EXPECT_NEAR(rebounds[k].time / ball.time, times[k], 1e-9) << k;
-    EXPECT_NEAR(rebounds[k].approach_velocity * ball.time / length, -speed, 1e-9) << k;
+    // Errors of 1e-15 of positions near 10 give errors of 1e-9 after a hundred blows on a round
+    // partner, which multiply errors of the direction.
+    EXPECT_NEAR(rebounds[k].time / ball.time, times[k], 1e-8) << k;
+    EXPECT_NEAR(rebounds[k].approach_velocity * ball.time / length, -speed, 1e-8) << k;
     speed *= bounces.dry;
   }
 }
@@ -122,7 +123,7 @@ TEST_P(RepeatedBlows, EndWhenAFlightWouldBeShorterThanATwentiethOfTheStep) {
   Random random(7);
   for (const auto scheme : {Scheme::kEuler, Scheme::kLeapfrog})
     for (const double dry : {0.3, 0.8, 0.9})
-      for (const double step : {0.1, 0.02})
+      for (const double step : {0.1, 0.02, 0.001})
         for (const double decades : {0.0, 5.0, 5.0, 5.0})
           expect_closed_form({scheme, dry, step}, partner, dimension,
                              1.1 * std::sqrt(2) * (1 + dry) / (1 - dry), decades, random);
