@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/thread_pool.hpp"
@@ -292,6 +293,8 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
     }
     const auto& rebounds = impacts<D>()->rebounds();
     rebounds_.insert(rebounds_.end(), rebounds.begin(), rebounds.end());
+    const auto& impulses = impacts<D>()->impulses();
+    blows_.insert(blows_.end(), impulses.begin(), impulses.end());
     impacts<D>().reset();
   }
   state_.time = next;
@@ -383,6 +386,7 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
   } catch (...) {
     impulses_of_parts_.clear();
     rebounds_.clear();
+    blows_.clear();
     undo_impacts();
     if (before_division_) {
       state_ = *before_division_;  // copied, so that the arrays keep their places in memory
@@ -428,6 +432,7 @@ StepReport Simulation::step(double end) {
   }
   for (std::size_t k = 0; k < link_impulses_.size(); ++k)
     state_.link_forces[k] = link_impulses_[k] / link_time_;
+  state_.blows = std::exchange(blows_, {});
   state_.arm_powers = arm_works_;
   for (auto& power : state_.arm_powers) power /= interval->h;
   state_.earlier_step = interval->h;

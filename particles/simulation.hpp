@@ -182,6 +182,7 @@ class Simulation {
   std::unique_ptr<Impacts<2>> impacts_in_plane_;
   std::unique_ptr<Impacts<3>> impacts_in_space_;
   std::vector<Rebound> rebounds_;
+  std::vector<BlowImpulse> blows_;  // of the parts of the step that are done
   // Impulses of a pair [M L/T], in the maps below by Pair::first, second and image. If a step is
   // divided: the sums of the impulses over its parts, and the state before the step.
   struct Impulses {

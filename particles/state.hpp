@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "viscontact/particles/impacts/rebound.hpp"
 #include "viscontact/particles/pair_memory.hpp"
 #include "viscontact/particles/particles.hpp"
 
@@ -88,6 +89,9 @@ struct State {
   /// step. Empty before the first step.
   std::vector<double> arm_powers;
   double earlier_step = 0;  ///< length of the last step [T]; 0 if there was none
+  /// Impulses of the blows in the last step, without a fluid. The rest of the motion does not depend
+  /// on them, and restart files do not have them.
+  std::vector<BlowImpulse> blows;
   // What a simulation in a fluid needs of earlier steps; otherwise these members are empty or 0.
   /// Velocities and angular velocities in the last step [L/T, 1/T], motion_components() numbers
   /// (fluid_solver.hpp) for each particle: vx, vy, angular velocity; on an axis vz. Empty without a

@@ -284,12 +284,12 @@ Vector offset_in_body(const Particles& particles, std::int32_t particle) {
   return present_offset(body, member_number(body, particle), particles.dimension);
 }
 
-namespace {
-
 Matrix3 scaled(double factor, Matrix3 a) {
   for (auto& x : a) x *= factor;
   return a;
 }
+
+namespace {
 
 /// Turn [rad] of a body of spheres in a step of length h by the implicit midpoint rule: the fixed
 /// point of turn = h I^-1 L, with the angular momentum L and the inertia I after half of the turn.

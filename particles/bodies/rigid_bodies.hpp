@@ -152,6 +152,9 @@ void place_members(Particles& particles);
 /// of a singular matrix are infinite or NaN.
 Matrix3 inverse_of(const Matrix3& a);
 
+/// The product of a number and a matrix, in the product of their units.
+Matrix3 scaled(double factor, Matrix3 a);
+
 /// Mean force on a body in a step, and mean torque about its centre.
 struct BodyLoad {
   Vector force{};   ///< [M L/T^2]

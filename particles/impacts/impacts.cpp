@@ -33,7 +33,10 @@ double root_of_falling(const Function& f, double from, double until) {
   int side = 0;
   constexpr int kMostSteps = 200;
   for (int n = 0; n < kMostSteps && at_high != 0; ++n) {
-    const double t = (low * at_high - high * at_low) / (at_high - at_low);
+    double t = (low * at_high - high * at_low) / (at_high - at_low);
+    // If one end is the root but for rounding errors, the secant ends there, and bisection moves the
+    // other end.
+    if (!(t > low && t < high)) t = low + (high - low) / 2;
     if (!(t > low && t < high)) break;
     const double here = f(t);
     if (here > 0) {
@@ -90,15 +93,63 @@ Vector Impacts<D>::acceleration(std::int32_t k) const {
   return (1 / step_.kick) * (free_velocity(k) - state_.particles.velocity(index_of(k)));
 }
 
-/// Angular velocity of a particle with its blows so far [1/T]; of discs only the third component.
-/// At every time of the step it contains what the torques change in the whole step.
+/// Angular velocity of a particle without contacts [1/T]; of discs only the third component. At
+/// every time of the step it contains what the torques change in the whole step.
 template <int D>
-Vector Impacts<D>::spin(std::int32_t k) const {
+Vector Impacts<D>::free_spin(std::int32_t k) const {
   if (k < 0 || step_.turns.empty()) return {};
   const auto r = static_cast<std::size_t>(kTurns<D>);
   Vector turn{};
   for (std::size_t i = 0; i < r; ++i) turn[3 - r + i] = step_.turns[index_of(k) * r + i];
-  return (1 / step_.h) * turn + flight_or_none(k).turn_change;
+  return (1 / step_.h) * turn;
+}
+
+/// Velocity of the centre of the rigid body of a particle, or of the particle, at the end of the
+/// step without contacts [L/T]; 0 for an obstacle.
+template <int D>
+Vector Impacts<D>::centre_velocity(std::int32_t k) const {
+  const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
+  return body < 0 ? free_velocity(k) : (1 / step_.h) * free_bodies_[index_of(body)].displacement;
+}
+
+/// The mean acceleration of the same centre by forces in the step [L/T^2]; 0 for an obstacle.
+template <int D>
+Vector Impacts<D>::centre_acceleration(std::int32_t k) const {
+  const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
+  if (body < 0) return acceleration(k);
+  const Vector before = state_.particles.bodies.bodies[index_of(body)].velocity;
+  return (1 / step_.kick) * (centre_velocity(k) - before);
+}
+
+template <int D>
+typename Impacts<D>::Arm Impacts<D>::arm_of(std::int32_t k) const {
+  const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
+  if (body < 0) return {};
+  const Vector before = state_.particles.bodies.bodies[index_of(body)].angular_velocity;
+  return {offset_in_body(state_.particles, k), spin(k), flight_or_none(k).late_turn,
+          free_spin(k) - before};
+}
+
+/// The rigid body of particle `k` with the orientation, the angular momentum and the angular velocity
+/// that it has at the time `t` with the blows so far.
+template <int D>
+RigidBody Impacts<D>::body_at(std::int32_t k, double t) const {
+  const auto number = index_of(state_.particles.bodies.body_of(k));
+  auto body = state_.particles.bodies.bodies[number];
+  const auto arm = arm_of(k);
+  if (D == 3) body.orientation = turned(body.orientation, t * arm.rate - arm.late);
+  body.angular_momentum = step_.bodies[number].angular_momentum;
+  update_angular_velocity(body, D);
+  return body;
+}
+
+/// The angular velocity of particle `k` at a blow at the time `t` [1/T]. That of a rigid body in space
+/// changes between blows, while spin(), with which its particles move, is constant. A blow needs the
+/// true velocity of the point at which it acts, because otherwise e_d = 1 would not keep the energy.
+template <int D>
+Vector Impacts<D>::spin_at(std::int32_t k, double t) const {
+  const bool precesses = D == 3 && k >= 0 && state_.particles.bodies.body_of(k) >= 0;
+  return precesses ? body_at(k, t).angular_velocity : spin(k);
 }
 
 template <int D>
@@ -108,12 +159,13 @@ typename Impacts<D>::Approach Impacts<D>::approach_of(std::size_t k) {
   const auto second = index_of(of.second);
   const double half = step_.h / 2;
   const auto& flies = flight_or_none(of.second);
-  const Vector pull = acceleration(of.second);
+  const Vector pull = centre_acceleration(of.second);
   Approach approach;
-  approach.a = free_velocity(of.second) - half * pull + flies.change;
+  approach.a = centre_velocity(of.second) - half * pull + flies.change;
   approach.b = 0.5 * pull;
+  approach.second = arm_of(of.second);
   approach.before = p.velocity(second);
-  approach.at_rest = approach.before + flies.change;
+  approach.pull = acceleration(of.second) - acceleration(of.first);
   if (of.first < 0) {
     approach.obstacle = &step_.obstacles[of.plane()];
     approach.sum = p.radii[second];
@@ -121,14 +173,14 @@ typename Impacts<D>::Approach Impacts<D>::approach_of(std::size_t k) {
     return approach;
   }
   const auto& other = flight_or_none(of.first);
-  const Vector other_pull = acceleration(of.first);
+  const Vector other_pull = centre_acceleration(of.first);
   const auto apart = separation<D>(p, of.first, of.second, of.image);
   for (std::size_t d = 0; d < D; ++d) approach.c[d] = apart[d];
   approach.c = approach.c - (flies.late - other.late);
-  approach.a = approach.a - (free_velocity(of.first) - half * other_pull + other.change);
+  approach.a = approach.a - (centre_velocity(of.first) - half * other_pull + other.change);
   approach.b = approach.b - 0.5 * other_pull;
+  approach.first = arm_of(of.first);
   approach.before = approach.before - p.velocity(index_of(of.first));
-  approach.at_rest = approach.at_rest - p.velocity(index_of(of.first)) - other.change;
   approach.sum = p.radii[index_of(of.first)] + p.radii[second];
   return approach;
 }
@@ -162,7 +214,7 @@ Vector Impacts<D>::surface_of(const Approach& approach, double t) const {
 /// Velocity of the second centre relative to the first, or to the surface of the obstacle [L/T].
 template <int D>
 Vector Impacts<D>::velocity_of(const Approach& approach, double t) const {
-  return approach.a + (2 * t) * approach.b - surface_of(approach, t);
+  return approach.velocity(t) - surface_of(approach, t);
 }
 
 /// Second derivative of the gap in time [L/T^2]. Of two particles it has only the part of the
@@ -171,12 +223,11 @@ Vector Impacts<D>::velocity_of(const Approach& approach, double t) const {
 template <int D>
 double Impacts<D>::acceleration_of_gap(const Approach& approach, double t) const {
   const Vector n = normal_of(approach, t);
-  double acceleration = 2 * dot(n, approach.b);
+  const double acceleration = dot(n, approach.pull);
   if (approach.obstacle == nullptr) return acceleration;
   const auto& obstacle = *approach.obstacle;
   const Vector x = approach.place(t);
-  const Vector u =
-      approach.a + (2 * t) * approach.b - obstacle.surface_velocity(x, step_.begin + t);
+  const Vector u = approach.velocity(t) - obstacle.surface_velocity(x, step_.begin + t);
   const Vector along = u - dot(n, u) * n;
   if (obstacle.start.is_curved()) {
     const double curvature = 1 / (obstacle.start.radius - approach.sum);
@@ -187,21 +238,34 @@ double Impacts<D>::acceleration_of_gap(const Approach& approach, double t) const
   return acceleration + dot(turns, 2.0 * u + cross(obstacle.angular_velocity, arm));
 }
 
-/// The first time in (`from`, `until`] at which the gap, which is > 0 at `from`, closes;
-/// std::nullopt if it stays open. The velocity of an obstacle must not jump between the two times.
+/// The first time in [`from`, `until`] at which the gap closes; std::nullopt if it stays open. After
+/// a blow the gap is 0 but for rounding errors, of either sign. A gap that opens at `from` therefore
+/// closes when it falls to 0, or, if it is < 0 at `from`, to its value there. The velocity of an
+/// obstacle must not jump between the two times.
 template <int D>
 std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, double from,
                                                   double until) const {
   const auto* obstacle = approach.obstacle;
-  const double gap = gap_of(approach, from);
+  const double closed = std::min(gap_of(approach, from), 0.0);
+  const auto gap_at = [&](double t) { return gap_of(approach, t) - closed; };
+  const auto rate_at = [&](double t) {
+    return dot(normal_of(approach, t), velocity_of(approach, t));
+  };
+  const double gap = gap_at(from), rate = rate_at(from);
   const Vector n = normal_of(approach, from), v = velocity_of(approach, from);
-  if (obstacle != nullptr &&
-      (obstacle->start.is_curved() || norm(obstacle->angular_velocity) > 0)) {
-    // The search misses a particle that crosses the obstacle and comes back before `until`.
-    if (gap_of(approach, until) > 0) return std::nullopt;
-    return root_of_falling([&](double t) { return gap_of(approach, t); }, from, until);
-  }
-  if (obstacle == nullptr && approach.b == Vector{}) {
+  if (gap == 0 && rate < 0) return from;
+  // This search misses a gap that closes and opens again before `until`.
+  const auto search = [&]() -> std::optional<double> {
+    if (gap_at(until) > 0) return std::nullopt;
+    // A gap that opens is largest at `top`, and closes after it.
+    const double top =
+        rate > 0 && rate_at(until) < 0 ? root_of_falling(rate_at, from, until) : from;
+    if (!(gap_at(top) > 0)) return std::nullopt;
+    return root_of_falling(gap_at, top, until);
+  };
+  if (obstacle != nullptr && (obstacle->start.is_curved() || norm(obstacle->angular_velocity) > 0))
+    return search();
+  if (obstacle == nullptr && !approach.turns() && approach.b == Vector{}) {
     const Vector c = approach.place(from);
     const double square = dot(v, v), along = dot(c, v);
     const double root = along * along - square * gap * (norm(c) + approach.sum);
@@ -209,25 +273,30 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
     const double t = from + gap * (norm(c) + approach.sum) / (-along + std::sqrt(root));
     return t <= until ? std::optional(t) : std::nullopt;
   }
-  // With the normal n at `from`, the gap at the time from + s is gap + rate s + curvature s^2.
-  const double rate = dot(n, v), curvature = dot(n, approach.b);
+  // With the normal n at `from`, the gap at the time from + s is gap + rate s + curvature s^2. Two
+  // particles that leave each other turn around each other, which adds the second part of curvature.
+  double curvature = dot(n, approach.acceleration(from)) / 2;
+  if (obstacle == nullptr && rate > 0)
+    curvature += (dot(v, v) - rate * rate) / (2 * (approach.sum + gap + closed));
   const double root = rate * rate - 4 * curvature * gap;
-  if (root < 0) return std::nullopt;
-  const double denominator = -rate + std::sqrt(root);
-  if (!(denominator > 0)) return std::nullopt;
-  double t = from + 2 * gap / denominator;
-  if (obstacle != nullptr) return t <= until ? std::optional(t) : std::nullopt;
-  // The normal of two particles changes between the two times, so that Newton's method improves the
-  // guess t. It converges quadratically, and 20 steps are far more than it needs.
+  const auto otherwise = [&] { return approach.turns() ? search() : std::nullopt; };
+  if (root < 0 || (rate >= 0 && curvature >= 0)) return otherwise();
+  // The time at which the gap falls to 0; in neither form do the two terms cancel each other.
+  double t = from + (rate < 0 ? 2 * gap / (-rate + std::sqrt(root))
+                              : (rate + std::sqrt(root)) / (-2 * curvature));
+  if (obstacle != nullptr && !approach.turns()) return t <= until ? std::optional(t) : std::nullopt;
+  // The normal of two particles and the arm of a body change between the two times, so that
+  // Newton's method improves the guess t. It converges quadratically, and 20 steps are far more
+  // than it needs.
   constexpr int kMostSteps = 20;
   for (int i = 0; i < kMostSteps; ++i) {
-    const double falls = dot(normal_of(approach, t), velocity_of(approach, t));
-    if (!(falls < 0)) return std::nullopt;
-    const double change = -gap_of(approach, t) / falls;
+    const double falls = rate_at(t);
+    if (!(falls < 0)) return otherwise();
+    const double change = -gap_at(t) / falls;
     t += change;
     if (std::abs(change) <= 4 * std::numeric_limits<double>::epsilon() * t) break;
   }
-  return t > from && t <= until ? std::optional(t) : std::nullopt;
+  return t > from && t <= until ? std::optional(t) : otherwise();
 }
 
 /// The contact of pair `k` if it is hit at `time`: its gap is closed and closes fast enough.
@@ -240,6 +309,7 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   auto at_start = approach;
   at_start.c = at_start.c + flight_or_none(of.second).late;
   if (of.first >= 0) at_start.c = at_start.c - flight_or_none(of.first).late;
+  at_start.first.late = at_start.second.late = {};
   // An approach slower than `ended` would cause a bounce that lasts less than this fraction of the
   // step. The contact then counts as at rest, and the projection decides it. Both limits of rest,
   // this one and `pulled`, tend to 0 with h (docs/physics.md (5.16)).
@@ -255,18 +325,26 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
                         norm(flight_or_none(of.second).change);
   const double unseen = std::max(kUnseen * step_.touching / step_.h, kRounding * speeds);
   // `pulled` is five times the velocity that its load gives the pair in a step. `rests` is true if
-  // the pair touched at the beginning of the step and approached no faster than `unseen`, or, if it
-  // bore a load, no faster than `pulled`. Such a pair is hit only if it approaches faster than
-  // `pulled`, because slower hits would keep a packing shaking.
+  // the pair touched at the beginning of the step and neither approached nor opened faster than
+  // `unseen`, or, if it bore a load, approached no faster than `pulled`. Such a pair is hit only if
+  // it approaches faster than `pulled`, because slower hits would keep a packing shaking. A pair
+  // without load that opens is in the flight after a blow, also if its gap is still below `touching`.
   const double pulled = 5 * step_.h *
                         std::max({std::abs(dot(normal, acceleration(of.second))),
                                   std::abs(dot(normal, acceleration(of.first))), std::abs(pull)});
   const bool bore_load = of.impulse != 0 || of.gamma < 0;
   const Vector surface = surface_of(approach, time);
+  const double closing = -dot(normal, approach.before - surface);
   const bool rests = gap_of(at_start, 0) <= step_.touching &&
-                     -dot(normal, approach.before - surface) <= (bore_load ? pulled : unseen);
-  const Vector flies = velocity_of(approach, time);
-  const double rate = dot(normal, rests ? approach.at_rest - surface : flies);
+                     (bore_load ? closing <= pulled : std::abs(closing) <= unseen);
+  const Vector turning =
+      cross(spin_at(of.second, time) - spin(of.second), approach.second.at(time)) -
+      cross(spin_at(of.first, time) - spin(of.first), approach.first.at(time));
+  const Vector flies = velocity_of(approach, time) + turning;
+  const double rate =
+      dot(normal,
+          rests ? approach.velocity_without_forces(time, step_.kick, step_.h) - surface + turning
+                : flies);
   if (!(-rate > std::max({ended, unseen, rests ? pulled : 0.0}))) return std::nullopt;
   return Hit{k, normal, rate, flies};
 }
@@ -292,14 +370,9 @@ void Impacts<D>::expect(std::size_t k, double from) {
     if (approach.obstacle != nullptr)
       end = std::min(end, approach.obstacle->velocity.next_end(step_.begin + begin) - step_.begin);
     end = std::max(end, begin + kBeyondRounding * step_.h);
-    const double gap = gap_of(approach, begin);
-    const auto at = gap > 0 ? time_of_meeting(approach, begin, end) : std::nullopt;
-    if (at && hit_at(k, std::min(*at, step_.h)))
-      expected_.push({std::min(*at, step_.h), k, versions});
-    else if (gap <= step_.touching && hit_at(k, begin))
-      expected_.push({begin, k, versions});
-    else
-      continue;
+    const auto at = time_of_meeting(approach, begin, end);
+    if (!at || !hit_at(k, std::min(*at, step_.h))) continue;
+    expected_.push({std::min(*at, step_.h), k, versions});
     return;
   }
 }

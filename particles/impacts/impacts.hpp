@@ -49,7 +49,8 @@ struct ImpactStep {
 /// Finds the blows of a step in the order of their times. Between blows each particle flies on a
 /// parabola: with the acceleration a of its forces, its velocity at the time t of the step is u* +
 /// a (t - h/2), plus the changes by its blows so far. A blow at the time t_c that changes the
-/// velocity by d therefore moves the particle by (h - t_c) d until the end of the step.
+/// velocity by d therefore moves the particle by (h - t_c) d until the end of the step. So does the
+/// centre of a rigid body, which turns with a constant angular velocity between blows.
 ///
 /// A pair is hit when its gap closes. A pair that touches and bore no load in the step before is
 /// hit if it approached before the step. A pair that bore a load is hit only if it approaches
@@ -75,6 +76,8 @@ class Impacts {
 
   /// The contacts of all blows in which solids touched, in order of time.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
+  /// The impulses of all contacts of these blows.
+  const std::vector<BlowImpulse>& impulses() const { return impulses_; }
   /// Number of iterations of the solver in all blows, >= 0.
   int iterations() const { return iterations_; }
   /// Whether all blows were solved, to 1e-8 of the velocity of approach (strike.cpp).
@@ -93,9 +96,10 @@ class Impacts {
   void add_late_changes(Particles& particles) const;
 
  private:
-  // What blows change in the motion of a particle: in `change` the sum of the changes of its
-  // velocity [L/T], in `late` the sum of the changes times the times of the blows [L], and the same
-  // for its angular velocity in `turn_change` [1/T] and `late_turn` [rad].
+  // What blows change in the motion of a particle, or of the centre of its rigid body: in `change`
+  // the sum of the changes of its velocity [L/T], in `late` the sum of the changes times the times
+  // of the blows [L], and the same for its angular velocity in `turn_change` [1/T] and `late_turn`
+  // [rad].
   struct Flight {
     Vector change{}, late{}, turn_change{}, late_turn{};
     Vector displacement{};  // in the step, with all blows [L]
@@ -111,22 +115,56 @@ class Impacts {
       return time != other.time ? time > other.time : pair > other.pair;
     }
   };
-  // The motion of the second particle of a pair: at the time t of the step, c + a t + b t^2 is the
-  // vector to its centre from that of the first particle, or, at an obstacle, from the origin.
+  // The turning of a rigid body around its centre, for the place of a particle in it: after the time
+  // t of the step the body has turned by t rate - late. Without a body all members are 0.
+  struct Arm {
+    Vector offset{};     // of the particle from the centre at the beginning of the step [L]
+    Vector rate{};       // angular velocity, with the blows so far [1/T]
+    Vector late{};       // Flight::late_turn [rad]
+    Vector by_torque{};  // part of `rate` that torques have changed in the step [1/T]
+    // The change of the offset from the beginning of the step to the time t [L].
+    Vector swing(double t) const {
+      return turns() ? displacement_at({}, t * rate - late, offset, D) : Vector{};
+    }
+    Vector at(double t) const { return offset + swing(t); }
+    bool turns() const { return offset != Vector{}; }
+  };
+  // The motion of the second particle of a pair: at the time t of the step, place() is the vector to
+  // its centre from that of the first particle, or, at an obstacle, from the origin. The parabola
+  // c + a t + b t^2 is the part that does not come from the turning of rigid bodies.
   struct Approach {
     Vector c{}, a{}, b{};
+    Arm first{}, second{};
     double sum = 0;  // sum of both radii; at an obstacle the radius of the second particle [L]
     const Plane* obstacle = nullptr;  // the partner, if it is an obstacle
     Vector before{};                  // relative velocity before the step [L/T]
-    Vector at_rest{};  // `before` plus the changes by the blows so far, without forces [L/T]
-    Vector place(double t) const { return c + t * a + (t * t) * b; }
+    Vector pull{};                    // relative mean acceleration in the step [L/T^2]
+    bool turns() const { return first.turns() || second.turns(); }
+    Vector place(double t) const {
+      return c + t * a + (t * t) * b + second.swing(t) - first.swing(t);
+    }
+    Vector velocity(double t) const {
+      return a + (2 * t) * b + cross(second.rate, second.at(t)) - cross(first.rate, first.at(t));
+    }
+    Vector acceleration(double t) const {
+      return 2.0 * b + cross(second.rate, cross(second.rate, second.at(t))) -
+             cross(first.rate, cross(first.rate, first.at(t)));
+    }
+    // velocity() without what forces and torques have changed in the step, where forces act for
+    // the time `kick` until the middle of the step at h/2.
+    Vector velocity_without_forces(double t, double kick, double h) const {
+      return velocity(t) - (2 * (kick + t - h / 2)) * b - cross(second.by_torque, second.at(t)) +
+             cross(first.by_torque, first.at(t));
+    }
   };
   // A contact of a blow.
   struct Hit {
     std::size_t pair;
     Vector normal;
     double approach;  // velocity at which the gap closes, < 0 [L/T]
-    Vector relative;  // velocity of the second centre relative to the first or the obstacle [L/T]
+    // Velocity of the second centre relative to the first or the obstacle [L/T]. Both velocities
+    // contain the turning of rigid bodies.
+    Vector relative;
   };
 
   Pair& pair(std::size_t k) {
@@ -138,7 +176,13 @@ class Impacts {
   int version(std::int32_t k) const { return k < 0 ? 0 : flight_or_none(k).version; }
   Vector free_velocity(std::int32_t k) const;
   Vector acceleration(std::int32_t k) const;
-  Vector spin(std::int32_t k) const;
+  Vector free_spin(std::int32_t k) const;
+  Vector spin(std::int32_t k) const { return free_spin(k) + flight_or_none(k).turn_change; }
+  Vector centre_velocity(std::int32_t k) const;
+  Vector centre_acceleration(std::int32_t k) const;
+  Arm arm_of(std::int32_t k) const;
+  RigidBody body_at(std::int32_t k, double t) const;
+  Vector spin_at(std::int32_t k, double t) const;
   Approach approach_of(std::size_t k);
   Vector normal_of(const Approach& approach, double t) const;
   double gap_of(const Approach& approach, double t) const;
@@ -149,8 +193,6 @@ class Impacts {
   void expect(std::size_t k, double from);
   std::optional<Hit> hit_at(std::size_t k, double time);
   void strike(const std::vector<Hit>& hits, double time);
-  Vector offset_at(std::int32_t k, double t) const;
-  Vector turning_velocity(std::int32_t k, double t) const;
   ConstraintProblem<D> problem_of(const std::vector<Hit>& hits, double time,
                                   std::vector<std::int32_t>& unit_of);
   void move_unit(std::int32_t particle, const Motion<D>& change, double time);
@@ -166,6 +208,7 @@ class Impacts {
   std::optional<PairsOfParticles> pairs_of_;
   std::vector<int> hits_of_;  // number of hits of each pair
   std::vector<Rebound> rebounds_;
+  std::vector<BlowImpulse> impulses_;
   int iterations_ = 0;
   bool converged_ = true;
   struct Before {

@@ -1,10 +1,12 @@
-// The record of a collision of two solids that rebound, for rebounds.csv. Lengths, masses and times
-// are in the units of the case file. impacts/ and fluid/ make it; particles/io and run/ write it,
-// and python/ returns it. Numbers of particles and obstacles count from 0. A change must keep the
-// columns of rebounds.csv.
+// The records of a collision of two solids that rebound, for rebounds.csv, walls.csv and stress.csv.
+// Lengths, masses and times are in the units of the case file. impacts/ and fluid/ make them;
+// particles/io and run/ write them, and python/ returns rebounds. Numbers of particles and obstacles
+// count from 0. A change must keep the columns of rebounds.csv.
 #pragma once
 
 #include <cstdint>
+
+#include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
 
@@ -22,6 +24,15 @@ struct Rebound {
   /// discs in a fluid per length [M/T].
   double solid_impulse = 0;
   double velocity = 0;  ///< rate of the gap after the blow [L/T], >= 0
+};
+
+/// The whole impulse of one contact of a blow without a fluid, with its film and friction.
+struct BlowImpulse {
+  std::int32_t first = -1;  ///< number of a particle, or -1 - k for obstacle k
+  Vector impulse{};         ///< on the second particle [M L/T]
+  /// Vector [L] to the centre of the second particle from that of the first or the nearest point of
+  /// the obstacle.
+  Vector branch{};
 };
 
 }  // namespace viscontact::particles

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "viscontact/particles/constraints/constraint_problem.hpp"
@@ -19,31 +20,6 @@
 #include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
-
-/// Vector from the centre of its rigid body to particle k at the time `t` [L]; 0 without a body.
-template <int D>
-Vector Impacts<D>::offset_at(std::int32_t k, double t) const {
-  const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
-  if (body < 0) return {};
-  const Vector offset = offset_in_body(state_.particles, k);
-  return offset + displacement_at({}, (t / step_.h) * free_bodies_[index_of(body)].turn, offset, D);
-}
-
-/// The true velocity of particle k of a rigid body at the time `t` of the step minus that of the
-/// parabola on which impacts.cpp lets it fly [L/T]; 0 for a particle without a body. A blow needs
-/// the true velocity of the point at which it acts, because otherwise a blow with the coefficient
-/// of restitution 1 would not keep the energy.
-template <int D>
-Vector Impacts<D>::turning_velocity(std::int32_t k, double t) const {
-  const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
-  if (body < 0) return {};
-  const auto& free = free_bodies_[index_of(body)];
-  const Vector mean = (1 / step_.h) * free.displacement;
-  const Vector pull =
-      (1 / step_.kick) * (mean - state_.particles.bodies.bodies[index_of(body)].velocity);
-  const Vector turns = cross((1 / step_.h) * free.turn, offset_at(k, t));
-  return mean + turns - free_velocity(k) + (t - step_.h / 2) * (pull - acceleration(k));
-}
 
 /// The contacts of a blow at `time` as a ConstraintProblem, whose unknowns are the changes of the
 /// velocities times the length h of the step [L]. A unit is a rigid body, or a particle without a
@@ -74,10 +50,15 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       } else {
         auto still = step_.bodies[index_of(body)];
         still.displacement = still.turn = {};
+        if (D == 3) {
+          const auto inertia = present_inertia(body_at(k, time), D);
+          still.turn_mobility = scaled(step_.h, inverse_of(inertia));
+          still.inverse_turn_mobility = scaled(1 / step_.h, inertia);
+        }
         problem.units.push_back(unit_of_body<D>(still));
       }
     }
-    return {at->second, offset_at(k, time)};
+    return {at->second, arm_of(k).at(time)};
   };
   for (const auto& hit : hits) {
     const auto& of = pair(hit.pair);
@@ -86,20 +67,18 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
     contact.obstacle = of.first < 0 ? -1 - of.first : 0;
     const auto tangents = tangents_of(contact, p, step_.obstacles, step_.begin, step_.end);
     const auto first = side_of(contact.first), second = side_of(contact.second);
-    const Vector turning =
-        turning_velocity(contact.second, time) - turning_velocity(contact.first, time);
     ConstraintBlock block;
     block.row = problem.rows.size();
     block.rows = static_cast<std::size_t>(D);
     for (std::size_t k = 0; k < block.rows; ++k) {
       add_contact_row(contact, tangents, first, second, k, 0, problem);
       auto& row = problem.rows.back();
-      row.offset = step_.h * (hit.approach + dot(hit.normal, turning));
+      row.offset = step_.h * hit.approach;
       if (k > 0) {
         // Velocity at which the surfaces slip before the blow.
         const Vector slip = hit.relative +
-                            cross(spin(of.second), -tangents.second_arm * hit.normal) -
-                            cross(spin(contact.first), tangents.first_arm * hit.normal);
+                            cross(spin_at(of.second, time), -tangents.second_arm * hit.normal) -
+                            cross(spin_at(contact.first, time), tangents.first_arm * hit.normal);
         row.offset = step_.h * dot(tangents.directions[k - 1], slip);
       }
     }
@@ -117,23 +96,20 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
   Vector velocity{}, turn{};
   for (std::size_t i = 0; i < d; ++i) velocity[i] = change[i] / step_.h;
   for (std::size_t i = 0; i < r; ++i) turn[3 - r + i] = change[d + i] / step_.h;
-  const auto add = [&](std::int32_t k, const Vector& offset) {
+  const auto add = [&](std::int32_t k) {
     auto& of = flight(k);
-    const Vector by = velocity + cross(turn, offset);
-    of.change = of.change + by;
-    of.late = of.late + time * by;
+    of.change = of.change + velocity;
+    of.late = of.late + time * velocity;
     of.turn_change = of.turn_change + turn;
     of.late_turn = of.late_turn + time * turn;
     ++of.version;
   };
   const auto body = p.bodies.body_of(particle);
   if (body < 0) {
-    add(particle, {});
+    add(particle);
     return;
   }
-  const auto& rigid = p.bodies.bodies[index_of(body)];
-  for (std::size_t m = 0; m < rigid.members.size(); ++m)
-    add(rigid.members[m], present_offset(rigid, m, D));
+  for (const auto member : p.bodies.bodies[index_of(body)].members) add(member);
   auto& step = step_.bodies[index_of(body)];
   const double rest = step_.h - time;
   step.displacement = step.displacement + rest * velocity;
@@ -141,7 +117,7 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
   step.turn = step.turn + rest * turn;
   // In space, constrain() adds to this angular momentum. In the plane it computes the angular
   // momentum as I turn/h + late_momentum, and turn/h lacks the part time/h of the change.
-  const Vector momentum = step_.h * (step.inverse_turn_mobility * turn);
+  const Vector momentum = present_inertia(body_at(particle, time), D) * turn;
   step.angular_momentum = step.angular_momentum + momentum;
   step.late_momentum = step.late_momentum + (time / step_.h) * momentum;
 }
@@ -287,12 +263,19 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     of.impulse = impulse;
     const double after =
         (problem.rows[block.row].offset + problem.product(block.row, changes)) / step_.h;
+    Vector push{};
+    for (std::size_t r = block.row; r < block.row + block.rows; ++r) {
+      // The coefficients of the first part are the direction in which the second particle is pushed.
+      const auto& direction = problem.parts[problem.rows[r].first_part].coefficients;
+      for (std::size_t d = 0; d < D; ++d) push[d] += problem.impulses[r] * direction[d];
+    }
+    impulses_.push_back({of.first, push, approach_of(hits[c].pair).sum * hits[c].normal});
     if (phase.solid > 0)
       rebounds_.push_back({step_.begin + time, of.first, of.second, hits[c].approach, phase.solid,
                            std::abs(after) <= kExact * fastest ? 0 : after});
     ++hits_of_[hits[c].pair];
   }
-  // Find the next hits of all pairs with a particle whose motion has changed.
+  // Find the next hits of all pairs with a particle whose motion has changed, each pair once.
   std::vector<std::int32_t> changed;
   for (const auto k : unit_of) {
     const auto body = state_.particles.bodies.body_of(k);
@@ -302,8 +285,10 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
       for (const auto member : state_.particles.bodies.bodies[index_of(body)].members)
         changed.push_back(member);
   }
+  std::set<std::size_t> pairs;
   for (const auto k : changed)
-    for (const auto of : pairs_of_->of(k)) expect(of, time);
+    for (const auto of : pairs_of_->of(k)) pairs.insert(of);
+  for (const auto of : pairs) expect(of, time);
 }
 
 template void Impacts<2>::strike(const std::vector<Hit>&, double);

@@ -69,14 +69,24 @@ Vector force_of(const CurrentContact& contact) {
   return contact.normal_force * contact.normal + contact.tangential_force;
 }
 
+/// Calls `visit` for each contact in the last step, and for each one of a blow in it, with the first
+/// particle or obstacle, the mean force on the second particle [M L/T^2], and the branch [L].
+template <class Visit>
+void for_forces(const Setting& setting, const State& state, const Visit& visit) {
+  for (const auto& contact : contacts_of(setting, state))
+    visit(contact.first, force_of(contact), contact.branch);
+  for (const auto& blow : state.blows)
+    visit(blow.first, (1 / state.earlier_step) * blow.impulse, blow.branch);
+}
+
 /// The rows of walls.csv.
 std::string wall_rows(const Setting& setting, const State& state, std::span<const double>) {
   std::vector<Vector> forces(obstacles_of(setting).size());
-  for (const auto& contact : contacts_of(setting, state))
-    if (contact.first < 0) {
-      auto& force = forces[static_cast<std::size_t>(-1 - contact.first)];
-      force = force - force_of(contact);
-    }
+  for_forces(setting, state, [&](std::int32_t first, const Vector& force, const Vector&) {
+    if (first >= 0) return;
+    auto& sum = forces[static_cast<std::size_t>(-1 - first)];
+    sum = sum - force;
+  });
   std::string text;
   for (std::size_t k = 0; k < forces.size(); ++k) {
     text += fmt::format("{},{}", format_number(state.time), -1 - static_cast<int>(k));
@@ -90,11 +100,10 @@ std::string wall_rows(const Setting& setting, const State& state, std::span<cons
 std::string stress_row(const Setting& setting, const State& state, std::span<const double>) {
   const auto n = static_cast<std::size_t>(state.particles.dimension);
   std::array<double, 9> sums{};
-  for (const auto& contact : contacts_of(setting, state)) {
-    const Vector force = force_of(contact), branch = contact.branch;
+  for_forces(setting, state, [&](std::int32_t, const Vector& force, const Vector& branch) {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) sums[i * n + j] -= force[i] * branch[j];
-  }
+  });
   auto text = format_number(state.time);
   const double size = measure(setting.domain);
   for (std::size_t i = 0; i < n * n; ++i) (text += ',') += format_number(sums[i] / size);

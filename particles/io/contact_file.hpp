@@ -40,10 +40,10 @@ inline constexpr auto kAskedTables =
 ///   velocity of particles that turn, each with its components;
 /// - contacts.csv: time and the columns of write_contacts() without gamma_error;
 /// - walls.csv: time,wall,force_x,force_y[,force_z], on an axis force_z: the mean force of all
-///   contacts on each obstacle in the last step [M L/T^2]; wall is -1, -2, ...;
+///   contacts on each obstacle in the last step, with its blows [M L/T^2]; wall is -1, -2, ...;
 /// - stress.csv: time,stress_xx,stress_xy,stress_yx,stress_yy, on an axis stress_zz: the mean
-///   stress of the contacts in the domain in the last step [M/(L T^2)], docs/physics.md (5.19). It
-///   needs a domain.
+///   stress of the contacts in the domain in the last step, with its blows [M/(L T^2)],
+///   docs/physics.md (5.19). It needs a domain.
 std::vector<TimeTable> asked_tables(const Setting& setting, const Particles& particles,
                                     std::span<const std::string> names);
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -58,6 +59,101 @@ TEST(BlowOfABody, OfABodyThatTurnsKeepsItsEnergyAtEachStep) {
     EXPECT_NEAR(energy_of(simulation.state().particles.bodies.bodies[0]), before, 1e-9 * before)
         << step;
   }
+}
+
+TEST(BlowOfABody, TwiceInAStepKeepsTheEnergyAndHasTheVelocityOfThePointOfContact) {
+  // The ends of a dumbbell hit the plane one after the other within one step, between which the
+  // first blow has turned it.
+  constexpr double kRadius = 0.5, kHalf = 1.5, kStep = 0.02;
+  Random random(5);
+  int twice = 0;
+  for (int k = 0; k < 300; ++k) {
+    const double tilt = random.uniform(-0.02, 0.02), turns = random.uniform(-8, 8), falls = -3;
+    Scene scene{no_particles(2), {}};
+    auto& p = scene.state.particles;
+    for (const double side : {-kHalf, kHalf}) {
+      const Vector arm{side * std::cos(tilt), side * std::sin(tilt), 0};
+      const Vector centre{0, kRadius + kHalf * std::abs(std::sin(tilt)) + random.uniform(0, 0.03),
+                          0};
+      add_particle(scene.state, centre + arm, kRadius, random.uniform(0.5, 2),
+                   Vector{0, falls, 0} + cross(Vector{0, 0, turns}, arm));
+    }
+    add_rotation(p);
+    p.angular_velocities = {turns, turns};
+    add_rigid_body(p, {.members = {0, 1}});
+    scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
+    scene.setting.laws.film.gamma_min = 0;
+    scene.setting.laws.restitution.coefficient = 1;
+    scene.setting.time_step = kStep;
+    Simulation simulation(scene.setting, scene.state, 1);
+    const auto before = simulation.state().particles.bodies.bodies[0];
+    double speed = before.velocity[1], turning = before.angular_velocity[2], angle = 0, last = 0;
+    simulation.step(kStep);
+    const auto& after = simulation.state().particles.bodies.bodies[0];
+    if (simulation.rebounds().size() > 1) ++twice;
+    for (const auto& rebound : simulation.rebounds()) {
+      angle += turning * (rebound.time - last);
+      last = rebound.time;
+      const Vector offset = before.offsets[std::size_t(rebound.second)];
+      const double arm = std::cos(angle) * offset[0] - std::sin(angle) * offset[1];
+      const double approach = speed + turning * arm;
+      EXPECT_NEAR(rebound.approach_velocity, approach, 1e-10) << k;
+      EXPECT_NEAR(rebound.velocity, -approach, 1e-10) << k;
+      const double impulse = -2 * approach / (1 / before.mass + arm * arm / before.inertia[8]);
+      speed += impulse / before.mass;
+      turning += arm * impulse / before.inertia[8];
+    }
+    EXPECT_NEAR(after.velocity[1], speed, 1e-10) << k;
+    EXPECT_NEAR(after.angular_velocity[2], turning, 1e-10) << k;
+  }
+  EXPECT_GT(twice, 20);
+}
+
+TEST(BlowOfABody, InSpaceKeepsTheEnergyToSecondOrder) {
+  // Bodies of three unequal spheres, whose angular velocity changes in free flight, too. Returns the
+  // mean change of the energy by a step with a blow.
+  const auto mean_change = [](double step) {
+    Random random(6);
+    double sum = 0;
+    int blows = 0;
+    for (int k = 0; k < 100; ++k) {
+      Scene scene{no_particles(3), {}};
+      auto& p = scene.state.particles;
+      const Vector spin = 5.0 * random.direction(3), falls{0, 0, -3};
+      const std::array<Vector, 3> places{random.direction(3), random.direction(3), Vector{}};
+      for (const auto& place : places)
+        add_particle(scene.state, place + Vector{0, 0, 1.6}, 0.5, random.uniform(0.5, 2),
+                     falls + cross(spin, place));
+      add_rotation(p);
+      for (std::size_t i = 0; i < 9; ++i) p.angular_velocities[i] = spin[i % 3];
+      add_rigid_body(p, {.members = {0, 1, 2}});
+      scene.setting.planes = {plane_at_rest({}, {0, 0, 1})};
+      scene.setting.laws.film.gamma_min = 0;
+      scene.setting.laws.restitution.coefficient = 1;
+      scene.setting.time_step = step;
+      Simulation simulation(scene.setting, scene.state, 1);
+      const auto energy = [&] {
+        const auto& body = simulation.state().particles.bodies.bodies[0];
+        return (body.mass * dot(body.velocity, body.velocity) +
+                dot(body.angular_momentum, body.angular_velocity)) /
+               2;
+      };
+      double before = energy();
+      run(simulation, 1, [&](const StepReport&) {
+        const double after = energy();
+        if (!simulation.rebounds().empty()) {
+          sum += std::abs(after / before - 1);
+          ++blows;
+        }
+        before = after;
+      });
+    }
+    EXPECT_GT(blows, 100);
+    return sum / blows;
+  };
+  const double coarse = mean_change(0.01), fine = mean_change(0.0025);
+  EXPECT_LE(coarse, 1e-4);
+  EXPECT_LE(fine, coarse / 10);  // 16 for the second order
 }
 
 TEST(BlowOfABody, OfABodyThatFallsFlatDoesNotDependOnTheOrderOfItsParticles) {

@@ -92,7 +92,8 @@ TEST_P(Restitution, OfADryBallThatFallsEndsWhenTheSumOfItsFlightsDoes) {
         highest = std::max(highest, simulation.state().particles.position(0)[1] - 1);
         EXPECT_LT(report.iterations, 1000);
       });
-      EXPECT_NEAR(last, stops, 1e-3 * stops) << dry;
+      // The flights that are left out take half a step, and the first one is ahead by half a step.
+      EXPECT_NEAR(last, stops, 1.1e-3) << dry;
       // Heights fall by e_d^2 with each rebound; the apex lies between two steps.
       ASSERT_GT(heights.size(), 3U);
       EXPECT_NEAR(heights[1], dry * dry, 2e-3);

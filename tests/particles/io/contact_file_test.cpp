@@ -136,6 +136,76 @@ Simulation column_in_box() {
   return {setting, state, 1};
 }
 
+TEST(ForcesOfContacts, OfBlowsAndLoadsOnWallsAreTheChangeOfTheMomentum) {
+  // Discs and spheres, two of them one body, that rebound, rub, and come to rest in a box.
+  for (const int dimension : {2, 3})
+    for (const auto scheme : {Scheme::kEuler, Scheme::kLeapfrog}) {
+      State state = no_particles(dimension);
+      Random random(4);
+      for (int k = 0; k < 8; ++k)
+        add_particle(state, {1.5 * (k % 2) + 1, 1.5 * (k / 2 % 2) + 1, 1.5 * (k / 4) + 1}, 0.6,
+                     random.uniform(0.5, 2), 3.0 * random.direction(dimension));
+      if (dimension == 2)
+        for (std::size_t k = 4; k < 8; ++k) state.particles.positions[2 * k] += 2.8;
+      add_rotation(state.particles);
+      add_rigid_body(state.particles, {.members = {0, 1}});
+      Setting setting;
+      for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+        for (const double side : {0.0, 6.0}) {
+          Vector point{}, normal{};
+          point[d] = side;
+          normal[d] = side > 0 ? -1 : 1;
+          setting.planes.push_back(plane_at_rest(point, normal));
+        }
+      setting.gravity = {0.3, -2, 0};
+      setting.scheme = scheme;
+      setting.time_step = 0.02;
+      setting.laws.film.gamma_min = -0.05;
+      setting.laws.friction = FrictionLaw{0.3};
+      setting.laws.restitution.coefficient = 0.6;
+      Simulation simulation(setting, state, 1);
+      std::size_t blows = 0;
+      double mass = 0;
+      for (const double m : state.particles.masses) mass += m;
+      for (int n = 0; n < 400; ++n) {
+        const Vector before = momentum(simulation.state().particles);
+        simulation.step(100);
+        blows += simulation.rebounds().size();
+        const double h = setting.time_step;
+        const double kick = scheme == Scheme::kLeapfrog && n == 0 ? h / 2 : h;
+        Vector sum = (kick * mass) * setting.gravity;
+        for (const auto& row : rows_of("walls", simulation.setting(), simulation.state()))
+          for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+            sum[d] -= h * row[2 + d];
+        const Vector change = momentum(simulation.state().particles) - before;
+        EXPECT_LE(norm(change - sum), 1e-12 * mass) << dimension << " step " << n;
+      }
+      EXPECT_GT(blows, 30U);
+    }
+}
+
+TEST(ForcesOfContacts, OfBlowsAreTheirStress) {
+  // In the first step two discs hit each other along x and a third one the left wall. The impulses
+  // are 2 * 0.75 * 3 and 2 * 2 * 1, at the distances 1.5 and 0.5, in an area of 24.
+  State state = no_particles(2);
+  add_particle(state, {1.5, 1, 0}, 1, 1, {2, 0, 0});
+  add_particle(state, {3.05, 1, 0}, 0.5, 3, {-1, 0, 0});
+  add_particle(state, {0.52, 4, 0}, 0.5, 2, {-1, 0, 0});
+  Setting setting;
+  setting.domain = BoxDomain{{0, 0}, {4, 6}, {}};
+  setting.time_step = 0.1;
+  setting.laws.film.gamma_min = 0;
+  setting.laws.restitution.coefficient = 1;
+  Simulation simulation(setting, state, 1);
+  simulation.step(1);
+  ASSERT_EQ(simulation.rebounds().size(), 2U);
+  const auto stress = rows_of("stress", simulation.setting(), simulation.state())[0];
+  EXPECT_NEAR(stress[1], -(4.5 * 1.5 + 4 * 0.5) / 0.1 / 24, 1e-9);
+  EXPECT_NEAR(stress[4], 0, 1e-9);
+  simulation.step(1);
+  EXPECT_NEAR(rows_of("stress", simulation.setting(), simulation.state())[0][1], 0, 1e-9);
+}
+
 TEST(ForcesOfContacts, OfAColumnAreItsStress) {
   auto simulation = column_in_box();
   run(simulation, 1);
