@@ -16,6 +16,7 @@
 #include "viscontact/particles/io/playback.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 #include "viscontact/particles/picture/particles_picture.hpp"
+#include "viscontact/particles/picture/scene.hpp"
 #include "viscontact/particles/run/particles_folder.hpp"
 #include "viscontact/terminal/progress.hpp"
 
@@ -126,10 +127,11 @@ void write_pages(const ParticlesCase& c, const fs::path& folder,
                  const results::Provenance& provenance) {
   constexpr int kPanels = 4;  // number of times that the still picture shows; free choice
   const auto playback = read_playback(c, folder);
+  FlowFrames flows;
   results::write_output(folder / "particles.html", TextKind::kHtml,
-                        particles_page(playback, c.title), provenance);
+                        particles_page(playback, c.title, &flows), provenance);
   results::write_output(folder / "particles.svg", TextKind::kSvg,
-                        particles_picture(playback, c.title, kPanels), provenance);
+                        particles_picture(playback, c.title, kPanels, &flows), provenance);
 }
 
 void report_particles(const fs::path& folder) {
