@@ -124,7 +124,7 @@ edges_per_particle = 12
 [domain]
 box = { from = [-2.0, 0.0], to = [2.0, 6.0] }
 [viscous_contact]
-time_step = 0.03
+time_step = 0.05
 end_time = 0.3
 [output]
 every = 0.3
