@@ -34,7 +34,8 @@ LubricationForce::LubricationForce(double viscosity, double radius)
       radius_(radius),
       viscosity_(viscosity),
       leading_(stokes_resistance(viscosity, radius) * radius),
-      fitted_interval_{kExactRange[0] * radius, kExactRange[1] * radius} {}
+      fitted_interval_{kExactRange[0] * radius, kExactRange[1] * radius},
+      impulses_at_ends_{impulse(fitted_interval_[0]), impulse(fitted_interval_[1])} {}
 
 LubricationForce LubricationForce::exact_plane(double viscosity, double radius) {
   return {viscosity, radius};
@@ -70,6 +71,7 @@ LubricationForce::LubricationForce(const Fit& fit, const OutsideInterval& outsid
                               "fit again with another basis or other weights",
                               resistance(gap), gap));
   set_limits(fit);
+  impulses_at_ends_ = {impulse(fitted_interval_[0]), impulse(fitted_interval_[1])};
 }
 
 void LubricationForce::set_limits(const Fit& fit) {
@@ -209,7 +211,8 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   const auto [smallest, largest] = fitted_interval_;
   const double low = std::log(smallest / radius_);
   const double high = std::log(largest / radius_);
-  if (exact_ && impulse_wanted > impulse(smallest) && impulse_wanted < impulse(largest)) {
+  const auto [least, most] = impulses_at_ends_;
+  if (exact_ && impulse_wanted > least && impulse_wanted < most) {
     // Gamma/k = int_1^eps K(s) ds with eps = gap/radius and the drag factor K of a plane. K is
     // larger than 1/s and larger than 1, so Gamma/k < ln eps if eps < 1; if eps > 1, Gamma/k is
     // larger than ln eps and than eps - 1.
@@ -217,7 +220,7 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
     if (scaled < 0) return {std::max(scaled, low), 0.0};
     return {0.0, std::min(scaled, std::log1p(scaled))};
   }
-  if (impulse_wanted < impulse(smallest)) {
+  if (impulse_wanted < least) {
     if (exact_)
       throw Error(ErrorKind::kNotConverged,
                   "the film is thinner than the smallest number that a double can hold");
@@ -233,7 +236,7 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
     // k (s - ln q1) + c (e^s - q1) = impulse - Gamma(q1). Without its second term s is known; the
     // term changes s by less than |c| q1/k.
     const auto [k, constant] = limit();
-    const double by_leading_term = low + (impulse_wanted - impulse(smallest)) / k;
+    const double by_leading_term = low + (impulse_wanted - least) / k;
     const double by_constant = constant * smallest / k;
     const double above = std::min(low, by_leading_term + std::max(0.0, by_constant));
     const double thinnest = std::log(std::numeric_limits<double>::min()) - std::log(radius_);
@@ -242,7 +245,7 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
                   "the film is thinner than the smallest number that a double can hold");
     return {std::max(thinnest, by_leading_term + std::min(0.0, by_constant)), above};
   }
-  const double beyond = impulse_wanted - impulse(largest);
+  const double beyond = impulse_wanted - most;
   if (!(beyond > 0)) return {low, high};
   if (outside_.above == AboveInterval::kError)
     throw Error(ErrorKind::kBadInput,
@@ -255,7 +258,7 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   return {high, std::log((largest + beyond / std::min(stokes, resistance(largest))) / radius_)};
 }
 
-double LubricationForce::gap_of_impulse(double impulse_wanted) const {
+double LubricationForce::gap_of_impulse(double impulse_wanted, double near) const {
   // Near contact Gamma is almost linear in s = ln(q/r), so Newton's method in s converges fast. ln
   // q instead of ln(q/r) would make rounding errors depend on the unit of length.
   const auto [low, high] = bracket_of_impulse(impulse_wanted);
@@ -272,8 +275,9 @@ double LubricationForce::gap_of_impulse(double impulse_wanted) const {
     return std::abs(next - s) <=
            2 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(s));
   };
-  return gap_at(bracketed_newton(high - (high - low) / 2, low, high, Bracket::kOpen,
-                                 excess_and_slope, settled));
+  const double start = std::isfinite(near) ? std::clamp(std::log(near / radius_), low, high)
+                                           : high - (high - low) / 2;
+  return gap_at(bracketed_newton(start, low, high, Bracket::kOpen, excess_and_slope, settled));
 }
 
 }  // namespace viscontact::lubrication

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "viscontact/lubrication/fit.hpp"
@@ -81,8 +82,10 @@ class LubricationForce {
 
   /// The gap q [L] with Gamma(q) = impulse [M L/T], to round-off. Throws Error(kBadInput) if the
   /// gap is outside interval() or `impulse` is not finite, and Error(kNotConverged) if the gap is
-  /// too small for a double.
-  double gap_of_impulse(double impulse) const;
+  /// too small for a double. The search begins at the gap `near` > 0 [L], which saves time if it is
+  /// near the result; infinity: in the middle of the gaps that are possible.
+  double gap_of_impulse(double impulse,
+                        double near = std::numeric_limits<double>::infinity()) const;
 
   /// k [M L/T]: the coefficient of 1/q in R; for a plane 6 pi mu r^2 in theory. Throws
   /// Error(kBadInput) if the fit has no term 1/q or if k is not positive.
@@ -122,6 +125,7 @@ class LubricationForce {
   double image_ = 0;  // c [L] of AboveInterval::kStokesLimit
   // The sum of weight * antiderivative at q = r [M L/T]; it is subtracted so that Gamma(r) = 0.
   double impulse_at_radius_ = 0;
+  std::array<double, 2> impulses_at_ends_{};  // of fitted_interval_
 };
 
 }  // namespace viscontact::lubrication

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <random>
 
 #include "viscontact/common/error.hpp"
@@ -81,11 +82,14 @@ FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, 
                              const lubrication::OutsideInterval& outside, std::size_t draws) {
   const auto limits = outside.with_limits();
   const auto instants = instants_of(motion, times);
+  std::vector<double> impulses;  // of the external force
+  for (const double time : instants) impulses.push_back(motion.external_force.impulse(time));
   const auto gaps_with = [&](const lubrication::LubricationForce& force, double share,
                              std::vector<double>& gaps) {
     const double start = force.impulse(motion.initial_gap);
+    double before = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < instants.size(); ++i)
-      gaps[i] = force.gap_of_impulse(start + share * motion.external_force.impulse(instants[i]));
+      before = gaps[i] = force.gap_of_impulse(start + share * impulses[i], before);
   };
   FitUncertainty result;
   result.draws = draws;

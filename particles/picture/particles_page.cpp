@@ -214,11 +214,12 @@ std::string legend(const Scene& scene, const FlowOfPage& flow) {
 
 }  // namespace
 
-std::string particles_page(const Playback& original, const std::string& title) {
+std::string particles_page(const Playback& original, const std::string& title, FlowFrames* flows) {
   std::vector<std::size_t> all(original.frames.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const auto shown = shown_flows(original);
   const auto scene = scene_of(original, all, shown.frames, shown.points);
+  if (flows != nullptr) *flows = scene.flows;
   const auto flow = flow_of_page(scene);
   const auto data = page_data(scene, flow.blocks);
   const auto words = words_for(original, data);

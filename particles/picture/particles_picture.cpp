@@ -254,12 +254,16 @@ std::string panels_of(const PanelSettings& panel, const std::vector<std::size_t>
 
 }  // namespace
 
-std::string particles_picture(const Playback& original, const std::string& title, int panels) {
-  // In a panel, more than 20000 particles or 50000 points of a flow could not be told apart.
+std::string particles_picture(const Playback& original, const std::string& title, int panels,
+                              const FlowFrames* known) {
+  // In a panel, more than 20000 particles or 50000 points of a flow could not be told apart. The
+  // points of the page are as good, and its flows are at hand.
   constexpr std::size_t kMostInPanel = 20000, kPointsOfFlow = 50000;
   const auto chosen = chosen_frames(original, panels);
   const int count = static_cast<int>(chosen.size());
-  const auto scene = scene_of(original, chosen, chosen, kPointsOfFlow);
+  const auto scene =
+      scene_of(original, chosen, chosen, std::max(kPointsOfFlow, shown_flows(original).points),
+               known != nullptr ? *known : FlowFrames{});
   PanelSettings panel{.scene = scene,
                       .view = view_of(scene.playback.dimension),
                       .every = scene.playback.radii.size() / (kMostInPanel + 1) + 1};

@@ -252,11 +252,33 @@ report::Window common_part(const report::Window& extent, const ViewBox& view) {
           std::max(extent.bottom, view.low[1]), std::min(extent.top, view.high[1])};
 }
 
-/// Reads the flows of these frames one after the other, because all of them may be larger than the
-/// memory, and keeps their values on a grid of about `points` points in `window`.
-FlowFrames read_flows(const Playback& in_plane, bool has_axis, const report::Window& window,
-                      const std::vector<std::size_t>& frames, std::size_t points) {
+/// Reads the flow of the frame with the index `f`, and draws its streamlines. `is_body` is that of
+/// points_in_bodies(). Without a flow in the file, speeds are empty.
+FlowFrame read_flow_frame(const Playback& in_plane, std::size_t f, const FlowFrames& flows,
+                          const std::vector<char>& is_body, report::StreamLines& stream_lines) {
   constexpr int kLines = 18;  // about how many streamlines a picture has, a free choice
+  FlowFrame found;
+  found.frame = f;
+  const auto field = read_flow(in_plane.frames[f].flow);
+  if (field.triangles.empty()) return found;
+  const auto flow = report::flow_on_grid(
+      field, flows.grid,
+      {{in_plane.cell.lengths[0], in_plane.cell.lengths[1]}, in_plane.cell.gradient});
+  for (std::size_t i = 0; i < flows.grid.size(); ++i)
+    found.speed.push_back(static_cast<float>(std::hypot(flow.velocity_x[i], flow.velocity_y[i])));
+  const double mean = mean_outside(flow.pressure, is_body);
+  for (const double pressure : flow.pressure)
+    found.pressure.push_back(static_cast<float>(pressure - mean));
+  found.lines = stream_lines.of(flow, is_body, flows.has_axis ? kLines * 2 / 3 : kLines).lines;
+  return found;
+}
+
+/// Reads the flows of these frames one after the other, because all of them may be larger than the
+/// memory, and keeps their values on a grid of about `points` points in `window`. Flows on this
+/// grid that `known` has are copied.
+FlowFrames read_flows(const Playback& in_plane, bool has_axis, const report::Window& window,
+                      const std::vector<std::size_t>& frames, std::size_t points,
+                      const FlowFrames& known) {
   FlowFrames flows;
   flows.has_axis = has_axis;
   flows.grid = report::grid_of(
@@ -264,22 +286,13 @@ FlowFrames read_flows(const Playback& in_plane, bool has_axis, const report::Win
   report::StreamLines stream_lines(flows.grid, has_axis);
   Samples speeds, pressures;
   for (const auto f : frames) {
-    const auto& frame = in_plane.frames[f];
-    if (frame.flow.empty()) continue;
-    const auto field = read_flow(frame.flow);
-    if (field.triangles.empty()) continue;
-    const auto flow = report::flow_on_grid(
-        field, flows.grid,
-        {{in_plane.cell.lengths[0], in_plane.cell.lengths[1]}, in_plane.cell.gradient});
-    const auto is_body = points_in_bodies(flows.grid, in_plane, frame);
-    FlowFrame found;
-    found.frame = f;
-    for (std::size_t i = 0; i < flows.grid.size(); ++i)
-      found.speed.push_back(static_cast<float>(std::hypot(flow.velocity_x[i], flow.velocity_y[i])));
-    const double mean = mean_outside(flow.pressure, is_body);
-    for (const double pressure : flow.pressure)
-      found.pressure.push_back(static_cast<float>(pressure - mean));
-    found.lines = stream_lines.of(flow, is_body, has_axis ? kLines * 2 / 3 : kLines).lines;
+    if (in_plane.frames[f].flow.empty()) continue;
+    const auto is_body = points_in_bodies(flows.grid, in_plane, in_plane.frames[f]);
+    const auto known_frame = std::ranges::find(known.frames, f, &FlowFrame::frame);
+    auto found = known.grid == flows.grid && known_frame != known.frames.end()
+                     ? *known_frame
+                     : read_flow_frame(in_plane, f, flows, is_body, stream_lines);
+    if (found.speed.empty()) continue;
     speeds.add(found.speed, is_body);
     pressures.add(found.pressure, is_body);
     flows.frames.push_back(std::move(found));
@@ -307,7 +320,8 @@ ShownFlows shown_flows(const Playback& playback) {
 }
 
 Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
-               const std::vector<std::size_t>& flow_frames, std::size_t points) {
+               const std::vector<std::size_t>& flow_frames, std::size_t points,
+               const FlowFrames& known) {
   Scene scene;
   scene.playback = in_plane(motion);
   scene.has_axis = motion.dimension == 1;
@@ -316,8 +330,8 @@ Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
   scene.is_in_fluid = extent.has_value();
   scene.box = view_box_of(playback, frames, extent);
   if (extent)
-    scene.flows =
-        read_flows(playback, scene.has_axis, common_part(*extent, scene.box), flow_frames, points);
+    scene.flows = read_flows(playback, scene.has_axis, common_part(*extent, scene.box), flow_frames,
+                             points, known);
   for (const auto& frame : playback.frames)
     for (const auto& contact : frame.contacts)
       if (std::isfinite(contact.gamma))

@@ -149,9 +149,11 @@ struct Scene {
 
 /// The scene that shows the frames of `motion` with the indices `frames`, with those flows of the
 /// frames `flow_frames` that exist, on a grid of about `points` points. Indices are not checked.
-/// Throws Error(kBadInput), which names the file, if a flow cannot be read.
+/// Flows on the same grid that `known` has are taken from there. Throws Error(kBadInput), which
+/// names the file, if a flow cannot be read.
 Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
-               const std::vector<std::size_t>& flow_frames, std::size_t points);
+               const std::vector<std::size_t>& flow_frames, std::size_t points,
+               const FlowFrames& known = {});
 
 /// The size of the normal force of a contact over Scene::top_force, from 0 to 1; 0 if that is 0.
 double force_share(const Scene& scene, const CurrentContact& contact);

@@ -17,6 +17,7 @@
 #include "viscontact/particles/io/playback.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 #include "viscontact/particles/picture/particles_picture.hpp"
+#include "viscontact/particles/picture/scene.hpp"
 #include "viscontact/particles/run/particles_folder.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
@@ -131,12 +132,13 @@ void write_pages(const ParticlesCase& c, const fs::path& folder,
   if (!std::ranges::all_of(playback.radii, [](float radius) { return std::isnormal(radius); }))
     terminal::warn(
         "particles: warning: particles.html and particles.svg show nothing, because a radius is "
-        "not "
-        "within 1e-37 and 3e38, the lengths that they can have; choose another unit of length");
+        "not between 1e-37 and 3e38, the lengths that they can draw; choose another unit of "
+        "length");
+  FlowFrames flows;
   results::write_output(folder / "particles.html", TextKind::kHtml,
-                        particles_page(playback, c.title), provenance);
+                        particles_page(playback, c.title, &flows), provenance);
   results::write_output(folder / "particles.svg", TextKind::kSvg,
-                        particles_picture(playback, c.title, kPanels), provenance);
+                        particles_picture(playback, c.title, kPanels, &flows), provenance);
 }
 
 void report_particles(const fs::path& folder) {

@@ -18,6 +18,7 @@ struct Window {
   double left = 0, right = 0, bottom = 0, top = 0;  ///< places of its sides [L]
   double width() const { return right - left; }     ///< [L], > 0
   double height() const { return top - bottom; }    ///< [L], > 0
+  bool operator==(const Window&) const = default;   ///< whether all sides are equal
 };
 
 /// Evenly spaced points that fill a window; the outermost points are on its sides.
@@ -33,6 +34,7 @@ struct Grid {
   }
   double y(std::size_t row) const { return window.bottom + static_cast<double>(row) * step_y(); }
   std::size_t size() const { return columns * rows; }  ///< number of points
+  bool operator==(const Grid&) const = default;        ///< whether all points are equal
   /// The window [L] that pixels fill if the points are their centres.
   Window pixel_window() const {
     return {window.left - step_x() / 2, window.right + step_x() / 2, window.bottom - step_y() / 2,

@@ -40,7 +40,7 @@ TEST_P(StudyScript, HasCasesThatRun) {
 
 INSTANTIATE_TEST_SUITE_P(Each, StudyScript,
                          ::testing::Values(Study{"inertia_study", 2}, Study{"convergence_study", 7},
-                                           Study{"membrane_study", 2}, Study{"valve_study", 6}),
+                                           Study{"membrane_study", 2}, Study{"valve_study", 5}),
                          [](const auto& study) { return std::string(study.param.script); });
 
 }  // namespace

@@ -57,11 +57,11 @@ TEST(Scaling, ForceOfAMovingPairIsLinearInItsVelocity) {
   tabulation.geometry = "sphere";
   tabulation.geometry_parameters = {2, -0.5, 0};
   // Velocities of both signs and five orders of magnitude, in one tabulation.
-  tabulation.reference_velocities = {-1, 1e-3, 250};
+  tabulation.reference_velocities = {-1e-3, 250};
   const TemporaryFolder scratch;
   const auto table = tabulate(default_freefem(), tabulation, 1, scratch.path() / "rows",
                               [](const TabulateProgress&) {});
-  ASSERT_EQ(table.rows.size(), 3U);
+  ASSERT_EQ(table.rows.size(), 2U);
   const auto& first = table.rows.front();
   for (const auto& row : table.rows)
     // One mesh, one matrix: round-off of the solve (1e-13) is all that may differ.

@@ -38,8 +38,7 @@ TEST(SolveScale, IsOneForOrdinaryNumbers) {
 
 TEST(SolveScale, ForceIsLinearInViscosityAndVelocityAtAnySize) {
   const auto unit = solve_row(default_freefem(), tabulation_of_viscosity(1), kGap, -1);
-  for (const auto& [viscosity, velocity] : {std::pair(1e100, -1.0), std::pair(1e-15, -1.0),
-                                            std::pair(1e30, 1e-30), std::pair(2.0, -1e200)}) {
+  for (const auto& [viscosity, velocity] : {std::pair(1e100, 1e-30), std::pair(1e-15, -1e200)}) {
     const auto row =
         solve_row(default_freefem(), tabulation_of_viscosity(viscosity), kGap, velocity);
     SCOPED_TRACE(viscosity);

@@ -26,8 +26,9 @@ struct Change {
 // What GoogleTest shows of the parameter.
 std::ostream& operator<<(std::ostream& out, const Change& change) { return out << change.name; }
 
-/// Solves a sphere that slides along a free surface with the changed scripts.
-ProcessResult solve_with(const std::vector<Change>& changes) {
+/// Solves a sphere that slides along a free surface (motion 1), or that approaches it (0), with the
+/// changed scripts.
+ProcessResult solve_with(const std::vector<Change>& changes, const std::string& motion = "1") {
   const TemporaryFolder scratch;
   auto freefem = default_freefem();
   const auto folder = scratch.path() / "scripts";
@@ -58,7 +59,7 @@ ProcessResult solve_with(const std::vector<Change>& changes) {
                       "-attempts",
                       "3",
                       "-motion",
-                      "1",
+                      motion,
                       "-containerRadius",
                       "0",
                       "-containerHeight",
@@ -90,10 +91,11 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 TEST(FailedSolve, IsFollowedByASequenceWithOtherNumbersOfCells) {
-  const auto right = solve_with({});
+  const auto right = solve_with({}, "0");
   const auto repeated =
       solve_with({{"", "extrapolation.idp", "bool solved = solveSequence();",
-                   "bool solved = attempt > 0; if (solved) solved = solveSequence();"}});
+                   "bool solved = attempt > 0; if (solved) solved = solveSequence();"}},
+                 "0");
   EXPECT_EQ(repeated.exit_status, 0) << repeated.output;
   const auto force = [](const ProcessResult& result) {
     return std::stod(line_after(result.output, "viscontact-result"));
@@ -105,7 +107,7 @@ TEST(FailedSolve, IsFollowedByASequenceWithOtherNumbersOfCells) {
 
 TEST(FailedSolve, OfAllSequencesEndsTheRow) {
   const auto result =
-      solve_with({{"", "extrapolation.idp", "relativeResidual < largestResidual", "false"}});
+      solve_with({{"", "extrapolation.idp", "relativeResidual < largestResidual", "false"}}, "0");
   EXPECT_EQ(result.exit_status, 4) << result.output;
   EXPECT_THAT(line_after(result.output, "viscontact-error"), HasSubstr("the linear solve failed"));
   EXPECT_EQ(line_after(result.output, "viscontact-result"), "");

@@ -114,7 +114,7 @@ TEST(Disc, AsSmallAsFreeFemCanMeshHasAMobilityThatGrowsWithTheLogarithm) {
   const BoxDomain box = {{0, 0}, {4, 4}, {}};
   double difference = 0, error = 6e-6;
   for (const auto& [radius, sign] : {std::pair(4e-6, 1), std::pair(1e-2, -1)}) {
-    PlacedFlow flow(fluid_with(12, RigidConstraint::kRigid), box, {{1.9, 1.7, radius}});
+    PlacedFlow flow(fluid_with(8, RigidConstraint::kRigid), box, {{1.9, 1.7, radius}});
     const auto found = flow.estimate({0, 1, 0});
     EXPECT_LT(found.of_velocities.best, 1e-3);
     difference += sign * found.velocities[1];
@@ -167,7 +167,7 @@ TEST(Disc, TheForceOfItsApproachAddsUpToGammaMin) {
       discs.insert(discs.end(), others.begin(), others.end());
       PlacedFlow::Driven driven = {{0, {-x, -y, 0}}};
       if (!others.empty()) driven[1] = {0, 0, 0};
-      PlacedFlow flow(fluid_with(24, RigidConstraint::kRigid), domain, discs, driven);
+      PlacedFlow flow(fluid_with(16, RigidConstraint::kRigid), domain, discs, driven);
       flow.velocities();
       const auto forces = flow.solver().quantities().fluid_forces;
       impulse += kWeights[i] * step / 3 * q * (forces[0] * x + forces[1] * y);

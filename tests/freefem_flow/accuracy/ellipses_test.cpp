@@ -78,7 +78,7 @@ double jeffery_rate(const std::array<double, 2>& semi_axes, double angle) {
 TEST(Ellipse, TurnsInShearAsJefferyFound) {
   for (const auto& [axes, angle] :
        {std::pair(std::array{1.0, 0.5}, 0.3), std::pair(std::array{0.4, 1.0}, 1.2)}) {
-    auto fluid = fluid_of(axes, 16);
+    auto fluid = fluid_of(axes, 12);
     fluid.boundary = particles::LinearFlow{{0, 1, 0, 0}};
     const auto rate = [&, angle = angle](double wall_radius) {
       return PlacedEllipse(fluid, wall_radius, angle).estimate({0, 0, 0}).velocities[2];

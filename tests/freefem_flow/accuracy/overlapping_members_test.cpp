@@ -107,7 +107,7 @@ TEST(OverlappingMembers, FloatInAFluidOfTheirDensity) {
 TEST(OverlappingMembers, AreNoPlatesWhoseCirclesMeet) {
   const auto velocity = [](RigidConstraint constraint) {
     InRoundWall body({{0, -0.5, 1}, {0, 0.5, 1}}, 12);
-    body.setting.fluid->semi_axes = {{1, 0.1}, {1, 0.1}};
+    body.setting.fluid->semi_axes = {{1, 0.2}, {1, 0.2}};
     body.setting.fluid->plates = {1, 1};
     body.setting.fluid->constraint = constraint;
     body.join();

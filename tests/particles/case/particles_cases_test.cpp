@@ -176,7 +176,7 @@ TEST(LotteryWithFriction, WallsTurnTheBallsAndCarryThemUp) {
 TEST(Heap, RoughDiscsComeToRestInAHeapOnTheFloorThatHingesHold) {
   ShippedRun heap("heap");
   const auto start = heap.now();
-  heap.to(20);
+  heap.to(14);
   const auto now = heap.now();
   double highest = 0;
   for (std::size_t k = 0; k < now.count(); ++k) {

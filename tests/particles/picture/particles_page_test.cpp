@@ -172,27 +172,7 @@ TEST_P(ParticlesInBrowser, BodiesLinksTurnsAndContactsThatSlideAreDrawn) {
   EXPECT_THAT(found["legend"].get<std::string>(), HasSubstr("sliding"));
 }
 
-TEST_P(ParticlesInBrowser, WidthOfAContactIsItsForceAndItsColourTheMobilisedFriction) {
-  const auto found = read_page(particles_page(loaded_row(GetParam()), "Loaded"), R"JS(
-setTimeout(() => {
-  const contacts = window.viscontactPlayer.contacts();
-  tell({widths: contacts.map(({width}) => width / contacts[0].width),
-        colours: contacts.map(({colour}) => colour),
-        legend: document.querySelector('.legend').textContent});
-}, 100);
-)JS",
-                               700);
-  ASSERT_TRUE(found.is_object());
-  // A byte has the force, so that shares are right to half of 1/255.
-  EXPECT_EQ(found["widths"][0], 1);
-  EXPECT_NEAR(found["widths"][1], 0.5, 0.002);
-  EXPECT_NEAR(found["widths"][2], 0.25, 0.002);
-  EXPECT_EQ(found["colours"], (nlohmann::json{report::friction_colour(0.5), report::kSlidingColour,
-                                              report::kTouchingColour}));
-  EXPECT_THAT(found["legend"].get<std::string>(), HasSubstr("widest from 4 [mass × length/time²]"));
-}
-
-TEST_P(ParticlesInBrowser, ColoursAreThoseOfTheQuantityThatIsChosen) {
+TEST_P(ParticlesInBrowser, WidthsOfContactsAndColoursShowTheirQuantities) {
   auto motion = loaded_row(GetParam());
   motion.masses = {1, 2, 3, 4};
   motion.frames.at(0).speeds = {0, 0, 4, 4};
@@ -200,7 +180,12 @@ TEST_P(ParticlesInBrowser, ColoursAreThoseOfTheQuantityThatIsChosen) {
 (async () => {
   const pause = () => new Promise(done => setTimeout(done, 60));
   const player = window.viscontactPlayer, list = document.getElementById('colour');
-  const found = {choices: [...list.options].map(o => o.value)};
+  await pause();
+  const contacts = player.contacts();
+  const found = {choices: [...list.options].map(o => o.value),
+                 widths: contacts.map(({width}) => width / contacts[0].width),
+                 colours: contacts.map(({colour}) => colour),
+                 legend: document.querySelector('.legend').textContent};
   for (const name of ['speed', 'radius', 'mass', 'force', '']) {
     list.value = name;
     list.dispatchEvent(new Event('change'));
@@ -214,6 +199,13 @@ TEST_P(ParticlesInBrowser, ColoursAreThoseOfTheQuantityThatIsChosen) {
 )JS",
                                700);
   ASSERT_TRUE(found.is_object());
+  // A byte has the force, so that shares are right to half of 1/255.
+  EXPECT_EQ(found["widths"][0], 1);
+  EXPECT_NEAR(found["widths"][1], 0.5, 0.002);
+  EXPECT_NEAR(found["widths"][2], 0.25, 0.002);
+  EXPECT_EQ(found["colours"], (nlohmann::json{report::friction_colour(0.5), report::kSlidingColour,
+                                              report::kTouchingColour}));
+  EXPECT_THAT(found["legend"].get<std::string>(), HasSubstr("widest from 4 [mass × length/time²]"));
   EXPECT_EQ(found["choices"], (nlohmann::json{"", "speed", "radius", "mass", "force"}));
   const auto near = [&](const char* name, std::vector<double> expected) {
     ASSERT_EQ(found[name]["values"].size(), 4U);
@@ -232,7 +224,7 @@ TEST_P(ParticlesInBrowser, ColoursAreThoseOfTheQuantityThatIsChosen) {
   EXPECT_EQ(found["none"]["hidden"], true);
 }
 
-TEST_P(ParticlesInBrowser, TheAddressKeepsTimeViewAndColours) {
+TEST_P(ParticlesInBrowser, TheAddressKeepsTimeViewAndColoursAndTheMotionIsSavedAsAFilm) {
   const auto found = read_page(particles_page(falling_row(GetParam(), 5, 5), "Five in a row"), R"JS(
 (async () => {
   const pause = ms => new Promise(done => setTimeout(done, ms));
@@ -260,6 +252,10 @@ TEST_P(ParticlesInBrowser, TheAddressKeepsTimeViewAndColours) {
     found.wrong = {time: player.time, colour: document.getElementById('colour').value};
   }
   found.history = history.length - entries;
+  document.getElementById('speed').value = 4;
+  const film = await player.makeFilm();
+  const head = new Uint8Array(await film.slice(0, 4).arrayBuffer());
+  found.film = {size: film.size, type: film.type, head: [...head], time: player.time};
   tell(found);
 })();
 )JS",
@@ -275,23 +271,11 @@ TEST_P(ParticlesInBrowser, TheAddressKeepsTimeViewAndColours) {
   EXPECT_EQ(found["wrong"]["time"], 1.25);
   EXPECT_EQ(found["wrong"]["colour"], "");
   EXPECT_EQ(found["history"], 0);
-}
-
-TEST_P(ParticlesInBrowser, TheMotionIsSavedAsAFilm) {
-  const auto found = read_page(particles_page(falling_row(GetParam(), 5, 5), "Five in a row"), R"JS(
-(async () => {
-  document.getElementById('speed').value = 4;
-  const film = await window.viscontactPlayer.makeFilm();
-  const head = new Uint8Array(await film.slice(0, 4).arrayBuffer());
-  tell({size: film.size, type: film.type, head: [...head], time: window.viscontactPlayer.time});
-})();
-)JS",
-                               700);
-  ASSERT_TRUE(found.is_object());
-  EXPECT_GT(found["size"], 1000);
-  EXPECT_EQ(found["type"], "video/webm");
-  EXPECT_EQ(found["head"], (nlohmann::json{0x1A, 0x45, 0xDF, 0xA3}));  // of EBML, WebM's container
-  EXPECT_EQ(found["time"], 2);
+  const auto film = found["film"];
+  EXPECT_GT(film["size"], 1000);
+  EXPECT_EQ(film["type"], "video/webm");
+  EXPECT_EQ(film["head"], (nlohmann::json{0x1A, 0x45, 0xDF, 0xA3}));  // of EBML, WebM's container
+  EXPECT_EQ(film["time"], 2);
 }
 
 TEST_P(ParticlesInBrowser, TheUnitsOfTheCaseStandBesideItsNumbers) {

@@ -8,6 +8,7 @@
 
 #include "tests/particles/picture/playbacks.hpp"
 #include "tests/report/flow/flows.hpp"
+#include "viscontact/particles/picture/particles_picture.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -57,6 +58,24 @@ TEST(Scene, PressureHasNoMeanOutsideTheParticles) {
   EXPECT_LT(flows.pressure_colours.high, 10);
   EXPECT_EQ(flows.top_speed, 0);
   EXPECT_TRUE(flows.frames[0].lines.empty());
+}
+
+TEST(Scene, TakesKnownFlowsIfTheyAreOnTheSameGrid) {
+  const TemporaryFolder folder;
+  const auto playback = disc_in_flow(folder, 3, report::turning);
+  auto known = scene_of(playback, {0, 1, 2}, {0, 1, 2}, 2000).flows;
+  known.frames.at(1).speed.front() = 42;
+  const auto first_speed = [&](std::size_t points) {
+    return scene_of(playback, {0, 2}, {1}, points, known).flows.frames.at(0).speed.front();
+  };
+  EXPECT_EQ(first_speed(2000), 42);
+  EXPECT_NE(first_speed(1000), 42);
+  // The picture with the flows of the page is the picture without them.
+  FlowFrames of_page;
+  (void)particles_page(playback, "Turning", &of_page);
+  EXPECT_EQ(of_page.frames.size(), 3U);
+  EXPECT_EQ(particles_picture(playback, "Turning", 3, &of_page),
+            particles_picture(playback, "Turning", 3));
 }
 
 TEST(Scene, TopSpeedIsThatOutsideTheParticles) {

@@ -1,22 +1,79 @@
 // `viscontact report DIR` makes the pages of every kind of folder again from its other files: they
-// are those of the run, apart from the line that says how they were made.
+// are those of the run, apart from the line that says how they were made. Colours, and places of
+// texts, in the pictures of a swimmer and of a rolling sphere.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
+#include "tests/common/regular_expressions.hpp"
 #include "tests/program/particles/particles_command.hpp"
 #include "tests/program/sample_files.hpp"
 #include "tests/program/undisturbed.hpp"
+#include "viscontact/common/text/number.hpp"
 
 namespace viscontact {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 const std::string kData = VISCONTACT_SOURCE_FOLDER "/data/";
+
+/// A text of a picture, and the height of its baseline, downwards [pixels].
+struct PlacedText {
+  std::string text;
+  double y;
+};
+
+std::vector<PlacedText> texts_of(const std::string& svg) {
+  std::vector<PlacedText> texts;
+  for (const auto& match :
+       matches_in(svg, "translate\\([0-9.]+,([0-9.]+)\\)[^>]*>\\s*<text>\\s*([^<]*)</text>"))
+    texts.push_back({match[2], parse_number(match[1]).value()});
+  return texts;
+}
+
+/// The name of the horizontal axis must not touch the numbers above it, nor the legend below it.
+void expect_room_around(const std::string& name, const std::string& picture) {
+  SCOPED_TRACE(picture);
+  const auto texts = texts_of(read_file(picture));
+  bool found = false;
+  for (const auto& label : texts) {
+    if (label.text != name) continue;
+    found = true;
+    double above = 0, below = 1e9;
+    for (const auto& other : texts) {
+      if (other.y < label.y && parse_number(other.text)) above = std::max(above, other.y);
+      if (other.y > label.y) below = std::min(below, other.y);
+    }
+    // The letters are 14 pixels high. Of a line 19 pixels below, the tops stay 2 pixels away from
+    // the strokes that letters like g have below the baseline.
+    EXPECT_GE(label.y - above, 19);
+    EXPECT_GE(below - label.y, 19);
+  }
+  EXPECT_TRUE(found);
+}
+
+/// No two curves of a page have the same colour, and each has the same one in all pictures. Returns
+/// the colours by the names of the curves.
+std::map<std::string, std::set<std::string>> colours_of(const std::string& page,
+                                                        std::size_t curves) {
+  std::map<std::string, std::set<std::string>> colours, names;
+  for (const auto& match :
+       matches_in(read_file(page), "\"legend\":\"([^\"]+)\",\"colour\":\"([^\"]+)\"")) {
+    colours[match[1]].insert(match[2]);
+    names[match[2]].insert(match[1]);
+  }
+  EXPECT_EQ(colours.size(), curves) << page;
+  for (const auto& [name, its] : colours) EXPECT_EQ(its.size(), 1U) << name;
+  for (const auto& [colour, its] : names) EXPECT_EQ(its.size(), 1U) << colour;
+  return colours;
+}
 
 class PagesAgain : public ParticlesCommand {
  protected:
@@ -45,6 +102,9 @@ class PagesAgain : public ParticlesCommand {
 TEST_F(PagesAgain, OfARollingSphere) {
   expect_done(run_viscontact({"rolling", kData + "cases/rolling/incline.toml", "-o", path("out")}));
   expect_same_again(6);
+  for (const std::string name : {"gap", "velocity", "friction"})
+    expect_room_around("time", path("out/plots/" + name + ".svg"));
+  colours_of(path("out/report.html"), 3);
 }
 
 TEST_F(PagesAgain, OfARollingSphereOfWhichAModelFailed) {
@@ -63,6 +123,16 @@ TEST_F(PagesAgain, OfASwimmer) {
   put_case(replaced(text, "period = 1.0", "period = 3.0"));
   expect_done(run_viscontact({"swimmer", path("case.toml"), "-o", path("out")}));
   expect_same_again(7);
+  expect_room_around("arm x1", path("out/plots/loops.svg"));
+  expect_room_around("time / period", path("out/plots/position.svg"));
+  expect_room_around("time", path("out/plots/arms.svg"));
+  expect_room_around("polynomials for each arm", path("out/plots/convergence.svg"));
+  auto colours = colours_of(path("out/report.html"), 2 + 2 + 3 + 2);
+  EXPECT_EQ(*colours["stroke"].begin(), "#56B4E9");
+  EXPECT_EQ(*colours["optimal stroke"].begin(), "#D55E00");
+  // gnuplot writes the same two colours so.
+  EXPECT_THAT(read_file(path("out/plots/loops.svg")),
+              AllOf(HasSubstr("rgb( 86, 180, 233)"), HasSubstr("rgb(213,  94,   0)")));
   put_text(out() / "swimmer.json", replaced(read_file(out() / "swimmer.json"), "efficiency", "e"));
   expect_refusal(report(), ErrorKind::kBadInput,
                  HasSubstr("swimmer.json: is not complete (key 'efficiency' not found)"));

@@ -69,12 +69,12 @@ TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
                     HasSubstr("trajectories are up to date"), HasSubstr("report: up to date")));
 }
 
-TEST_F(Run, ChangedMotionIsSimulatedAgainButNotTabulated) {
+TEST_F(Run, OfAChangedCaseMakesAgainWhatDependsOnTheChange) {
   expect_done(run());
   const auto made = write_times(folder());
+  // The motion: it is simulated again, but not tabulated.
   put_text(case_file(), replaced(gentle_case_text(), "value = -20.0", "value = -10.0"));
-  const auto again = run();
-  expect_done(again);
+  expect_done(run());
   EXPECT_EQ(fake_.answered().size(), 6U);
   const auto now = write_times(folder());
   EXPECT_EQ(now.size(), made.size());
@@ -86,10 +86,18 @@ TEST_F(Run, ChangedMotionIsSimulatedAgainButNotTabulated) {
     }
   }
   EXPECT_EQ(read_file(folder() / "case.toml"), read_file(case_file()));
-}
-
-TEST_F(Run, ChangedTabulationIsMadeAgain) {
+  // Models that the case no longer names are gone.
+  put_text(case_file(), replaced(gentle_case_text(), "end_time = 4.0",
+                                 "end_time = 4.0\nmodels = [\"inertial\", \"reference\"]"));
   expect_done(run());
+  EXPECT_EQ(files_below(folder() / "trajectories").size(), 2U);
+  EXPECT_EQ(reduced_model::read_comparison(folder() / "comparison.json").models.size(), 2U);
+  // The basis: the table is fitted again, but not made.
+  put_text(case_file(), replaced(gentle_case_text(), "\"lecture\"", "\"asymptotic\""));
+  expect_done(run());
+  EXPECT_EQ(fake_.answered().size(), 6U);
+  EXPECT_EQ(lubrication::read_fit(folder() / "fit.json").basis, "asymptotic");
+  // The tabulation.
   const std::string table = read_file(folder() / "table.csv");
   put_text(case_file(), replaced(gentle_case_text(), "radius = 5.0", "radius = 6.0"));
   expect_done(run());
@@ -97,65 +105,35 @@ TEST_F(Run, ChangedTabulationIsMadeAgain) {
   EXPECT_NE(read_file(folder() / "table.csv"), table);
 }
 
-TEST_F(Run, ChangedBasisIsFittedAgainButNotTabulated) {
-  expect_done(run());
-  put_text(case_file(), replaced(gentle_case_text(), "\"lecture\"", "\"asymptotic\""));
-  expect_done(run());
-  EXPECT_EQ(fake_.answered().size(), 6U);
-  EXPECT_EQ(lubrication::read_fit(folder() / "fit.json").basis, "asymptotic");
-}
-
-TEST_F(Run, ModelsThatTheCaseNoLongerNamesAreGone) {
-  expect_done(run());
-  put_text(case_file(), replaced(gentle_case_text(), "end_time = 4.0",
-                                 "end_time = 4.0\nmodels = [\"inertial\", \"reference\"]"));
-  expect_done(run());
-  EXPECT_EQ(files_below(folder() / "trajectories").size(), 2U);
-  EXPECT_EQ(reduced_model::read_comparison(folder() / "comparison.json").models.size(), 2U);
-}
-
-/// A file of a finished run that is damaged.
-class DamagedFile : public Run, public ::testing::WithParamInterface<std::string> {};
-
-TEST_P(DamagedFile, IsMadeAgainWithAllThatIsMadeFromIt) {
-  expect_done(run());
-  const auto file = folder() / GetParam();
-  const std::string whole = read_file(file);
-  std::size_t answered = 6;
-  for (const auto& damaged : {whole.substr(0, whole.size() / 2), std::string()}) {
-    SCOPED_TRACE(damaged.size());
-    put_text(file, damaged);
-    expect_done(run());
-    // Times of solves and steps differ from run to run; the length of all else, and the last line,
-    // do not.
-    const std::string now = read_file(file);
-    const auto last_line = [](const std::string& text) {
-      return text.size() < 2 ? text : text.substr(text.rfind('\n', text.size() - 2) + 1);
-    };
-    if (file.extension() == ".csv") {
-      EXPECT_EQ(std::ranges::count(now, '\n'), std::ranges::count(whole, '\n'));
-    }
-    if (GetParam() == "table.csv") {
-      answered += 6;
-    } else {
-      EXPECT_EQ(last_line(now), last_line(whole));
-    }
-    EXPECT_EQ(fake_.answered().size(), answered);
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Each, DamagedFile,
-                         ::testing::Values("table.csv", "fit.json", "trajectories/inertial.csv",
-                                           "comparison.json"),
-                         [](const auto& test) {
-                           std::string name = test.param;
-                           std::erase_if(name, [](char c) { return c == '.' || c == '/'; });
-                           return name;
-                         });
-
-TEST_F(Run, MissingFileIsMadeAgain) {
+TEST_F(Run, DamagedOrMissingFileIsMadeAgainWithAllThatIsMadeFromIt) {
   expect_done(run());
   const auto complete = files_below(folder());
+  std::size_t answered = 6;
+  for (const fs::path name :
+       {"table.csv", "fit.json", "trajectories/inertial.csv", "comparison.json"}) {
+    const auto file = folder() / name;
+    const std::string whole = read_file(file);
+    for (const auto& damaged : {whole.substr(0, whole.size() / 2), std::string()}) {
+      SCOPED_TRACE(name.string() + " of " + std::to_string(damaged.size()) + " bytes");
+      put_text(file, damaged);
+      expect_done(run());
+      // Times of solves and steps differ from run to run; the length of all else, and the last
+      // line, do not.
+      const std::string now = read_file(file);
+      const auto last_line = [](const std::string& text) {
+        return text.size() < 2 ? text : text.substr(text.rfind('\n', text.size() - 2) + 1);
+      };
+      if (name.extension() == ".csv") {
+        EXPECT_EQ(std::ranges::count(now, '\n'), std::ranges::count(whole, '\n'));
+      }
+      if (name == "table.csv") {
+        answered += 6;
+      } else {
+        EXPECT_EQ(last_line(now), last_line(whole));
+      }
+      EXPECT_EQ(fake_.answered().size(), answered);
+    }
+  }
   for (const auto* name : {"fit.json", "trajectories/viscous_contact.csv", "comparison.json",
                            "report.html", "case.toml", "plots/gap.svg", "uncertainty.json"}) {
     fs::remove(folder() / name);
@@ -163,10 +141,10 @@ TEST_F(Run, MissingFileIsMadeAgain) {
     EXPECT_TRUE(fs::exists(folder() / name)) << name;
     EXPECT_EQ(files_below(folder()).size(), complete.size()) << name;
   }
-  EXPECT_EQ(fake_.answered().size(), 6U);
+  EXPECT_EQ(fake_.answered().size(), answered);
 }
 
-TEST_F(Run, ReportOfAnotherFitIsMadeAgain) {
+TEST_F(Run, WhatWasMadeFromAnotherFitOrWithAnotherDragIsMadeAgain) {
   expect_done(run());
   const auto fit = read_file(folder() / "fit.json");
   put_text(folder() / "fit.json",
@@ -176,12 +154,9 @@ TEST_F(Run, ReportOfAnotherFitIsMadeAgain) {
   const auto again = run();
   expect_done(again);
   EXPECT_THAT(read_file(folder() / "report.html"), Not(HasSubstr("another fit")));
-}
-
-TEST_F(Run, TrajectoriesMadeWithAnotherDragOutsideTheFitAreMadeAgain) {
-  expect_done(run());
-  const auto fit = (folder() / "fit.json").string();
-  expect_done(run_viscontact({"simulate", case_file().string(), "--fit", fit, "-o",
+  // Trajectories with another drag outside the fit.
+  const auto fit_file = (folder() / "fit.json").string();
+  expect_done(run_viscontact({"simulate", case_file().string(), "--fit", fit_file, "-o",
                               folder().string(), "--lubrication-limit", "--stokes-limit"}));
   EXPECT_THAT(read_file(trajectory("inertial")),
               AllOf(HasSubstr("# drag below the fit: lubrication limit\n"),

@@ -59,7 +59,7 @@ class SwimmerCommand : public ::testing::Test {
   TemporaryFolder scratch_;
 };
 
-TEST_F(SwimmerCommand, SwimsWithTheShippedTableAsThePublishedSwimmerDoes) {
+TEST_F(SwimmerCommand, SwimsWithTheShippedTableAsThePublishedSwimmerDoesAndSweeps) {
   const auto result = swim(kThreeSpheres, path("out"), {"--json"});
   expect_done(result);
   EXPECT_THAT(result.errors,
@@ -91,6 +91,33 @@ TEST_F(SwimmerCommand, SwimsWithTheShippedTableAsThePublishedSwimmerDoes) {
                           HasSubstr("0.159805"), HasSubstr("Lighthill")));
   for (const char* name : {"loops", "position", "power", "arms", "forces", "convergence"})
     EXPECT_THAT(read_file(path("out/plots/") + name + ".svg"), HasSubstr("</svg>")) << name;
+
+  // A sweep over strokes takes the fit.
+  const auto sweep = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"sweep", kThreeSpheres, "-o", path("rows.csv")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_viscontact(arguments);
+  };
+  expect_done(sweep({"--fit", path("out/fit.json"), "--vary", "fluid.viscosity=1,2", "--plot",
+                     path("rows.svg")}));
+  const auto swept = read_csv<4>(
+      path("rows.csv"), {"fluid.viscosity", "displacement", "energy", "optimal.energy"}, 4);
+  ASSERT_EQ(swept.rows.size(), 2U);
+  EXPECT_NEAR(*swept.rows[1].fields[1] / *swept.rows[0].fields[1], 1, 1e-12);
+  EXPECT_NEAR(*swept.rows[1].fields[2] / *swept.rows[0].fields[2], 2, 1e-12);
+  EXPECT_NEAR(*swept.rows[1].fields[3] / *swept.rows[0].fields[3], 2, 1e-9);
+  EXPECT_THAT(read_file(path("rows.svg")), HasSubstr("</svg>"));
+  expect_refusal(sweep({"--vary", "stroke.period=1,2"}), ErrorKind::kWrongUsage,
+                 HasSubstr("--fit"));
+  expect_refusal(sweep({"--fit", path("out/fit.json"), "--vary", "swimmer.arms.to=11,12"}),
+                 ErrorKind::kWrongUsage, HasSubstr("changes the table"));
+
+  // A case without an optimal stroke removes that of an earlier run.
+  EXPECT_TRUE(fs::exists(path("out/optimal_stroke.csv")));
+  expect_done(swim(scratch_.file("case.toml", without_optimal()).string(), path("out")));
+  EXPECT_FALSE(fs::exists(path("out/optimal_stroke.csv")));
+  EXPECT_FALSE(fs::exists(path("out/plots/convergence.svg")));
+  EXPECT_FALSE(nlohmann::json::parse(read_file(path("out/swimmer.json"))).contains("optimal"));
 }
 
 /// Stokes flow has no length of its own: displacements scale with the radius r, and energies with
@@ -140,15 +167,6 @@ TEST_F(SwimmerCommand, SecondCallKeepsTableAndFitAndGivesTheSameResults) {
       run_viscontact({"rerun", path("out/swimmer.json"), "-o", path("again"), "--dry-run"});
   expect_done(rerun);
   EXPECT_THAT(rerun.output, HasSubstr("swimmer " + plain));
-}
-
-TEST_F(SwimmerCommand, CaseWithoutOptimalStrokeRemovesThatOfAnEarlierRun) {
-  expect_done(swim(kThreeSpheres, path("out")));
-  EXPECT_TRUE(fs::exists(path("out/optimal_stroke.csv")));
-  expect_done(swim(scratch_.file("case.toml", without_optimal()).string(), path("out")));
-  EXPECT_FALSE(fs::exists(path("out/optimal_stroke.csv")));
-  EXPECT_FALSE(fs::exists(path("out/plots/convergence.svg")));
-  EXPECT_FALSE(nlohmann::json::parse(read_file(path("out/swimmer.json"))).contains("optimal"));
 }
 
 // Two equal spheres in a tube, so far apart that each has its drag alone, on one arm x =
@@ -203,28 +221,6 @@ TEST_F(SwimmerCommand, TabulateTakesTheCaseAndAnInterruptedTableIsContinued) {
   EXPECT_THAT(read_file(path("table.csv")), HasSubstr("# rows: 144"));
   expect_refusal(tabulate({"--plot"}), ErrorKind::kWrongUsage,
                  HasSubstr("has no section [tabulation]"));
-}
-
-TEST_F(SwimmerCommand, SweepsOverStrokesWithOneFit) {
-  expect_done(swim(kThreeSpheres, path("out")));
-  const auto sweep = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"sweep", kThreeSpheres, "-o", path("rows.csv")};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_viscontact(arguments);
-  };
-  expect_done(sweep({"--fit", path("out/fit.json"), "--vary", "fluid.viscosity=1,2", "--plot",
-                     path("rows.svg")}));
-  const auto rows = read_csv<4>(path("rows.csv"),
-                                {"fluid.viscosity", "displacement", "energy", "optimal.energy"}, 4);
-  ASSERT_EQ(rows.rows.size(), 2U);
-  EXPECT_NEAR(*rows.rows[1].fields[1] / *rows.rows[0].fields[1], 1, 1e-12);
-  EXPECT_NEAR(*rows.rows[1].fields[2] / *rows.rows[0].fields[2], 2, 1e-12);
-  EXPECT_NEAR(*rows.rows[1].fields[3] / *rows.rows[0].fields[3], 2, 1e-9);
-  EXPECT_THAT(read_file(path("rows.svg")), HasSubstr("</svg>"));
-  expect_refusal(sweep({"--vary", "stroke.period=1,2"}), ErrorKind::kWrongUsage,
-                 HasSubstr("--fit"));
-  expect_refusal(sweep({"--fit", path("out/fit.json"), "--vary", "swimmer.arms.to=11,12"}),
-                 ErrorKind::kWrongUsage, HasSubstr("changes the table"));
 }
 
 TEST_F(SwimmerCommand, OptimalStrokeThatLeavesTheTableIsRefusedAfterTableAndFitAreKept) {
