@@ -293,10 +293,11 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
     const double falls = rate_at(t);
     if (!(falls < 0)) return otherwise();
     const double change = -gap_at(t) / falls;
-    t += change;
+    // Rounding errors of the gap are larger than those of times.
+    t = std::max(t + change, from);
     if (std::abs(change) <= 4 * std::numeric_limits<double>::epsilon() * t) break;
   }
-  return t > from && t <= until ? std::optional(t) : otherwise();
+  return t <= until ? std::optional(t) : otherwise();
 }
 
 /// The contact of pair `k` if it is hit at `time`: its gap is closed and closes fast enough.
