@@ -102,12 +102,11 @@ class Iteration {
     gained_at_ = best_.result.iterations;
   }
   /// True if the best residual was not halved in the last iterations. With 2000 in place of 3000 and
-  /// Coulomb's law, three more of the 200 steps of bench/box2d.cpp ended without a solution. A
-  /// convex problem takes 20 to 70 iterations, unless it has no solution.
+  /// Coulomb's law, three more of the 200 steps of bench/box2d.cpp ended without a solution. Convex
+  /// problems whose loads are not given take 20 to 70 iterations, unless they have no solution.
   bool is_stagnant() const {
-    constexpr int kPatience = 3000, kPatienceOfConvex = 300;
-    return best_.result.iterations - gained_at_ >
-           (problem_.is_convex ? kPatienceOfConvex : kPatience);
+    constexpr int kPatience = 3000, kPatienceOfCones = 300;
+    return best_.result.iterations - gained_at_ > (has_cones_ ? kPatienceOfCones : kPatience);
   }
 
   /// Takes a proximal step of a problem with Coulomb's law. Between jammed particles that stick,
@@ -213,8 +212,8 @@ class Iteration {
   /// Solves a convex problem by interior points alone.
   void find_interior_solution(int max_iterations) {
     // Accuracies relative to the violations without impulses. With 1e-6 in place of kAccurate
-    // spheres take 3 to 7 % less time, because proximal steps reach the rest; but near the corners
-    // of several cones these fail. The rough one finds the pairs that take part, and first loads. In
+    // spheres take 3 to 7 % less time, because proximal steps reach the rest; but proximal steps
+    // fail where several contacts are near the tips of their cones. The rough one finds the pairs that take part, and first loads. In
     // bench/box2d.cpp it misses no more pairs with 1e-2 than with 1e-3, but some more with 3e-2.
     constexpr double kRough = 1e-2, kAccurate = 1e-9, kExact = 1e-13;
     constexpr int kMostIterations = 60;

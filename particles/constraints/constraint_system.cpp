@@ -17,6 +17,10 @@
 namespace viscontact::particles {
 namespace {
 
+/// Most iterations of a solution with given loads. Such solutions take 100 to 200 iterations, and
+/// some of them 1000.
+constexpr int kMostOfGivenLoads = 3000;
+
 /// The coefficients by which the motion of one unit enters a link's equation.
 template <int D>
 Motion<D> row_of(const LinkPart& part) {
@@ -63,22 +67,20 @@ void ConstraintSystem<D>::join_linked(ContactSystem<D>& system) const {
 
 template <int D>
 bool ConstraintSystem<D>::is_held_apart(const Pair& pair, double tolerated) const {
-  if (pair.first < 0 || step_.links->arms.empty()) return false;
-  const double touching =
-      particles_.radii[index_of(pair.first)] + particles_.radii[index_of(pair.second)];
-  double square = 0;
-  for (const double x : separation<D>(particles_, pair.first, pair.second, pair.image))
-    square += x * x;
-  return std::ranges::any_of(links_, [&](const LinkEquations& link) {
-    if (link.kind != LinkEquations::Kind::kArm) return false;
-    const auto& arm = step_.links->arms[link.number];
-    if (std::minmax(arm.first, arm.second) != std::minmax(pair.first, pair.second)) return false;
-    const double length = length_at(arm.length, times_.end);
-    // An arm holds the nearest image. Images that are farther away may still touch.
-    constexpr double kRounding = 1e-9;
-    const double distance = link.rows.front().value + length;
-    return length >= touching - tolerated && std::sqrt(square) <= (1 + kRounding) * distance;
-  });
+  for (const auto& arm : step_.links->arms) {
+    if (std::minmax(arm.first, arm.second) != std::minmax(pair.first, pair.second)) continue;
+    const double touching =
+        particles_.radii[index_of(pair.first)] + particles_.radii[index_of(pair.second)];
+    double square = 0;
+    for (const double x : separation<D>(particles_, pair.first, pair.second, pair.image))
+      square += x * x;
+    // The arm has its present length between the nearest images. Images that are farther away may
+    // still touch. Arms keep their lengths to the tolerance of gaps, and a cell is much larger.
+    constexpr double kRounding = 1e-3;
+    return length_at(arm.length, times_.end) >= touching - tolerated &&
+           std::sqrt(square) <= (1 + kRounding) * length_at(arm.length, step_.begin);
+  }
+  return false;
 }
 
 template <int D>
@@ -303,44 +305,53 @@ void ConstraintSystem<D>::give_loads_of_step() {
     problem_.blocks[c].given_load = given_loads_[c];
 }
 
+/// Solves problem_ with given loads in place of those of the solution: the loads at its present
+/// impulses, or, if `without_friction`, those of a solution without friction. If it is solved,
+/// replaces `solution` and returns true. Adds its iterations to `solution` in any case.
+template <int D>
+bool ConstraintSystem<D>::solve_with_given_loads(bool without_friction,
+                                                 ConstraintSolution<D>& solution) {
+  give_loads(problem_);
+  if (without_friction) {
+    for (auto& block : problem_.blocks) block.given_load = 0;
+    std::ranges::fill(problem_.impulses, 0.0);
+    problem_.keeps_loads = false;
+  }
+  auto with_given_loads = solve_constraints(problem_, kMostOfGivenLoads);
+  problem_.keeps_loads = true;
+  const int taken = solution.result.iterations + with_given_loads.result.iterations;
+  const bool is_solved = with_given_loads.result.residual <= 1;
+  if (is_solved) solution = std::move(with_given_loads);
+  solution.result.iterations = taken;
+  return is_solved;
+}
+
 /// Solves problem_ as it is. If the problem, in which loads of the solution bound the friction, is
 /// not solved in `max_iterations`, solves it with given loads, in more iterations, and sets
-/// has_given_up_.
+/// has_given_up_. A convex problem is given up only if further iterations would not solve it.
 template <int D>
 ConstraintSolution<D> ConstraintSystem<D>::solve_problem(int max_iterations) {
-  // Solutions with given loads take 100 to 200 iterations, and some of them 1000.
-  constexpr int kMostOfGivenLoads = 3000;
   if (has_given_up_) return solve_constraints(problem_, kMostOfGivenLoads);
   auto solution = solve_constraints(problem_, std::max(1, max_iterations));
   const bool has_own_loads = std::ranges::any_of(problem_.blocks, [](const ConstraintBlock& block) {
     return block.is_contact && block.rows > 1 && block.friction_bound != FrictionBound::kGiven;
   });
-  if (solution.result.residual <= 1 || problem_.is_rough || !has_own_loads || !can_give_up_)
+  if (solution.result.residual <= 1 || problem_.is_rough || !has_own_loads || !can_give_up_ ||
+      (is_convex_ && solution.result.iterations >= max_iterations))
     return solution;
   const auto with_own_loads = problem_;
-  const int taken = solution.result.iterations;
-  // If impulses grew without bound, because friction locks particles that must move, the loads of
-  // the best iterate have no meaning. This is so in each convex problem without a solution.
-  for (const bool is_first_without_friction : {false, true}) {
-    if (is_convex_ && !is_first_without_friction) continue;
+  // Where friction locks particles that must move, impulses grow without bound, and the loads of the
+  // best iterate have no meaning. So it is in each convex problem without a solution.
+  has_given_up_ = (!is_convex_ && solve_with_given_loads(false, solution)) ||
+                  solve_with_given_loads(true, solution);
+  if (!has_given_up_) {
+    // Links contradict each other.
+    can_give_up_ = false;
     problem_ = with_own_loads;
-    give_loads(problem_);
-    if (is_first_without_friction) {
-      for (auto& block : problem_.blocks) block.given_load = 0;
-      std::ranges::fill(problem_.impulses, 0.0);
-      problem_.keeps_loads = false;
-    }
-    auto with_given_loads = solve_constraints(problem_, kMostOfGivenLoads);
-    with_given_loads.result.iterations += taken;
-    has_given_up_ = with_given_loads.result.residual <= 1;
-    if (!has_given_up_) continue;
-    for (std::size_t c = 0; c < carried_.size(); ++c)
-      given_loads_.push_back(problem_.blocks[c].given_load);
-    return with_given_loads;
+    return solution;
   }
-  // If the problem is not solved with given loads either, links contradict each other.
-  can_give_up_ = false;
-  problem_ = with_own_loads;
+  for (std::size_t c = 0; c < carried_.size(); ++c)
+    given_loads_.push_back(problem_.blocks[c].given_load);
   return solution;
 }
 
@@ -379,7 +390,8 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     constexpr int kPatience = 3;
     growing = change < last_change ? 0 : growing + 1;
     last_change = change;
-    // Otherwise errors of the solutions are left, which slips allow and turns pass on to gaps.
+    // If a correction does not shrink, what is left are errors of the solutions: slips are allowed,
+    // and turns pass them on to gaps. Further solutions are therefore exact.
     problem_.is_exact = problem_.is_exact || growing > 0;
     // The loads of a solution bound the friction of the next one. With large friction this may
     // repeat without end, while corrections would follow the loads instead of vanishing. The first

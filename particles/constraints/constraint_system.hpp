@@ -82,10 +82,13 @@ class ConstraintSystem {
   /// finite turns and their linear values, until this difference is below half of what is allowed.
   ///
   /// If Coulomb's law is not solved in `max_iterations`, the friction is bounded by the loads of
-  /// the best iterate (give_loads()), in this and all later calls, so that at least gaps, films and
-  /// links are exact. residual() remains that of Coulomb's law. The convex relaxation (5.9) has no
-  /// solution where friction locks particles that must move. Its friction is then bounded by the
-  /// loads of a solution without friction, as in (5.17), and residual() is that of (5.17).
+  /// the best iterate, in this and all later calls, so that at least gaps, films and links are
+  /// exact. If these loads are so large that this fails, too, the friction is bounded by the loads
+  /// of a solution without friction. residual() remains that of Coulomb's law.
+  ///
+  /// The convex relaxation (5.9) has no solution where friction locks particles that must move. If
+  /// iterations no longer reduce its residual, the friction is bounded by the loads of a solution
+  /// without friction, as in (5.17), and residual() is that of (5.17).
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double roughly_allowed,
                      int max_iterations);
 
@@ -121,6 +124,7 @@ class ConstraintSystem {
   void move_particles(const ContactSystem<D>& system, std::span<const Motion<D>> motions);
   double correct(ContactSystem<D>& system, const ConstraintSolution<D>& solution);
   void give_loads_of_step();
+  bool solve_with_given_loads(bool without_friction, ConstraintSolution<D>& solution);
   ConstraintSolution<D> solve_problem(int max_iterations);
   BlockResidual residual_of_contact(std::size_t c, const ConstraintSolution<D>& solution) const;
   void take_over(ContactSystem<D>& system, const ConstraintSolution<D>& solution);

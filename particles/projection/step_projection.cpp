@@ -272,6 +272,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     constraints_->remember(c, result.memories.back());
   }
   result.bodies = system_.bodies();
+  result.has_given_loads = constraints_ && constraints_->has_given_up();
   return result;
 }
 

@@ -104,6 +104,9 @@ struct ProjectionResult {
   /// Number of contacts with an impulse or a film (gamma < 0) whose particles move around each
   /// other by more than kLargestTurn (contact.hpp), so that linearised gaps are wrong.
   std::size_t unresolved = 0;
+  /// True if given loads bound the friction, because the problem that was asked for was not solved
+  /// (ConstraintSystem::has_given_up()).
+  bool has_given_loads = false;
   double link_residual = 0;  ///< largest residual of a link [L], >= 0
   /// Names of the hinges and arms that contradict each other, for messages. Empty if the residuals
   /// of all links are allowed, or no residual or overlap is more than kBroken mean radii.

@@ -35,10 +35,10 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RelativeErrors, best, of_one_mesh, of_penalty
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, failed, iterations,
                                    most_iterations, first_time, last_time, largest_residual,
                                    largest_overlap, largest_impulse_residual, divided, unresolved,
-                                   seconds, peak_memory_mebibytes, fluid_seconds, unknowns,
-                                   first_velocity_errors, last_velocity_errors, first_force_errors,
-                                   last_force_errors, averaged_time, mean_dissipation,
-                                   mean_apparent_viscosity)
+                                   given_loads, seconds, peak_memory_mebibytes, fluid_seconds,
+                                   unknowns, first_velocity_errors, last_velocity_errors,
+                                   first_force_errors, last_force_errors, averaged_time,
+                                   mean_dissipation, mean_apparent_viscosity)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
 
 namespace {
@@ -56,6 +56,7 @@ void StepTotals::add(const StepReport& report, double average_from) {
   largest_impulse_residual = std::max(largest_impulse_residual, report.impulse_residual);
   divided += report.parts > 1 ? 1 : 0;
   unresolved += static_cast<std::int64_t>(report.unresolved);
+  given_loads += report.has_given_loads ? 1 : 0;
   const auto& fluid = report.fluid;
   fluid_seconds += fluid.seconds;
   if (const double duration = report.time - std::max(last_time, average_from); duration > 0) {
@@ -152,6 +153,7 @@ std::string run_json(const ParticlesCase& c, const StepTotals& totals, const Sta
   json["largest_gamma_error"] = largest_gamma_error(state);
   json["divided_steps"] = totals.divided;
   json["unresolved_contacts"] = totals.unresolved;
+  json["steps_with_given_loads"] = totals.given_loads;
   json["largest_overlap"] = totals.largest_overlap;
   json["final_overlap"] = largest_overlap(c.setting, state);
   json["seconds"] = totals.seconds;

@@ -81,9 +81,10 @@ struct StepTotals {
   double largest_impulse_residual = 0;               ///< of StepReport::impulse_residual [1], >= 0
   std::int64_t divided = 0;                          ///< number of divided steps
   std::int64_t unresolved = 0;                       ///< sum of StepReport::unresolved
-  double seconds = 0;                                ///< of earlier calls; a saved record includes
-                                                     ///< this call [s]
-  double peak_memory_mebibytes = 0;                  ///< largest memory, likewise [MiB]
+  std::int64_t given_loads = 0;      ///< number of steps with StepReport::has_given_loads
+  double seconds = 0;                ///< of earlier calls; a saved record includes
+                                     ///< this call [s]
+  double peak_memory_mebibytes = 0;  ///< largest memory, likewise [MiB]
   // With a fluid only.
   double fluid_seconds = 0;    ///< sum of FluidStepReport::seconds [s]
   std::uint64_t unknowns = 0;  ///< number of unknowns of the fluid solver in the last step

@@ -226,6 +226,13 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
         record.failed > 0
             ? fmt::format("{} of them by more than a factor of {}", record.failed, kStillAResult)
             : fmt::format("by less than a factor of {} (steps.csv says which)", kStillAResult)));
+  if (record.given_loads > 0)
+    terminal::warn(fmt::format(
+        "particles: warning: in {} of {} steps given loads bound the friction, because {} was not "
+        "solved (docs/particles.md, \"A step that does not converge\")",
+        record.given_loads, record.steps,
+        c.setting.laws.friction->method == FrictionMethod::kConvex ? "the convex relaxation"
+                                                                   : "Coulomb's law"));
   if (record.unresolved > 0)
     terminal::warn(fmt::format(
         "particles: warning: {} contacts were computed although their particles move past each "

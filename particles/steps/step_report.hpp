@@ -76,6 +76,9 @@ struct StepReport {
   /// Number of contacts whose particles move around each other too far for linearised gaps, even in
   /// the smallest parts of the step (kLargestTurn in contact.hpp).
   std::size_t unresolved = 0;
+  /// True if in a part of the step given loads bounded the friction, because the problem with the
+  /// loads of its solution was not solved, docs/physics.md (5.17). Always false in a fluid.
+  bool has_given_loads = false;
   FluidStepReport fluid{};  ///< defaults without a fluid
 };
 
