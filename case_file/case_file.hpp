@@ -31,7 +31,8 @@ enum class CaseKind {
 };
 
 /// The kind of a case by its sections, in the order kParticles, kSwimmer, kRolling; kSphere if it
-/// has none of these. Throws Error(kBadInput) if the file cannot be read or is not valid TOML.
+/// has none of these. Throws Error(kBadInput) if the file cannot be read or is not valid TOML, and
+/// for a pipe, because the caller reads the file a second time.
 CaseKind kind_of_case(const std::filesystem::path& path);
 
 /// How the drag is fitted, or what replaces tabulation and fit.

@@ -44,6 +44,9 @@ std::string doubled_percent(const std::string& text) {
 
 constexpr int kWidth = 860;  // of still pictures [pixels], a free choice
 
+/// The tag before a still picture, by which page_is_current() finds one.
+constexpr std::string_view kStill = "<div class=still>";
+
 /// A kind of point in gnuplot (pointtype) and page/axes.js. The rows are in the order of PointKind.
 struct PointName {
   PointKind kind;
@@ -259,7 +262,7 @@ bool page_is_current(const std::filesystem::path& folder, std::span<const std::s
   try {
     if (!std::filesystem::exists(run.report())) return false;
     const auto page = read_file(run.report());
-    if (page.find("<div class=still><svg") == std::string::npos) return false;  // html_of()
+    if (page.find(fmt::format("{}<svg", kStill)) == std::string::npos) return false;
     const auto provenance = results::provenance_in(page, run.report().string());
     if (!provenance) return false;
     // An input without a hash was a pipe. It is skipped: its content is in the copy of the case.
@@ -310,9 +313,9 @@ std::string Report::html_of(const Figure& figure) {
                         plot.name);
   if (plot.panels.empty()) return fmt::format("<figure>{}{}</figure>\n", svg, caption);
   return fmt::format(
-      "<figure data-plot=\"{}\">\n<div class=still>{}</div>\n"
+      "<figure data-plot=\"{}\">\n{}{}</div>\n"
       "<script type=\"application/json\">{}</script>\n{}</figure>\n",
-      plot.name, svg, json_of(plot), caption);
+      plot.name, kStill, svg, json_of(plot), caption);
 }
 
 std::string Report::figures(std::initializer_list<std::string_view> names) const {

@@ -135,7 +135,7 @@ std::string plot_bases(const lubrication::MotionTable& table,
 }
 
 std::string comparison_table(const reduced_model::Comparison& comparison) {
-  // As wide as the longest name, at least 30, wider than most.
+  // As wide as the longest name, and at least 30, which few names exceed.
   std::size_t width = 30;
   for (const auto& model : comparison.models) width = std::max(width, model.model.size());
   for (const auto& model : comparison.failed_models) width = std::max(width, model.model.size());

@@ -119,7 +119,8 @@ void write_output(const std::filesystem::path& path, TextKind kind, const std::s
                   Provenance provenance);
 
 /// As write_output(), but leaves a file alone that has this text and was made in the same folder from
-/// the same inputs. Returns true if it wrote.
+/// the same inputs, even if by another version or command. Returns true if it wrote. Throws the
+/// errors of write_output().
 bool write_if_changed(const std::filesystem::path& path, TextKind kind, const std::string& text,
                       const Provenance& provenance);
 

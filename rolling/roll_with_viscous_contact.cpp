@@ -99,9 +99,10 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
     row.position += step * row.velocity;
     row.angle += step * row.angular_velocity;
     row.time = time;
-    // At a velocity beyond any double the position is none either.
+    // An infinite velocity makes the position or the angle infinite or NaN, so that velocities need
+    // no check.
     if (!(std::isfinite(row.gap) && std::isfinite(row.position) && std::isfinite(row.angle) &&
-          std::isfinite(row.friction_force)))
+          std::isfinite(row.contact_force) && std::isfinite(row.friction_force)))
       throw Error(
           ErrorKind::kNotConverged,
           fmt::format("a number of the motion leaves the range of a double at time {:.6g}", time));

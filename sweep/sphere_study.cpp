@@ -200,11 +200,12 @@ Study sphere_study(SpherePlan plan, const std::string& version) {
         ErrorKind::kWrongUsage,
         fmt::format("the reference model '{}' is not one of the models that are run; they are: {}",
                     plan.reference, fmt::join(plan.models, ", ")));
+  case_file::Case last;
   check_ends(plan.points, [&](const auto& numbers) {
-    const auto c = case_with(cases, plan, numbers);
-    (void)case_file::required_motion(c);
-    for (const auto& key : plan.points.keys()) refuse_useless(c, key, plan.models);
+    last = case_with(cases, plan, numbers);
+    (void)case_file::required_motion(last);
   });
+  check_keys(plan.points, [&](const std::string& key) { refuse_useless(last, key, plan.models); });
   Study study;
   study.points = plan.points;
   for (const auto& model : plan.models)

@@ -118,8 +118,7 @@ void refuse_doubles(const std::vector<std::string>& names, std::string_view kind
 
 Points points_of_case(const std::vector<std::string>& ranges, const fs::path& case_path, int line) {
   Points points;
-  points.file = case_path.string();
-  points.line = line;
+  if (!ranges.empty()) points.place = PlaceOfRanges{case_path.string(), line};
   try {
     for (const auto& text : ranges) points.variations.push_back(parse_variation(text));
   } catch (const Error& error) {
@@ -131,12 +130,12 @@ Points points_of_case(const std::vector<std::string>& ranges, const fs::path& ca
 Error with_origin(const Points& points, const Error& error) {
   if (error.kind() == ErrorKind::kInterrupted) return error;
   std::string message = error.what();
-  if (points.file.empty()) return {error.kind(), "--vary: " + message};
+  if (!points.place) return {error.kind(), "--vary: " + message};
+  const auto& [file, line] = *points.place;
   // The message of a case that is wrong at a point begins with the file, which is named once.
-  if (message.starts_with(points.file + ": ")) message.erase(0, points.file.size() + 2);
-  const auto line = points.line > 0 ? fmt::format(":{}", points.line) : "";
+  if (message.starts_with(file + ": ")) message.erase(0, file.size() + 2);
   return {error.kind() == ErrorKind::kWrongUsage ? ErrorKind::kBadInput : error.kind(),
-          fmt::format("{}{}: sweep.vary: {}", points.file, line, message)};
+          fmt::format("{}:{}: sweep.vary: {}", file, line, message)};
 }
 
 void check_ranges(const Points& points) {

@@ -14,6 +14,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "viscontact/common/error.hpp"
@@ -107,7 +108,8 @@ auto at_point(const Points& points, std::uint64_t index, const Make& make) {
 /// Throws Error(kWrongUsage) if nothing or a key twice is varied, or if the grid leaves out the end
 /// of a range. Then calls `make`, which makes a case, for the first and the last row, so that a
 /// range that leads to a wrong case is an Error before rows are computed; rows between are not
-/// checked. Throws the Errors of `make` and Points::rows(), with_origin().
+/// checked. Throws the Errors of `make` and Points::rows(), with_origin(), but as it is an Error that
+/// `make` throws without varied values, too, because its cause is elsewhere, as in the fit.
 template <class Make>
 void check_ends(const Points& points, const Make& make) {
   if (points.variations.empty() && points.draws == 0)
@@ -118,6 +120,7 @@ void check_ends(const Points& points, const Make& make) {
       at_point(points, index, make);
   } catch (const Error& error) {
     if (points.variations.empty()) throw;
+    make(std::vector<std::pair<std::string, double>>{});
     throw with_origin(points, error);
   }
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -53,6 +54,12 @@ std::vector<std::pair<std::string, double>> random_point(const std::vector<Varia
 /// exceeds 1e12, a free limit, because so many rows take too long.
 std::uint64_t grid_size(const std::vector<Variation>& variations);
 
+/// The place of the ranges of a sweep in a case.
+struct PlaceOfRanges {
+  std::string file;  ///< path of the case
+  int line = 0;      ///< line of `vary` in its section [sweep], from 1
+};
+
 /// The points of a sweep: a grid, or random points. In a sweep of randomly arranged particles a
 /// point has several draws, which are arrangements with different seeds. Each draw is a row, and
 /// the draws of a point follow each other. Functions that count points throw as grid_size().
@@ -64,8 +71,8 @@ struct Points {
   std::uint64_t draws = 0;
   /// The value of arrangement.seed in the first draw; it grows by 1 from draw to draw.
   std::uint64_t first_draw = 1;
-  std::string file;  ///< the case whose section [sweep] gives `variations`; empty: --vary does
-  int line = 0;      ///< line of `vary` in this case, from 1; 0: not known
+  /// Where a case gives `variations`; nothing: they are those of --vary.
+  std::optional<PlaceOfRanges> place;
 
   std::uint64_t count() const;  ///< number of points
   std::uint64_t rows() const;   ///< number of rows: points times draws, or points if `draws` is 0

@@ -146,7 +146,7 @@ void report_again(const std::filesystem::path& folder) {
     swimmer::report_swimmer(folder, interrupt_token());
   else if (has("particles.pvd"))
     particles::report_particles(folder);
-  else if (has("case.toml") || std::filesystem::is_directory(folder / "trajectories"))
+  else if (std::filesystem::is_directory(folder / "trajectories"))
     report::write_report(folder, {}, interrupt_token());
   else
     throw_bad_input({folder.string()},

@@ -38,7 +38,7 @@ void weight_keys(case_file::Keys& keys, WeightKeys& given, double mass) {
     if (keys.has(key)) {
       keys.require(first.empty(), key,
                    "must be left out, because {} is given; only one of force, "
-                   "weight and gravity may be",
+                   "weight and gravity may be given",
                    first);
       first = key;
     }

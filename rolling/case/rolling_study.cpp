@@ -114,11 +114,13 @@ sweep::Study rolling_study(RollingPlan plan, const std::string& version) {
   for (const auto& model : plan.models) check_rolling_model(model);
   sweep::refuse_doubles(plan.models, "the model");
   const auto fit = motions::read_pair_fit(plan.fit_path);
+  RollingCase last;
   sweep::check_ends(plan.points, [&](const auto& numbers) {
-    const auto c = cases.with(numbers);
-    (void)fit_for(c, fit, plan.fit_path);
-    for (const auto& key : plan.points.keys()) refuse_useless(c, key, plan.models);
+    last = cases.with(numbers);
+    (void)fit_for(last, fit, plan.fit_path);
   });
+  sweep::check_keys(plan.points,
+                    [&](const std::string& key) { refuse_useless(last, key, plan.models); });
   sweep::Study study;
   study.points = plan.points;
   for (const auto& model : plan.models)

@@ -20,10 +20,11 @@ struct RollingRequest {
 
 /// Writes the tables (tables/MOTION.csv) and their fit (fit.json) unless the case names a fit, then
 /// MODEL.csv for each model, rolling.json and the report into the folder (docs/file-formats.md).
-/// Files that were made from the same inputs and would be the same are left alone. Throws Error(kBadInput) before anything is
-/// written if the case is wrong or a file of the user would be replaced, and the errors of
-/// pipeline::tabulate_stage() and motions::fit_pair_stage(). If a model fails, the results of the
-/// others are written before an Error that names it is thrown; if all fail, nothing more is.
+/// Files that were made from the same inputs and would be the same are left alone. Throws
+/// Error(kBadInput) before anything is written if the case is wrong or a file of the user would be
+/// replaced, and the errors of pipeline::tabulate_stage() and motions::fit_pair_stage(). If a model
+/// fails, the results of the others are written before an Error that names it is thrown; if all
+/// fail, nothing more is.
 void run_rolling(const RollingRequest& request);
 
 /// Writes the report again from the files that run_rolling() wrote into `folder`, and from the case

@@ -137,6 +137,32 @@ TEST(Provenance, DoesNotCountWhenContentsAreCompared) {
   EXPECT_FALSE(has_content(folder.path() / "absent.csv", text));
 }
 
+TEST(WriteIfChanged, LeavesAFileAloneThatIsUpToDateAndWritesADamagedOneAgain) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "table.csv";
+  const std::string text = "gap,force\n0.1,2\n";
+  auto provenance = sample_provenance();
+  const auto writes = [&] {
+    return write_if_changed(file, TextKind::kHashComment, text, provenance);
+  };
+  EXPECT_TRUE(writes());
+  EXPECT_FALSE(writes());
+  provenance.versions["Viscontact"] = "another";
+  provenance.command.emplace_back("--json");
+  EXPECT_FALSE(writes());
+  provenance.inputs[0].sha256 = std::string(64, '1');
+  EXPECT_TRUE(writes());
+  provenance.folder = "/home/another";
+  EXPECT_TRUE(writes());
+  // A provenance that is damaged, and none, beside the same text.
+  for (const std::string line : {"# provenance: {\"command\":[1\n", ""}) {
+    (void)folder.file("table.csv", line + text);
+    ASSERT_TRUE(has_content(file, text));
+    EXPECT_TRUE(writes());
+    EXPECT_FALSE(writes());
+  }
+}
+
 TEST(Provenance, WithoutFoldersNamesNoFolderOfTheMachine) {
   auto provenance = sample_provenance();
   provenance.command = {"/opt/bin/viscontact",

@@ -67,8 +67,10 @@ TEST_F(RollingCaseFile, WeightMayFollowFromDensitiesAndGravity) {
   EXPECT_DOUBLE_EQ(c.motion.moment_of_inertia, 0.4 * 5 * volume);
   EXPECT_DOUBLE_EQ(c.motion.force, 30 * volume * std::sin(0.3));
   EXPECT_DOUBLE_EQ(c.motion.normal_force, -30 * volume * std::cos(0.3));
-  EXPECT_THAT(bad_input([&] { (void)changed("weight = 1.0", "weight = 1.0\ngravity = -1.0"); }),
-              HasSubstr("rolling.gravity must be left out, because weight is given; only one of"));
+  EXPECT_THAT(
+      bad_input([&] { (void)changed("weight = 1.0", "weight = 1.0\ngravity = -1.0"); }),
+      HasSubstr("rolling.gravity must be left out, because weight is given; only one of force, "
+                "weight and gravity may be given"));
   EXPECT_THAT(bad_input([&] { (void)changed("weight = 1.0", ""); }),
               HasSubstr("rolling.force is missing; it must be two numbers, or weight or gravity"));
   EXPECT_THAT(bad_input([&] { (void)changed("mass = 0.1", "mass = 0.1\ndensity = 5.0"); }),

@@ -11,8 +11,11 @@
 namespace viscontact::rolling {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 const std::string kFit = std::string(VISCONTACT_SOURCE_FOLDER) + "/data/fits/pairs/plane.json";
 
@@ -28,7 +31,6 @@ class RollingStudy : public ::testing::Test {
             "time_step = 0.1\n" +
             more + sections);
     auto plan = planned_rolling(read_rolling_case(path));
-    plan.points.file.clear();  // as --vary does
     for (const auto& text : vary) plan.points.variations.push_back(sweep::parse_variation(text));
     return plan;
   }
@@ -94,9 +96,12 @@ TEST_F(RollingStudy, WrongPlansAreRefused) {
   EXPECT_THAT(refusal(other), HasSubstr("the models are: smooth, rough, viscous_contact"));
   other.models = {"rough", "rough"};
   EXPECT_THAT(refusal(other), HasSubstr("rough is given twice"));
-  EXPECT_THAT(bad_input([&] { (void)rolling_study(plan({"rolling.friction=0,-1"}), ""); }),
-              ::testing::AllOf(HasSubstr("rolling.friction is -1"),
-                               HasSubstr("at the point rolling.friction = -1")));
+  EXPECT_THAT(refusal(plan({"rolling.friction=0.1,0.2"}, "models = [\"smooth\"]\n")),
+              AllOf(StartsWith("--vary: rolling.friction cannot be varied, because none"),
+                    Not(HasSubstr("at the point"))));
+  EXPECT_THAT(
+      bad_input([&] { (void)rolling_study(plan({"rolling.friction=0,-1"}), ""); }),
+      AllOf(HasSubstr("rolling.friction is -1"), HasSubstr("at the point rolling.friction = -1")));
 }
 
 }  // namespace

@@ -233,6 +233,17 @@ TEST(ViscousContact, HasFrictionOnceTheFilmIsAsThinAsTheRoughness) {
   EXPECT_NEAR(first->time, touches, 0.02);
 }
 
+TEST(ViscousContact, FailsIfItsContactForceLeavesTheRangeOfADouble) {
+  // The impulse, 1e300, is a double, but not the force, 1e310. All other numbers of the row are.
+  auto motion = on_incline(0);
+  motion.mass = 1e200;
+  motion.normal_velocity = -1e100;
+  motion.time_step = motion.end_time = 1e-10;
+  EXPECT_THAT(
+      failure(ErrorKind::kNotConverged, [&] { (void)roll_with_viscous_contact(motion, plane()); }),
+      HasSubstr("leaves the range of a double"));
+}
+
 TEST(Rolling, OutOfTheGapsOfTheFitIsRefused) {
   auto motion = on_incline(0);
   motion.normal_force = 50;

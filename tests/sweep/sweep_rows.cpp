@@ -38,7 +38,7 @@ SpherePlan shipped(const std::string& name) { return plan_of(data("cases/" + nam
 
 SpherePlan varied(SpherePlan plan, const std::vector<std::string>& vary) {
   plan.points.variations.clear();
-  plan.points.file.clear();  // as --vary does
+  plan.points.place.reset();  // as --vary does
   for (const auto& text : vary) plan.points.variations.push_back(parse_variation(text));
   return plan;
 }

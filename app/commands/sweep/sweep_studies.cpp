@@ -32,7 +32,7 @@ namespace {
 void set_points(const SweepOptions& o, sweep::Points& points) {
   if (!o.vary.empty()) {
     points.variations.clear();
-    points.file.clear();
+    points.place.reset();
   }
   for (const auto& text : o.vary)
     points.variations.push_back(

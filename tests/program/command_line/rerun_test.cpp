@@ -96,14 +96,22 @@ TEST_F(Rerun, GoesToTheFolderInWhichTheFileAndItsInputsAreNow) {
 
 TEST_F(Rerun, GoesToTheFolderInWhichTheCaseIsNowIfTheFitIsElsewhere) {
   fit();
-  fs::create_directory(path("old"));
-  fs::copy(path("case.toml"), path("old/case.toml"));
-  expect_done(run_viscontact({"simulate", "case.toml", "--fit", path("fit.json"), "-o", "run"}, {},
-                             "cd '" + path("old") + "'; "));
-  fs::rename(path("old"), path("new"));
-  const auto dry = run({"rerun", path("new/run/trajectories/inertial.csv"), "--dry-run"});
-  expect_done(dry);
-  EXPECT_THAT(dry.output, HasSubstr("cd " + path("new") + " && "));
+  // The case is named from its folder, or by its whole path.
+  for (const bool is_whole : {false, true}) {
+    const auto named = [&](const std::string& place) {
+      return is_whole ? path(place + "/case.toml") : std::string("case.toml");
+    };
+    fs::create_directory(path("old"));
+    fs::copy(path("case.toml"), path("old/case.toml"));
+    expect_done(run_viscontact({"simulate", named("old"), "--fit", path("fit.json"), "-o", "run"},
+                               {}, "cd '" + path("old") + "'; "));
+    fs::remove_all(path("new"));
+    fs::rename(path("old"), path("new"));
+    const auto dry = run({"rerun", path("new/run/trajectories/inertial.csv"), "--dry-run"});
+    expect_done(dry);
+    EXPECT_THAT(dry.output, HasSubstr("cd " + path("new") + " && viscontact simulate " +
+                                      named("new") + " --fit " + path("fit.json")));
+  }
   // A fit alone, of a table elsewhere, does not tell that anything has moved.
   fs::create_directory(path("copy"));
   fs::copy(path("fit.json"), path("copy/fit.json"));

@@ -202,7 +202,10 @@ TEST_F(PagesAgain, InAMovedFolderWhoseCaseNamesAFileElsewhere) {
 
 TEST_F(PagesAgain, NotOfAFolderInWhichNothingWasRun) {
   fs::create_directory(out());
-  for (const auto& folder : {path("out"), path("none")})
+  // A folder with a case of the user's own, of any kind.
+  fs::create_directory(path("project"));
+  put_text(path("project/case.toml"), read_file(kData + "cases/rolling/incline.toml"));
+  for (const auto& folder : {path("out"), path("none"), path("project")})
     expect_refusal(run_viscontact({"report", folder}), ErrorKind::kBadInput,
                    HasSubstr(folder + ": is not the folder of a run: "));
 }

