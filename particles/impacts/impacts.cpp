@@ -131,13 +131,15 @@ typename Impacts<D>::Arm Impacts<D>::arm_of(std::int32_t k) const {
 }
 
 /// The rigid body of particle `k` with the orientation, the angular momentum and the angular velocity
-/// that it has at the time `t` with the blows so far.
+/// that it has at the time `t` with the blows so far. Its lists of members stay empty, because nobody
+/// needs them and a copy takes time.
 template <int D>
 RigidBody Impacts<D>::body_at(std::int32_t k, double t) const {
   const auto number = index_of(state_.particles.bodies.body_of(k));
-  auto body = state_.particles.bodies.bodies[number];
-  const auto arm = arm_of(k);
-  if (D == 3) body.orientation = turned(body.orientation, t * arm.rate - arm.late);
+  const auto& before = state_.particles.bodies.bodies[number];
+  RigidBody body{before, {}, {}, {}, before.mass, before.inertia};
+  if (D == 3)
+    body.orientation = turned(body.orientation, t * spin(k) - flight_or_none(k).late_turn);
   body.angular_momentum = step_.bodies[number].angular_momentum;
   update_angular_velocity(body, D);
   return body;
@@ -148,8 +150,7 @@ RigidBody Impacts<D>::body_at(std::int32_t k, double t) const {
 /// true velocity of the point at which it acts, because otherwise e_d = 1 would not keep the energy.
 template <int D>
 Vector Impacts<D>::spin_at(std::int32_t k, double t) const {
-  const bool precesses = D == 3 && k >= 0 && state_.particles.bodies.body_of(k) >= 0;
-  return precesses ? body_at(k, t).angular_velocity : spin(k);
+  return precesses(k) ? body_at(k, t).angular_velocity : spin(k);
 }
 
 template <int D>
@@ -254,7 +255,8 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   const double gap = gap_at(from), rate = rate_at(from);
   const Vector n = normal_of(approach, from), v = velocity_of(approach, from);
   if (gap == 0 && rate < 0) return from;
-  // This search misses a gap that closes and opens again before `until`.
+  // This search misses a gap that closes and opens again before `until`. Only for particles without
+  // relative acceleration and at planes that do not turn, the formulas below always find it.
   const auto search = [&]() -> std::optional<double> {
     if (gap_at(until) > 0) return std::nullopt;
     // A gap that opens is largest at `top`, and closes after it.
@@ -279,8 +281,8 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   if (obstacle == nullptr && rate > 0)
     curvature += (dot(v, v) - rate * rate) / (2 * (approach.sum + gap + closed));
   const double root = rate * rate - 4 * curvature * gap;
-  const auto otherwise = [&] { return approach.turns() ? search() : std::nullopt; };
-  if (root < 0 || (rate >= 0 && curvature >= 0)) return otherwise();
+  // The curvature changes on the way, so that a gap that opens may close again.
+  if (root < 0 || (rate >= 0 && curvature >= 0)) return search();
   // The time at which the gap falls to 0; in neither form do the two terms cancel each other.
   double t = from + (rate < 0 ? 2 * gap / (-rate + std::sqrt(root))
                               : (rate + std::sqrt(root)) / (-2 * curvature));
@@ -291,13 +293,13 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
   constexpr int kMostSteps = 20;
   for (int i = 0; i < kMostSteps; ++i) {
     const double falls = rate_at(t);
-    if (!(falls < 0)) return otherwise();
+    if (!(falls < 0)) return search();
     const double change = -gap_at(t) / falls;
     // Rounding errors of the gap are larger than those of times.
     t = std::max(t + change, from);
     if (std::abs(change) <= 4 * std::numeric_limits<double>::epsilon() * t) break;
   }
-  return t <= until ? std::optional(t) : otherwise();
+  return t <= until ? std::optional(t) : search();
 }
 
 /// The contact of pair `k` if it is hit at `time`: its gap is closed and closes fast enough.
@@ -338,16 +340,21 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   const double closing = -dot(normal, approach.before - surface);
   const bool rests = gap_of(at_start, 0) <= step_.touching &&
                      (bore_load ? closing <= pulled : std::abs(closing) <= unseen);
+  // The velocity of a point by its body's true turning, without that of spin(), which is in
+  // velocity_of().
+  const auto turning_of = [&](std::int32_t particle, const Arm& arm) {
+    if (!precesses(particle)) return Vector{};
+    return cross(spin_at(particle, time) - spin(particle), arm.at(time));
+  };
   const Vector turning =
-      cross(spin_at(of.second, time) - spin(of.second), approach.second.at(time)) -
-      cross(spin_at(of.first, time) - spin(of.first), approach.first.at(time));
+      turning_of(of.second, approach.second) - turning_of(of.first, approach.first);
   const Vector flies = velocity_of(approach, time) + turning;
   const double rate =
       dot(normal,
           rests ? approach.velocity_without_forces(time, step_.kick, step_.h) - surface + turning
                 : flies);
   if (!(-rate > std::max({ended, unseen, rests ? pulled : 0.0}))) return std::nullopt;
-  return Hit{k, normal, rate, flies};
+  return Hit{k, normal, rate, flies, approach.sum};
 }
 
 /// Adds the next hit of pair `k` from the time `from` on to expected_, if it is within the step.

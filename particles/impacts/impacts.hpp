@@ -118,16 +118,18 @@ class Impacts {
   // The turning of a rigid body around its centre, for the place of a particle in it: after the time
   // t of the step the body has turned by t rate - late. Without a body all members are 0.
   struct Arm {
-    Vector offset{};     // of the particle from the centre at the beginning of the step [L]
-    Vector rate{};       // angular velocity, with the blows so far [1/T]
-    Vector late{};       // Flight::late_turn [rad]
-    Vector by_torque{};  // part of `rate` that torques have changed in the step [1/T]
+    Vector offset{};  // of the particle from the centre at the beginning of the step [L]
+    Vector rate{};    // angular velocity, with the blows so far [1/T]
+    Vector late{};    // Flight::late_turn [rad]
+    // Part of `rate` that the step has changed [1/T]: by torques, and in space also by the free
+    // precession of the body.
+    Vector by_step{};
     // The change of the offset from the beginning of the step to the time t [L].
     Vector swing(double t) const {
-      return turns() ? displacement_at({}, t * rate - late, offset, D) : Vector{};
+      return is_off_centre() ? displacement_at({}, t * rate - late, offset, D) : Vector{};
     }
     Vector at(double t) const { return offset + swing(t); }
-    bool turns() const { return offset != Vector{}; }
+    bool is_off_centre() const { return offset != Vector{}; }
   };
   // The motion of the second particle of a pair: at the time t of the step, place() is the vector to
   // its centre from that of the first particle, or, at an obstacle, from the origin. The parabola
@@ -139,7 +141,7 @@ class Impacts {
     const Plane* obstacle = nullptr;  // the partner, if it is an obstacle
     Vector before{};                  // relative velocity before the step [L/T]
     Vector pull{};                    // relative mean acceleration in the step [L/T^2]
-    bool turns() const { return first.turns() || second.turns(); }
+    bool turns() const { return first.is_off_centre() || second.is_off_centre(); }
     Vector place(double t) const {
       return c + t * a + (t * t) * b + second.swing(t) - first.swing(t);
     }
@@ -153,8 +155,8 @@ class Impacts {
     // velocity() without what forces and torques have changed in the step, where forces act for
     // the time `kick` until the middle of the step at h/2.
     Vector velocity_without_forces(double t, double kick, double h) const {
-      return velocity(t) - (2 * (kick + t - h / 2)) * b - cross(second.by_torque, second.at(t)) +
-             cross(first.by_torque, first.at(t));
+      return velocity(t) - (2 * (kick + t - h / 2)) * b - cross(second.by_step, second.at(t)) +
+             cross(first.by_step, first.at(t));
     }
   };
   // A contact of a blow.
@@ -165,6 +167,7 @@ class Impacts {
     // Velocity of the second centre relative to the first or the obstacle [L/T]. Both velocities
     // contain the turning of rigid bodies.
     Vector relative;
+    double sum;  // Approach::sum [L]
   };
 
   Pair& pair(std::size_t k) {
@@ -183,6 +186,10 @@ class Impacts {
   Arm arm_of(std::int32_t k) const;
   RigidBody body_at(std::int32_t k, double t) const;
   Vector spin_at(std::int32_t k, double t) const;
+  // Whether the angular velocity of a particle changes in free flight, as that of bodies in space.
+  bool precesses(std::int32_t k) const {
+    return D == 3 && k >= 0 && state_.particles.bodies.body_of(k) >= 0;
+  }
   Approach approach_of(std::size_t k);
   Vector normal_of(const Approach& approach, double t) const;
   double gap_of(const Approach& approach, double t) const;

@@ -269,7 +269,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
       const auto& direction = problem.parts[problem.rows[r].first_part].coefficients;
       for (std::size_t d = 0; d < D; ++d) push[d] += problem.impulses[r] * direction[d];
     }
-    impulses_.push_back({of.first, push, approach_of(hits[c].pair).sum * hits[c].normal});
+    impulses_.push_back({of.first, push, hits[c].sum * hits[c].normal});
     if (phase.solid > 0)
       rebounds_.push_back({step_.begin + time, of.first, of.second, hits[c].approach, phase.solid,
                            std::abs(after) <= kExact * fastest ? 0 : after});

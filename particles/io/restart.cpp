@@ -1,7 +1,7 @@
 // Writes and reads the binary restart file (restart.hpp). Numbers are in the units of the case;
 // state.hpp has their dimensions. A file that cannot be read, is damaged, or has another version or
 // byte order is an Error(kBadInput); writing throws nothing. The texts kWhat and kHash must not
-// change. Files of versions 1 to 11 must stay readable; a change of the fields of State or Pair
+// change. Files of versions 1 to 12 must stay readable; a change of the fields of State or Pair
 // (state.hpp) needs a new version. Used by run/.
 #include "viscontact/particles/io/restart.hpp"
 
@@ -24,8 +24,9 @@ namespace {
 
 // The largest version. A file has the lowest version that holds its state. Version 7 adds the
 // memories of contact laws that have no array in version 6; 8 the flow of a fluid with inertia; 9
-// the positions before the last step, for membranes; 10 Pair::place; and 11 State::sources.
-constexpr int kVersion = 11;
+// the positions before the last step, for membranes; 10 Pair::place; 11 State::sources; and 12
+// State::blows.
+constexpr int kVersion = 12;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -49,6 +50,10 @@ struct StoredArrays {
   /// each with a line break, `memories` for each name one number for each pair and wall.
   std::vector<char> names;
   std::vector<double> memories;
+  // The members of State::blows, an array for each, because BlowImpulse has bytes without a value,
+  // which would change the hash of the file.
+  std::vector<std::int32_t> blow_firsts;
+  std::vector<Vector> blow_impulses, blow_branches;
 };
 
 /// Calls `field` for each stored field, in the order of a file of this version, to write and to
@@ -99,6 +104,10 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   field(arrays.places);
   if (version < 11) return;
   field(state.sources);
+  if (version < 12) return;
+  field(arrays.blow_firsts);
+  field(arrays.blow_impulses);
+  field(arrays.blow_branches);
 }
 
 /// Index of the first of kMemoryFields that has no array of its own in version 6.
@@ -155,6 +164,24 @@ bool take_memories(const StoredArrays& arrays, State& state) {
   std::size_t k = 0;
   for (auto* pairs : {&state.pairs, &state.walls})
     for (auto& pair : *pairs) state.memories.set(pair.memory, memories[k++]);
+  return true;
+}
+
+/// Sets the blows of the state from the arrays. Returns false if the arrays do not fit each other or
+/// the particles, or if the state has no last step.
+bool take_blows(const StoredArrays& arrays, State& state) {
+  const auto count = arrays.blow_firsts.size();
+  if (arrays.blow_impulses.size() != count || arrays.blow_branches.size() != count) return false;
+  if (count > 0 && !(state.earlier_step > 0)) return false;
+  const auto is_finite = [](const Vector& x) {
+    return std::ranges::all_of(x, [](double number) { return std::isfinite(number); });
+  };
+  for (std::size_t k = 0; k < count; ++k) {
+    const BlowImpulse blow{arrays.blow_firsts[k], arrays.blow_impulses[k], arrays.blow_branches[k]};
+    if (blow.first >= 0 && index_of(blow.first) >= state.particles.count()) return false;
+    if (!is_finite(blow.impulse) || !is_finite(blow.branch)) return false;
+    state.blows.push_back(blow);
+  }
   return true;
 }
 
@@ -317,8 +344,14 @@ std::string write_restart(const State& state) {
   clear_zeros(arrays.frictions);
   clear_zeros(arrays.carried);
   for (const auto& body : state.particles.bodies.bodies) arrays.bodies.push_back(body);
+  for (const auto& blow : state.blows) {
+    arrays.blow_firsts.push_back(blow.first);
+    arrays.blow_impulses.push_back(blow.impulse);
+    arrays.blow_branches.push_back(blow.branch);
+  }
   std::string bytes;
-  const int version = !state.sources.empty()             ? 11
+  const int version = !state.blows.empty()               ? 12
+                      : !state.sources.empty()           ? 11
                       : !arrays.places.empty()           ? 10
                       : !state.earlier_positions.empty() ? 9
                       : !state.flow.empty()              ? 8
@@ -347,7 +380,8 @@ State read_restart(const std::filesystem::path& path) {
   for_fields(state, arrays, version, reader);
   const auto of_pairs = state.pairs.size(), of_all = of_pairs + state.walls.size();
   if (!reader.at_end() || (!arrays.images.empty() && arrays.images.size() != of_pairs) ||
-      (!arrays.places.empty() && arrays.places.size() != of_all) || !take_memories(arrays, state))
+      (!arrays.places.empty() && arrays.places.size() != of_all) || !take_memories(arrays, state) ||
+      !take_blows(arrays, state))
     reader.throw_damaged();
   for (std::size_t k = 0; k < arrays.images.size(); ++k) state.pairs[k].image = arrays.images[k];
   for (std::size_t k = 0; k < arrays.places.size(); ++k)

@@ -95,9 +95,12 @@ void check_same_particles(const State& state, const ParticlesCase& c, const fs::
   if (!begins_with(p.radii, c.particles.radii)) differs("other radii");
   if (!begins_with(p.masses, c.particles.masses)) differs("other masses");
   const auto obstacles = obstacles_of(c.setting).size();
-  for (const auto& film : state.walls)
-    if (film.plane() >= obstacles)
-      differs(fmt::format("a contact with plane {}, which the case does not have", -film.first));
+  const auto check_first = [&](std::int32_t first) {
+    if (first < 0 && static_cast<std::size_t>(-1 - first) >= obstacles)
+      differs(fmt::format("a contact with plane {}, which the case does not have", -first));
+  };
+  for (const auto& film : state.walls) check_first(film.first);
+  for (const auto& blow : state.blows) check_first(blow.first);
 }
 
 /// Gives the state the ids of the case, which the restart file does not store, and ids for the

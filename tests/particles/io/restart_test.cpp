@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
@@ -79,6 +80,33 @@ TEST_F(RestartFile, HasWhatSourcesHaveDone) {
     EXPECT_THAT(bad_input([&] { read(write_restart(state)); }),
                 HasSubstr("is not a whole restart file"));
   }
+}
+
+TEST_F(RestartFile, HasTheBlowsOfTheLastStep) {
+  auto state = disc_on_plane(-0.75);
+  state.earlier_step = 0.1;
+  EXPECT_THAT(write_restart(state), HasSubstr("version 6"));
+  state.blows = {{-1, {0.1, 1.0 / 3, 0}, {0, 1, 0}}, {0, {-2, 0, 0}, {1.0 / 7, 0, 0}}};
+  const auto text = write_restart(state);
+  EXPECT_THAT(text, HasSubstr("version 12"));
+  const auto again = read(text);
+  ASSERT_EQ(again.blows.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(again.blows[k].first, state.blows[k].first);
+    EXPECT_EQ(again.blows[k].impulse, state.blows[k].impulse);
+    EXPECT_EQ(again.blows[k].branch, state.blows[k].branch);
+  }
+  EXPECT_EQ(write_restart(again), text);
+  const auto refused = [&](const std::function<void(State&)>& change) {
+    auto other = state;
+    change(other);
+    EXPECT_THAT(bad_input([&] { read(write_restart(other)); }),
+                HasSubstr("is not a whole restart file"));
+  };
+  refused([](State& other) { other.blows[1].first = 1; });
+  refused([](State& other) { other.blows[0].impulse[1] = std::nan(""); });
+  refused([](State& other) { other.blows[0].branch[0] = INFINITY; });
+  refused([](State& other) { other.earlier_step = 0; });
 }
 
 TEST_F(RestartFile, SaysWhichEndOfAPlateIsAtAnObstacle) {
@@ -231,10 +259,10 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
 }
 
 TEST_F(RestartFile, OfALaterVersionIsRefused) {
-  for (const auto* version : {"version 12", "version :", "version 0", "version 6x"}) {
+  for (const auto* version : {"version 13", "version :", "version 0", "version 6x"}) {
     auto text = write_restart(disc_on_plane(-0.5));
     text.replace(text.find("version 6"), 9, version);
-    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 11 can be read"));
+    EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 12 can be read"));
   }
 }
 

@@ -30,6 +30,54 @@ TEST_F(ParticlesCommand, ARestartContinuesBitForBit) {
   EXPECT_DOUBLE_EQ(record["from_time"], 4.35);
 }
 
+/// A ball that hits the floor in the step to 1.4.
+const std::string kBall = R"(title = "A ball"
+[space]
+dimension = 2
+gravity = [0.0, -1.0]
+[viscous_contact]
+time_step = 0.1
+end_time = 2.1
+gamma_min = 0.0
+restitution = 0.9
+[output]
+every = 0.7
+tables = ["walls"]
+[[plane]]
+point = [0.0, 0.0]
+normal = [0.0, 1.0]
+[[particle]]
+centre = [0.0, 2.0]
+radius = 1.0
+mass = 1.0
+)";
+
+TEST_F(ParticlesCommand, ARestartHasTheForcesOfTheBlowsOfTheStepBefore) {
+  expect_done(run(put_case(kBall), out("whole")));
+  expect_done(
+      run(put_case(replaced(kBall, "end_time = 2.1", "end_time = 1.4"), "half.toml"), out("half")));
+  expect_done(
+      run(put_case(kBall), out("rest"), {"--restart", (out("half") / "restart.bin").string()}));
+  const auto rows = [&](const std::string& folder) {
+    const auto text = read_file(out(folder) / "walls.csv");
+    return text.substr(text.find("\n1.4"));
+  };
+  EXPECT_THAT(rows("whole"), HasSubstr(",-1,0,-26."));
+  EXPECT_EQ(rows("rest"), rows("whole"));
+}
+
+TEST_F(ParticlesCommand, ThatContinuesAfterItsLastStepHasTheForcesOfItsBlows) {
+  // No frame is due at the end, so that the frame there is written again without a step.
+  const auto file = put_case(
+      replaced(replaced(kBall, "end_time = 2.1", "end_time = 1.4"), "every = 0.7", "every = 0.9"));
+  expect_done(run(file, out()));
+  const auto before = read_file(out() / "walls.csv");
+  EXPECT_THAT(before, HasSubstr(",-1,0,-26."));
+  fs::remove(out() / "particles.html");
+  expect_done(run(file, out()));
+  EXPECT_EQ(read_file(out() / "walls.csv"), before);
+}
+
 TEST_F(ParticlesCommand, ARestartDoesNotReplaceTheRunThatItContinues) {
   expect_done(run(put_case(replaced(kCase, "end_time = 10.0", "end_time = 4.35")), out()));
   const auto before = files_below(out());
