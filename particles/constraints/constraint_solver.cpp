@@ -212,9 +212,10 @@ class Iteration {
   /// Solves a convex problem by interior points alone.
   void find_interior_solution(int max_iterations) {
     // Accuracies relative to the violations without impulses. With 1e-6 in place of kAccurate
-    // spheres take 3 to 7 % less time, because proximal steps reach the rest; but proximal steps
-    // fail where several contacts are near the tips of their cones. The rough one finds the pairs that take part, and first loads. In
-    // bench/box2d.cpp it misses no more pairs with 1e-2 than with 1e-3, but some more with 3e-2.
+    // spheres take 3 to 7 % less time, because proximal steps reach the rest. But proximal steps
+    // fail where several contacts are near the tips of their cones. The rough one finds the pairs
+    // that take part, and first loads. In bench/box2d.cpp it misses no more pairs with 1e-2 than
+    // with 1e-3, but some more with 3e-2.
     constexpr double kRough = 1e-2, kAccurate = 1e-9, kExact = 1e-13;
     constexpr int kMostIterations = 60;
     if (!interior_) interior_.emplace(problem_, w_, matrix());
