@@ -64,8 +64,7 @@ TEST_F(RestartFile, HasThePositionsBeforeAStepOfMembranes) {
   EXPECT_THAT(text, HasSubstr("version 9"));
   EXPECT_EQ(read(text).earlier_positions, state.earlier_positions);
   state.earlier_positions = {0.5};
-  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }),
-              HasSubstr("is not a whole restart file"));
+  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), HasSubstr("restart.bin: is damaged"));
 }
 
 TEST_F(RestartFile, HasWhatSourcesHaveDone) {
@@ -78,7 +77,7 @@ TEST_F(RestartFile, HasWhatSourcesHaveDone) {
   for (const int poured : {-1, 1}) {  // the disc comes from the first source
     state.sources[1].poured = poured;
     EXPECT_THAT(bad_input([&] { read(write_restart(state)); }),
-                HasSubstr("is not a whole restart file"));
+                HasSubstr("restart.bin: is damaged"));
   }
 }
 
@@ -101,7 +100,7 @@ TEST_F(RestartFile, HasTheBlowsOfTheLastStep) {
     auto other = state;
     change(other);
     EXPECT_THAT(bad_input([&] { read(write_restart(other)); }),
-                HasSubstr("is not a whole restart file"));
+                HasSubstr("restart.bin: is damaged"));
   };
   refused([](State& other) { other.blows[1].first = 1; });
   refused([](State& other) { other.blows[0].impulse[1] = std::nan(""); });
@@ -117,8 +116,7 @@ TEST_F(RestartFile, SaysWhichEndOfAPlateIsAtAnObstacle) {
   EXPECT_THAT(text, HasSubstr("version 10"));
   EXPECT_EQ(read(text).walls, state.walls);
   state.walls[1].place = 2;
-  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }),
-              HasSubstr("is not a whole restart file"));
+  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), HasSubstr("restart.bin: is damaged"));
 }
 
 /// A restart file of an earlier version: `change` makes its binary part from that of version 2.
@@ -222,8 +220,7 @@ TEST_F(RestartFile, OfFrictionHasWhatTheSolidsCarried) {
   const auto again = read(write_restart(state));
   EXPECT_EQ(again.memories.of(again.walls[0].memory), memory);
   state.memories.make(state.walls[0].memory)[Remembered::kCarried] = -1;
-  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }),
-              HasSubstr("is not a whole restart file"));
+  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }), HasSubstr("restart.bin: is damaged"));
 }
 
 TEST_F(RestartFile, OnAnAxisHasOneNumberForEachParticle) {
@@ -240,7 +237,7 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
     State state = disc_on_plane(-0.5);
     change(state);
     EXPECT_THAT(bad_input([&] { read(write_restart(state)); }),
-                HasSubstr("is not a whole restart file"));
+                HasSubstr("restart.bin: is damaged"));
   };
   refused([](State& state) { state.particles.angles = {1, 2}; });
   refused([](State& state) { state.particles.angles = {1}; });  // no angular velocity
@@ -270,7 +267,7 @@ TEST_F(RestartFile, WithoutAFiniteGammaIsRefused) {
   for (const double gamma :
        {std::numeric_limits<double>::quiet_NaN(), 0.5, -std::numeric_limits<double>::infinity()})
     EXPECT_THAT(bad_input([&] { read(write_restart(disc_on_plane(gamma))); }),
-                HasSubstr("is not a whole restart file"));
+                HasSubstr("restart.bin: is damaged"));
 }
 
 }  // namespace
