@@ -66,19 +66,22 @@ void ConstraintSystem<D>::join_linked(ContactSystem<D>& system) const {
 }
 
 template <int D>
-bool ConstraintSystem<D>::is_held_apart(const Pair& pair, double tolerated) const {
+bool ConstraintSystem<D>::is_held_apart(const Pair& pair) const {
   for (const auto& arm : step_.links->arms) {
     if (std::minmax(arm.first, arm.second) != std::minmax(pair.first, pair.second)) continue;
-    const double touching =
-        particles_.radii[index_of(pair.first)] + particles_.radii[index_of(pair.second)];
+    const auto i = index_of(pair.first), j = index_of(pair.second);
+    // A case may give lengths that are shorter by the rounding errors of its numbers.
+    constexpr double kShorter = 1e-6;
+    const double touching = (1 - kShorter) * (particles_.radii[i] + particles_.radii[j]);
+    // An arm holds the nearest image. Images that are farther away may still touch.
+    constexpr double kRounding = 1e-9;
+    const Vector nearest =
+        nearest_image(particles_.cell, particles_.position(j) - particles_.position(i));
     double square = 0;
     for (const double x : separation<D>(particles_, pair.first, pair.second, pair.image))
       square += x * x;
-    // The arm has its present length between the nearest images. Images that are farther away may
-    // still touch. Arms keep their lengths to the tolerance of gaps, and a cell is much larger.
-    constexpr double kRounding = 1e-3;
-    return length_at(arm.length, times_.end) >= touching - tolerated &&
-           std::sqrt(square) <= (1 + kRounding) * length_at(arm.length, step_.begin);
+    return length_at(arm.length, times_.end) >= touching &&
+           std::sqrt(square) <= (1 + kRounding) * norm(nearest);
   }
   return false;
 }

@@ -53,10 +53,11 @@ class ConstraintSystem {
   /// Adds the particles of all links to `system`. Must be called before a contact is added.
   void join_linked(ContactSystem<D>& system) const;
 
-  /// True if an arm keeps the particles of `pair` from overlapping by more than `tolerated` [L] at
-  /// the end of the step. Their contact would repeat the equation of the arm to first order in the
-  /// arm's turn, and contradict it to second order. It must therefore not be added.
-  bool is_held_apart(const Pair& pair, double tolerated) const;
+  /// True if an arm keeps the particles of `pair` from overlapping at the end of the step by more
+  /// than 1e-6 of the sum of their radii, which cases may leave as rounding errors of its length.
+  /// Their contact would repeat the equation of the arm to first order in the arm's turn, and
+  /// contradict it to second order. It must therefore not be added.
+  bool is_held_apart(const Pair& pair) const;
 
   /// Adds the contact of `pair`. `memory` holds the guess of the friction. Call it for each contact
   /// of the ContactSystem in order.

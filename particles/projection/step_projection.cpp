@@ -141,7 +141,7 @@ template <int D>
 void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
   for (const auto k : interleaved(pairs)) {
     is_chosen_[k] = 1;
-    if (constraints_ && constraints_->is_held_apart(pair(k), tolerated_)) continue;
+    if (constraints_ && constraints_->is_held_apart(pair(k))) continue;
     chosen_.push_back(k);
     system_.add(contact(k));
     if (constraints_)

@@ -267,6 +267,33 @@ TEST(Arms, ParticlesThatAnArmHoldsInTouchTurnAsOneWhateverTheirContactWouldBe) {
     }
 }
 
+TEST(Arms, HoldOneImageOfAParticleWhileAnotherOneMayTouch) {
+  // The cell has the length 3.9 along x. The pair turns towards the x axis until the image on the
+  // other side touches, too. A case may give the length 2 with a rounding error of 1e-6 of it.
+  for (const double length : {2.0, 2 * (1 - 5e-7)}) {
+    auto setting = setting_of(0.01, Scheme::kEuler);
+    setting.domain = BoxDomain{{0, 0}, {3.9, 20}, {true, false}};
+    setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, length}}}}};
+    State state = no_particles(2);
+    state.particles.cell = cell_of(setting);
+    const Vector along{std::cos(1.2), std::sin(1.2), 0}, turns{-0.5 * along[1], 0.5 * along[0], 0};
+    add_particle(state, {0.5, 8, 0}, 1, 1, turns);
+    add_particle(state, Vector{0.5, 8, 0} + length * along, 1, 1, -1 * turns);
+    add_rotation(state.particles);
+    Simulation simulation(setting, state, 1);
+    bool touched = false;
+    run(simulation, 3, [&](const StepReport& report) {
+      expect_converged(report);
+      touched |= report.contacts > 0;
+      const auto& p = simulation.state().particles;
+      const Vector apart = p.position(1) - p.position(0);
+      for (const double shift : {-3.9, 0.0, 3.9})
+        EXPECT_GE(norm(apart + Vector{shift, 0, 0}), 2 * (1 - 1e-6)) << report.time;
+    });
+    EXPECT_TRUE(touched);
+  }
+}
+
 TEST(Arms, ThreeArmsThatBreakTheTriangleInequalityAreNamed) {
   auto setting = setting_of(0.01);
   setting.solver.tolerance = 1e-6;
