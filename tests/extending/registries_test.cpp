@@ -88,6 +88,7 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
           Found("motions/pair_fit.cpp", "asymptotic_extended"),
           // a model of the rolling sphere, and a section of its case
           Found("rolling/roll_with_viscous_contact.cpp", "viscous_contact"),
+          Found("rolling/case/rolling_study.cpp", "viscous_contact"),
           Found("rolling/case/rolling_case.cpp", "sphere"),
           // what the texts of Python's help() quote
           Found("python/spheres.cpp", "viscous_contact"), Found("python/fits.cpp", "lecture"),
