@@ -344,7 +344,7 @@ ConstraintSolution<D> ConstraintSystem<D>::solve_problem(int max_iterations) {
     return solution;
   const auto with_own_loads = problem_;
   // Where friction locks particles that must move, impulses grow without bound, and the loads of the
-  // best iterate have no meaning. So it is in each convex problem without a solution.
+  // best iterate have no meaning. This happens in every convex problem without a solution.
   has_given_up_ = (!is_convex_ && solve_with_given_loads(false, solution)) ||
                   solve_with_given_loads(true, solution);
   if (!has_given_up_) {
@@ -393,8 +393,9 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     constexpr int kPatience = 3;
     growing = change < last_change ? 0 : growing + 1;
     last_change = change;
-    // If a correction does not shrink, what is left are errors of the solutions: slips are allowed,
-    // and turns pass them on to gaps. Further solutions are therefore exact.
+    // If a correction does not shrink, only the errors of the solutions are left. Slips may have
+    // such errors, and the turns of bodies pass them on to gaps. Further solutions are therefore
+    // exact.
     problem_.is_exact = problem_.is_exact || growing > 0;
     // The loads of a solution bound the friction of the next one. With large friction this may
     // repeat without end, while corrections would follow the loads instead of vanishing. The first

@@ -152,7 +152,7 @@ TEST(WriteIfChanged, LeavesAFileAloneThatIsUpToDateAndWritesADamagedOneAgain) {
   EXPECT_FALSE(writes());
   provenance.inputs[0].sha256 = std::string(64, '1');
   EXPECT_TRUE(writes());
-  provenance.folder = "/home/another";
+  provenance.folder = "another folder";
   EXPECT_TRUE(writes());
   // A provenance that is damaged, and none, beside the same text.
   for (const std::string line : {"# provenance: {\"command\":[1\n", ""}) {

@@ -269,8 +269,8 @@ TEST_P(ConvexFriction, ABoxWithFilmsDoesNotDependOnTheOrderOfItsParticles) {
 
 TEST_P(ConvexFriction, EveryStepOfABodyThatFallsIntoACornerConverges) {
   // A body of three particles turns as it falls on two walls, so that corrections for its finite
-  // turns change the loads. With films, loads bound the friction. Steps of spheres failed in 13 to
-  // 24 of 60 cases for each film and each mu_s when each correction took the loads of the one before.
+  // turns change the loads. With films, loads bound the friction. In space, 13 to 24 of the 60 steps
+  // failed with each film and each mu_s when each correction took the loads of the solution before.
   const int dimension = GetParam();
   for (const double mu_s : {0.5, 1.0, 2.0})
     for (const double gamma_min : {-2.0, -0.5, 0.0}) {

@@ -25,9 +25,7 @@ TEST(BlowOfABody, OfAFlatDumbbellAtTheEndOfAStepIsOneBlow) {
     add_rotation(p);
     add_rigid_body(p, {.members = {0, 1}});
     scene.setting.planes = {plane_at_rest({}, n)};
-    scene.setting.laws.film.gamma_min = 0;
-    scene.setting.laws.restitution.coefficient = 1;
-    scene.setting.time_step = 0.1;
+    set_rebounds_without_film(scene.setting, 1, 0.1);
     Simulation simulation(scene.setting, scene.state, 1);
     run(simulation, 1.5);
     const auto& body = simulation.state().particles.bodies.bodies[0];
@@ -46,9 +44,7 @@ TEST(BlowOfABody, OfABodyThatTurnsKeepsItsEnergyAtEachStep) {
     p.angular_velocities = {3, 3};
     add_rigid_body(p, {.members = {0, 1}});
     scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
-    scene.setting.laws.film.gamma_min = 0;
-    scene.setting.laws.restitution.coefficient = 1;
-    scene.setting.time_step = step;
+    set_rebounds_without_film(scene.setting, 1, step);
     Simulation simulation(scene.setting, scene.state, 1);
     const auto energy_of = [](const RigidBody& body) {
       return body.mass * dot(body.velocity, body.velocity) / 2 +
@@ -81,9 +77,7 @@ TEST(BlowOfABody, TwiceInAStepKeepsTheEnergyAndHasTheVelocityOfThePointOfContact
     p.angular_velocities = {turns, turns};
     add_rigid_body(p, {.members = {0, 1}});
     scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
-    scene.setting.laws.film.gamma_min = 0;
-    scene.setting.laws.restitution.coefficient = 1;
-    scene.setting.time_step = kStep;
+    set_rebounds_without_film(scene.setting, 1, kStep);
     Simulation simulation(scene.setting, scene.state, 1);
     const auto before = simulation.state().particles.bodies.bodies[0];
     double speed = before.velocity[1], turning = before.angular_velocity[2], angle = 0, last = 0;
@@ -129,9 +123,7 @@ TEST(BlowOfABody, InSpaceKeepsTheEnergyToSecondOrder) {
       for (std::size_t i = 0; i < 9; ++i) p.angular_velocities[i] = spin[i % 3];
       add_rigid_body(p, {.members = {0, 1, 2}});
       scene.setting.planes = {plane_at_rest({}, {0, 0, 1})};
-      scene.setting.laws.film.gamma_min = 0;
-      scene.setting.laws.restitution.coefficient = 1;
-      scene.setting.time_step = step;
+      set_rebounds_without_film(scene.setting, 1, step);
       Simulation simulation(scene.setting, scene.state, 1);
       const auto energy = [&] {
         const auto& body = simulation.state().particles.bodies.bodies[0];
@@ -175,9 +167,7 @@ TEST(BlowOfABody, AcrossAPeriodicSideIsThatInTheMiddle) {
     add_rotation(p);
     p.angular_velocities = {2, 2, 0};
     add_rigid_body(p, {.members = {0, 1}});
-    scene.setting.laws.film.gamma_min = 0;
-    scene.setting.laws.restitution.coefficient = 0.8;
-    scene.setting.time_step = 0.05;
+    set_rebounds_without_film(scene.setting, 0.8, 0.05);
     Simulation simulation(scene.setting, scene.state, 1);
     const auto rebounds = rebounds_until(2, simulation);
     if (in_middle.empty()) in_middle = rebounds;
@@ -230,9 +220,7 @@ TEST(BlowOfABody, OfARigidBodyHasItsMassAndInertia) {
   add_rotation(p);
   add_rigid_body(p, {.members = {0, 1}});
   scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
-  scene.setting.laws.film.gamma_min = 0;
-  scene.setting.laws.restitution.coefficient = 0.7;
-  scene.setting.time_step = 0.0173;
+  set_rebounds_without_film(scene.setting, 0.7, 0.0173);
   Simulation simulation(scene.setting, scene.state, 1);
   const auto body = p.bodies.bodies[0];
   run(simulation, 0.6);

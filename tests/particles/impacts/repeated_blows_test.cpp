@@ -84,9 +84,7 @@ Ball ball_of(const Bounces& bounces, Partner partner, int dimension, double deca
     if (partner == Partner::kTurningPlane)
       setting.planes[0].angular_velocity = {0, 0, 1e-15 / time};
   }
-  setting.laws.film.gamma_min = 0;
-  setting.laws.restitution.coefficient = bounces.dry;
-  setting.time_step = bounces.step * time;
+  set_rebounds_without_film(setting, bounces.dry, bounces.step * time);
   setting.scheme = bounces.scheme;
   return ball;
 }
@@ -152,9 +150,7 @@ TEST(RepeatedBlowsOfDiscs, ThatTurnAroundEachOtherDoNotDependOnTheStep) {
     add_particle(scene.state, {0, 11.001, 0}, 1, 1, {0.3, 0, 0});
     scene.setting.forces[1] = constant({0, -1, 0});
     scene.setting.scheme = Scheme::kLeapfrog;
-    scene.setting.laws.film.gamma_min = 0;
-    scene.setting.laws.restitution.coefficient = 1;
-    scene.setting.time_step = step;
+    set_rebounds_without_film(scene.setting, 1, step);
     Simulation simulation(scene.setting, scene.state, 1);
     const auto rebounds = rebounds_until(2, simulation);
     if (shortest.empty()) shortest = rebounds;
@@ -186,9 +182,7 @@ TEST(RepeatedBlowsOfDiscs, ThatComeBackToARoundPartnerInALongStepAreHit) {
                    velocity + kBegin * pull);
       scene.setting.forces[1] = constant(pull);
       scene.setting.scheme = Scheme::kLeapfrog;
-      scene.setting.laws.film.gamma_min = 0;
-      scene.setting.laws.restitution.coefficient = 1;
-      scene.setting.time_step = step;
+      set_rebounds_without_film(scene.setting, 1, step);
       Simulation simulation(scene.setting, scene.state, 1);
       const auto rebounds = rebounds_until(2, simulation);
       ASSERT_FALSE(rebounds.empty()) << excess << " " << step;
@@ -280,9 +274,7 @@ TEST(RepeatedBlowsAtAPlane, ThatTurnsFollowItsMotion) {
         scene.setting.planes[0].angular_velocity = {0, 0, omega};
         scene.setting.gravity = {0, -1, 0};
         scene.setting.scheme = Scheme::kLeapfrog;
-        scene.setting.laws.film.gamma_min = 0;
-        scene.setting.laws.restitution.coefficient = dry;
-        scene.setting.time_step = step;
+        set_rebounds_without_film(scene.setting, dry, step);
         Simulation simulation(scene.setting, scene.state, 1);
         const auto rebounds = rebounds_until(kEnd, simulation);
         EXPECT_GT(expected.size(), 2U);
@@ -306,9 +298,7 @@ TEST(RepeatedBlowsOfDiscs, OfABlowAtTheEndOfAStepGoOnInTheNextStep) {
     scene.setting.planes = {plane_at_rest({}, n)};
     scene.setting.gravity = -1.0 * n;
     scene.setting.scheme = Scheme::kLeapfrog;
-    scene.setting.laws.film.gamma_min = 0;
-    scene.setting.laws.restitution.coefficient = 0.3;
-    scene.setting.time_step = 1;
+    set_rebounds_without_film(scene.setting, 0.3, 1);
     Simulation simulation(scene.setting, scene.state, 1);
     const auto rebounds = rebounds_until(3, simulation);
     ASSERT_EQ(rebounds.size(), 3U) << k;

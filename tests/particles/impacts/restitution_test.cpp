@@ -73,9 +73,7 @@ TEST_P(Restitution, OfADryBallThatFallsEndsWhenTheSumOfItsFlightsDoes) {
       add_particle(scene.state, {0, 2, 0}, 1, 3);
       scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
       scene.setting.gravity = {0, -2, 0};
-      scene.setting.laws.film.gamma_min = 0;
-      scene.setting.laws.restitution.coefficient = dry;
-      scene.setting.time_step = 1e-3;
+      set_rebounds_without_film(scene.setting, dry, 1e-3);
       scene.setting.scheme = scheme;
       Simulation simulation(scene.setting, scene.state, 1);
       const double stops = std::sqrt(2 * 1.0 / 2) * (1 + dry) / (1 - dry);
@@ -115,9 +113,7 @@ TEST_P(Restitution, OfABallWithoutForcesIsExactWhereverTheStepsLie) {
     Scene scene{no_particles(GetParam()), {}};
     add_particle(scene.state, (length + gap) * normal, length, mass, -speed * normal);
     scene.setting.planes = {plane_at_rest({}, normal)};
-    scene.setting.laws.film.gamma_min = 0;
-    scene.setting.laws.restitution.coefficient = 0.7;
-    scene.setting.time_step = random.decades(-2, 0.5) * gap / speed;
+    set_rebounds_without_film(scene.setting, 0.7, random.decades(-2, 0.5) * gap / speed);
     Simulation simulation(scene.setting, scene.state, 1);
     const double end = 2.3 * gap / speed;
     run(simulation, end);
@@ -137,9 +133,7 @@ TEST_P(Restitution, DoesNotDependOnTheUnits) {
       add_particle(scene.state, {0, 0, 0}, length, mass, {length, 0, 0});
       add_particle(scene.state, {3 * length, 0.5 * length, 0}, length, 3 * mass);
       add_particle(scene.state, {8 * length, length, 0}, length, mass);
-      scene.setting.laws.film.gamma_min = 0;
-      scene.setting.laws.restitution.coefficient = 0.9;
-      scene.setting.time_step = 0.3;
+      set_rebounds_without_film(scene.setting, 0.9, 0.3);
       Simulation simulation(scene.setting, scene.state, 1);
       EXPECT_EQ(rebounds_until(9, simulation).size(), 2U) << length << " " << mass;
       ends.push_back(simulation.state().particles.velocity(2)[0] / length);
@@ -184,9 +178,7 @@ TEST_P(Restitution, PassesABlowOnThroughTouchingParticles) {
         add_particle(scene.state, {2 * k + k * between - (flies ? 0.5 : 0), 0, 0}, 1, 1,
                      {flies ? 1.0 : 0.0, 0, 0});
       }
-      scene.setting.laws.film.gamma_min = 0;
-      scene.setting.laws.restitution.coefficient = 1;
-      scene.setting.time_step = 0.07;
+      set_rebounds_without_film(scene.setting, 1, 0.07);
       Simulation simulation(scene.setting, scene.state, 1);
       run(simulation, 2);
       for (int k = 0; k < 5; ++k)
@@ -287,9 +279,7 @@ TEST_P(Restitution, OfThePileAtRestIsNoChatter) {
   for (int k = 0; k < 3; ++k) add_particle(scene.state, {0, 1.0 + 2 * k, 0}, 1, 1);
   scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
   scene.setting.gravity = {0, -10, 0};
-  scene.setting.laws.film.gamma_min = 0;
-  scene.setting.laws.restitution.coefficient = 0.9;
-  scene.setting.time_step = 0.01;
+  set_rebounds_without_film(scene.setting, 0.9, 0.01);
   Simulation simulation(scene.setting, scene.state, 1);
   EXPECT_TRUE(rebounds_until(2, simulation).empty());
   for (std::size_t k = 0; k < 3; ++k)
@@ -303,9 +293,7 @@ TEST(RestitutionOfDiscs, OfAHeavyOneAndALightOneAtAWallCountsTo314) {
     add_particle(scene.state, {10, 0, 0}, 1, 10000, {-1, 0, 0});
     add_particle(scene.state, {4, 0, 0}, 1, 1);
     scene.setting.planes = {plane_at_rest({}, {1, 0, 0})};
-    scene.setting.laws.film.gamma_min = 0;
-    scene.setting.laws.restitution.coefficient = 1;
-    scene.setting.time_step = step;
+    set_rebounds_without_film(scene.setting, 1, step);
     Simulation simulation(scene.setting, scene.state, 1);
     std::size_t blows = 0;
     run(simulation, 40, [&](const StepReport&) { blows += simulation.rebounds().size(); });

@@ -14,6 +14,13 @@ struct Scene {
   Setting setting;
 };
 
+/// Lets contacts without film rebound with the coefficient `dry`, e_d, in steps of the length `step`.
+inline void set_rebounds_without_film(Setting& setting, double dry, double step) {
+  setting.laws.film.gamma_min = 0;
+  setting.laws.restitution.coefficient = dry;
+  setting.time_step = step;
+}
+
 /// A particle of radius 1 that flies at the velocity -1 to the plane y = 0 from the gap `gap`. Its
 /// film has gamma_min = ln(1/100), so that k = 1 and the mass is the Stokes number `stokes` = m/k.
 /// `dry` is e_d, and `step` the time step.
