@@ -156,6 +156,7 @@ void Simulation::move(double h) {
 
 template <int D>
 ProjectionResult Simulation::project(double h, double next) {
+  const auto planes_before = positions_of(obstacles_, state_.time);
   const auto planes = positions_of(obstacles_, next);
   const double largest = largest_resolved_distance(setting_.solver.tolerance, mean_radius_);
   const auto length_of = [&](std::size_t k) {
@@ -179,7 +180,8 @@ ProjectionResult Simulation::project(double h, double next) {
   for (;;) {
     rebuild_wall_list(state_, planes, margin, *pool_);
     find_impacts<D>(h, next);
-    StepProjection<D> projection(state_, h, planes, displacements_, mobilities_, *pool_);
+    StepProjection<D> projection(state_, h, planes_before, planes, displacements_, mobilities_,
+                                 *pool_);
     const ConstraintStep constraints{setting_.laws,
                                      obstacles_,
                                      state_.time,

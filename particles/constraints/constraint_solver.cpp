@@ -220,9 +220,9 @@ class Iteration {
     constexpr int kMostIterations = 60;
     if (!interior_) interior_.emplace(problem_, w_, matrix());
     const int most = std::clamp(max_iterations - best_.result.iterations, 1, kMostIterations);
-    best_.result.iterations += interior_->solve(problem_.is_rough   ? kRough
-                                                : problem_.is_exact ? kExact
-                                                                    : kAccurate,
+    best_.result.iterations += interior_->solve(problem_.is_rough  ? kRough
+                                                : problem_.is_near ? kExact
+                                                                   : kAccurate,
                                                 most);
     problem_.impulses = interior_->impulses();
     update();
@@ -232,21 +232,33 @@ class Iteration {
   /// steps, if needed, which are few: it is known which contacts stick and slide.
   void solve_convex(int max_iterations) {
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return;
+    // Proximal steps from a solution that is near keep most of the errors of its slips. Solutions
+    // by interior points have other errors each, which bodies that turn pass on to gaps, so that
+    // corrections for finite turns would not vanish. Two or three steps are the rule.
+    constexpr int kMostStepsNear = 10;
+    if (problem_.is_near && take_convex_steps(max_iterations, kMostStepsNear)) return;
     // No sweeps are made first. They seldom solve a problem, and the time of interior points does
     // not depend on their start. If rows are redundant, impulses found by sweeps depend on the order
     // of the rows, and those found by interior points do not.
     find_interior_solution(max_iterations);
-    if (problem_.is_rough) return;
+    if (!problem_.is_rough) take_convex_steps(max_iterations, max_iterations);
+  }
+
+  /// Takes at most `most_steps` proximal steps of a convex problem. Returns true if it is solved.
+  bool take_convex_steps(int max_iterations, int most_steps) {
     // Errors of impulses are rounding errors of gaps over epsilon, too large with a smaller one.
     constexpr double kFirstEpsilonOfConvex = 1e-5;
     epsilon_ = kFirstEpsilonOfConvex;
     is_rising_ = true;
     if (!proximal_) proximal_.emplace(problem_, w_, matrix());
     proximal_->set_epsilon(epsilon_);
-    while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant()) {
+    for (int n = 0; residual_ > 1 && n < most_steps && best_.result.iterations < max_iterations &&
+                    !is_stagnant();
+         ++n) {
       take_convex_step(max_iterations);
       note_progress();
     }
+    return residual_ <= 1;
   }
 
   /// Takes a proximal step of a convex problem, and changes epsilon for the next one. Without

@@ -61,8 +61,10 @@ ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particle
 template <int D>
 void ConstraintSystem<D>::join_linked(ContactSystem<D>& system) const {
   for (const auto& link : links_)
-    for (const auto& part : link.parts())
+    for (const auto& part : link.parts()) {
       system.connect(link.parts().front().particle, part.particle);
+      if (!link.is_spring()) system.hold(part.particle);
+    }
 }
 
 template <int D>
@@ -217,12 +219,8 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system,
     shifts_[b] = std::max(shifts_[b], std::abs(by));
     largest = std::max(largest, std::abs(by) / problem_.blocks[b].allowed);
   };
-  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
-    const auto& contact = system.contacts[c];
-    if (particles_.bodies.body_of(contact.second) >= 0 ||
-        (contact.first >= 0 && particles_.bodies.body_of(contact.first) >= 0))
-      shift(c, 0, gap_after(contact, displacements_));
-  }
+  for (std::size_t c = 0; c < system.contacts.size(); ++c)
+    if (system.is_held(system.contacts[c])) shift(c, 0, system.gap(system.contacts[c]));
   for (std::size_t l = 0; l < links_.size(); ++l) {
     if (links_[l].is_spring()) continue;
     const std::size_t b = system.contacts.size() + l;
@@ -233,6 +231,18 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system,
     for (std::size_t k = 0; k < values.size(); ++k) shift(b, k, values[k]);
   }
   return largest;
+}
+
+/// True if a last correction is larger than rounding errors and errors of solutions are.
+template <int D>
+bool ConstraintSystem<D>::have_diverged() const {
+  constexpr double kPart = 1e-6;  // of the mean radius
+  for (std::size_t b = 0; b < shifts_.size(); ++b) {
+    const std::size_t contacts = residuals_.size();
+    const bool is_angle = b >= contacts && links_[b - contacts].is_angle();
+    if (shifts_[b] * (is_angle ? mean_radius_ : 1) > kPart * mean_radius_) return true;
+  }
+  return false;
 }
 
 /// Copies the solution to the contacts of `system`, to the forces of links and the motions of
@@ -329,38 +339,50 @@ bool ConstraintSystem<D>::solve_with_given_loads(bool without_friction,
   return is_solved;
 }
 
+/// Solves problem_ with given loads in place of those of the solution, in which further iterations
+/// or corrections make no progress. Returns true and sets has_given_up_ if it is solved. The loads
+/// are those of a solution without friction if `have_diverged`, because those of the present
+/// impulses have no meaning then, and where these do not lead to a solution. Returns false, and
+/// leaves problem_ and the motions of `solution` as they are, if no contact has such loads, or if
+/// links contradict each other.
+template <int D>
+bool ConstraintSystem<D>::give_up(bool have_diverged, ConstraintSolution<D>& solution) {
+  const bool has_own_loads = std::ranges::any_of(problem_.blocks, [](const ConstraintBlock& block) {
+    return block.is_contact && block.rows > 1 && block.friction_bound != FrictionBound::kGiven;
+  });
+  if (!has_own_loads || !can_give_up_ || has_given_up_ || problem_.is_rough) return false;
+  const auto with_own_loads = problem_;
+  has_given_up_ = (!have_diverged && solve_with_given_loads(false, solution)) ||
+                  solve_with_given_loads(true, solution);
+  if (!has_given_up_) {
+    can_give_up_ = false;
+    problem_ = with_own_loads;
+    return false;
+  }
+  for (std::size_t c = 0; c < carried_.size(); ++c)
+    given_loads_.push_back(problem_.blocks[c].given_load);
+  return true;
+}
+
 /// Solves problem_ as it is. If the problem, in which loads of the solution bound the friction, is
-/// not solved in `max_iterations`, solves it with given loads, in more iterations, and sets
-/// has_given_up_. A convex problem is given up only if further iterations would not solve it.
+/// not solved in `max_iterations`, solves it with given loads, in more iterations. A convex problem
+/// is given up only if further iterations would not solve it.
 template <int D>
 ConstraintSolution<D> ConstraintSystem<D>::solve_problem(int max_iterations) {
   if (has_given_up_) return solve_constraints(problem_, kMostOfGivenLoads);
   auto solution = solve_constraints(problem_, std::max(1, max_iterations));
-  const bool has_own_loads = std::ranges::any_of(problem_.blocks, [](const ConstraintBlock& block) {
-    return block.is_contact && block.rows > 1 && block.friction_bound != FrictionBound::kGiven;
-  });
-  if (solution.result.residual <= 1 || problem_.is_rough || !has_own_loads || !can_give_up_ ||
-      (is_convex_ && solution.result.iterations >= max_iterations))
-    return solution;
-  const auto with_own_loads = problem_;
-  // Where friction locks particles that must move, impulses grow without bound, and the loads of the
-  // best iterate have no meaning. This happens in every convex problem without a solution.
-  has_given_up_ = (!is_convex_ && solve_with_given_loads(false, solution)) ||
-                  solve_with_given_loads(true, solution);
-  if (!has_given_up_) {
-    // Links contradict each other.
-    can_give_up_ = false;
-    problem_ = with_own_loads;
-    return solution;
-  }
-  for (std::size_t c = 0; c < carried_.size(); ++c)
-    given_loads_.push_back(problem_.blocks[c].given_load);
+  // Where friction locks particles that must move, impulses grow without bound. This happens in
+  // every convex problem without a solution.
+  if (!(solution.result.residual <= 1) &&
+      !(is_convex_ && solution.result.iterations >= max_iterations))
+    give_up(is_convex_, solution);
   return solution;
 }
 
+/// Makes problem_ from the contacts of `system` and the links, as solve() describes it.
 template <int D>
-SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
-                                        double roughly_allowed, int max_iterations) {
+void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, bool is_rough,
+                                       double roughly_allowed) {
   problem_ = {};
   problem_.is_convex = is_convex_;
   problem_.is_rough = is_rough;
@@ -373,14 +395,30 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     for (auto& block : problem_.blocks) block.allowed = roughly_allowed;
   for (std::size_t l = 0; l < links_.size(); ++l)
     add_link(l, is_rough ? roughly_allowed : links_allowed[l]);
-  if (has_given_up_) give_loads_of_step();
+  if (has_given_up_) {
+    give_loads_of_step();
+  } else if (!is_rough && last_loads_.size() == system.contacts.size()) {
+    // Without further pairs the loads of the last solution remain, so that the motion does not
+    // depend on how often it is solved, which rounding errors may decide.
+    for (std::size_t c = 0; c < last_loads_.size(); ++c)
+      problem_.blocks[c].given_load = last_loads_[c];
+    problem_.keeps_loads = true;
+  }
+}
+
+template <int D>
+SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
+                                        double roughly_allowed, int max_iterations) {
+  make_problem(system, is_rough, roughly_allowed);
   // Each correction multiplies the error by about the turn of the bodies in the step [rad]. With
-  // turns of 1 it gains little; then more corrections than this would not help either.
-  constexpr int kMostCorrections = 40;
+  // turns of 1 it gains little. Corrections end if this number of them has not halved the largest
+  // one, which a factor of 0.93 would do.
+  constexpr int kMostWithoutGain = 10;
   ConstraintSolution<D> solution;
   SolverResult result;
-  double last_change = std::numeric_limits<double>::infinity();
-  int growing = 0;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double last_change = kInfinity, gained_change = kInfinity;
+  int growing = 0, gained_at = 0;
   for (int n = 0;; ++n) {
     solution = solve_problem(max_iterations - result.iterations);
     result.iterations += solution.result.iterations;
@@ -393,20 +431,36 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     constexpr int kPatience = 3;
     growing = change < last_change ? 0 : growing + 1;
     last_change = change;
-    // If a correction does not shrink, only the errors of the solutions are left. Slips may have
-    // such errors, and the turns of bodies pass them on to gaps. Further solutions are therefore
-    // exact.
-    problem_.is_exact = problem_.is_exact || growing > 0;
+    if (change < gained_change / 2) {
+      gained_change = change;
+      gained_at = n;
+    }
     // The loads of a solution bound the friction of the next one. With large friction this may
     // repeat without end, while corrections would follow the loads instead of vanishing. The first
-    // correction contains most of what turns add to the loads, so that later ones keep them.
-    problem_.keeps_loads = problem_.keeps_loads || n > 0;
+    // correction contains most of what turns add to the loads, so that later ones keep them, and
+    // change the problem little.
+    if (n > 0) problem_.keeps_loads = problem_.is_near = true;
+    // An unsolved problem is still corrected if its residual is a small part of the correction.
+    constexpr double kSmallPart = 1e-3;
+    const bool is_unsolved = !(solution.result.residual <= std::max(1.0, kSmallPart * change));
     // Half of what is allowed is left to the residual of the solution.
-    if (change <= 0.5 || growing == kPatience || is_rough || n == kMostCorrections ||
-        (result.iterations >= max_iterations && !has_given_up_) || !(solution.result.residual <= 1))
+    if (change <= 0.5 || is_rough || is_unsolved ||
+        (result.iterations >= max_iterations && !has_given_up_))
       break;
+    if (growing < kPatience && n - gained_at < kMostWithoutGain) continue;
+    // Friction may turn bodies so far that corrections do not converge. Given loads limit friction.
+    if (has_given_up_ || !have_diverged()) break;
+    make_problem(system, is_rough, roughly_allowed);
+    if (!give_up(true, solution)) break;
+    result.iterations += solution.result.iterations;
+    last_change = gained_change = kInfinity;
+    n = growing = gained_at = 0;
   }
   take_over(system, solution);
+  if (is_rough || has_given_up_) return result;
+  last_loads_.clear();
+  for (std::size_t c = 0; c < system.contacts.size(); ++c)
+    last_loads_.push_back(problem_.blocks[c].given_load);
   return result;
 }
 

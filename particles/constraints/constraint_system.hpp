@@ -89,7 +89,8 @@ class ConstraintSystem {
   ///
   /// The convex relaxation (5.9) has no solution where friction locks particles that must move. If
   /// iterations no longer reduce its residual, the friction is bounded by the loads of a solution
-  /// without friction, as in (5.17), and residual() is that of (5.17).
+  /// without friction, as in (5.17), and residual() is that of (5.17). So it is with both laws where
+  /// friction turns bodies so far that corrections do not converge.
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double roughly_allowed,
                      int max_iterations);
 
@@ -124,6 +125,9 @@ class ConstraintSystem {
   UnitMotion motion_of(std::int32_t unit, std::span<const Motion<D>> motions) const;
   void move_particles(const ContactSystem<D>& system, std::span<const Motion<D>> motions);
   double correct(ContactSystem<D>& system, const ConstraintSolution<D>& solution);
+  bool have_diverged() const;
+  void make_problem(const ContactSystem<D>& system, bool is_rough, double roughly_allowed);
+  bool give_up(bool have_diverged, ConstraintSolution<D>& solution);
   void give_loads_of_step();
   bool solve_with_given_loads(bool without_friction, ConstraintSolution<D>& solution);
   ConstraintSolution<D> solve_problem(int max_iterations);
@@ -153,6 +157,8 @@ class ConstraintSystem {
   // can_give_up_: false if the problem had no solution with given loads either.
   bool has_given_up_ = false, can_give_up_ = true;
   std::vector<double> given_loads_;  // of the contacts, if has_given_up_ [M L/T]
+  // ConstraintBlock::given_load of all contacts in the last solution that was not rough [M L/T].
+  std::vector<double> last_loads_;
 };
 
 }  // namespace viscontact::particles

@@ -122,6 +122,42 @@ double gap_after(const Contact<D>& contact, std::span<const double> displacement
   return sum;
 }
 
+/// Displacement of the second particle relative to the first [L]; the first is not an obstacle.
+template <int D>
+std::array<double, D> relative_displacement(const Contact<D>& contact,
+                                            std::span<const double> displacements) {
+  std::array<double, D> w{};
+  for (std::size_t d = 0; d < D; ++d)
+    w[d] = displacements[index_of(contact.second) * D + d] -
+           displacements[index_of(contact.first) * D + d];
+  return w;
+}
+
+/// The gap after the step as gap_after(), but along the line of both centres after the step. It is
+/// at least the linearised gap. If that line no longer points along the normal (the particles have
+/// passed each other), and for an obstacle, it is the linearised gap.
+template <int D>
+double distance_after(const Particles& p, const Contact<D>& contact,
+                      std::span<const double> displacements) {
+  const double linear = gap_after(contact, displacements);
+  if (contact.first < 0) return linear;
+  auto apart = separation<D>(p, contact.first, contact.second, contact.image);
+  const auto moved = relative_displacement(contact, displacements);
+  double along = 0;
+  for (std::size_t d = 0; d < D; ++d) {
+    apart[d] += moved[d];
+    along += contact.normal[d] * apart[d];
+  }
+  if (along <= 0) return linear;
+  double square = 0;
+  for (std::size_t d = 0; d < D; ++d) {
+    const double across = apart[d] - along * contact.normal[d];
+    square += across * across;
+  }
+  // The difference of the hypotenuse and of its part along the normal, without cancellation.
+  return linear + square / (along + std::sqrt(along * along + square));
+}
+
 /// The `contact` that contact_of() gave for `pair`, with the gap that the step has to close in
 /// place of the true gap.
 ///
@@ -178,17 +214,6 @@ bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> 
 /// the linearised gap is used in place of the gap. The two differ by half the square of this ratio
 /// times the sum of the radii, so that 0.5 limits the difference to an eighth of this sum.
 inline constexpr double kLargestTurn = 0.5;
-
-/// Displacement of the second particle relative to the first [L]; the first is not an obstacle.
-template <int D>
-std::array<double, D> relative_displacement(const Contact<D>& contact,
-                                            std::span<const double> displacements) {
-  std::array<double, D> w{};
-  for (std::size_t d = 0; d < D; ++d)
-    w[d] = displacements[index_of(contact.second) * D + d] -
-           displacements[index_of(contact.first) * D + d];
-  return w;
-}
 
 /// True if particle `contact.second` moves around particle `contact.first` by more than
 /// kLargestTurn in the step. Always false for a plane, whose linearised gap is exact, and for a

@@ -6,6 +6,7 @@
 #include "viscontact/particles/dual_problem/contact_system.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace viscontact::particles {
 
@@ -19,8 +20,10 @@ std::int32_t ContactSystem<D>::number(std::int32_t particle) {
   body_mobilities_.push_back(mobilities_[k]);
   island_of_.push_back(body_of_[k]);
   island_sizes_.push_back(1);
-  if (const auto rigid = rigid_bodies_.body_of(particle); rigid >= 0)
-    for (const auto member : rigid_bodies_.bodies[index_of(rigid)].members)
+  const auto rigid = particles_.bodies.body_of(particle);
+  is_held_.push_back(rigid < 0 ? 0 : 1);
+  if (rigid >= 0)
+    for (const auto member : particles_.bodies.bodies[index_of(rigid)].members)
       if (body_of_[index_of(member)] < 0) connect(particle, member);
   return body_of_[k];
 }
@@ -56,7 +59,22 @@ void ContactSystem<D>::join(std::int32_t island, std::int32_t other) {
   auto& size = island_sizes_[index_of(other)];
   size += island_sizes_[index_of(island)];
   island_of_[index_of(island)] = other;
+  is_held_[index_of(other)] |= is_held_[index_of(island)];
   largest_island_ = std::max(largest_island_, size);
+}
+
+template <int D>
+bool ContactSystem<D>::is_held(const Contact<D>& contact) {
+  return std::ranges::any_of(std::array{contact.first, contact.second}, [&](std::int32_t particle) {
+    const auto body = particle < 0 ? -1 : body_of(particle);
+    return body >= 0 && is_held_[index_of(island(body))] != 0;
+  });
+}
+
+template <int D>
+double ContactSystem<D>::gap(const Contact<D>& contact) {
+  return is_held(contact) ? distance_after(particles_, contact, displacements_)
+                          : gap_after(contact, displacements_);
 }
 
 template <int D>

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 
@@ -25,13 +25,13 @@ template <int D>
 class ContactSystem {
  public:
   /// `displacements`: h u* of all particles [L], D numbers for each. `mobilities`: h/m of all
-  /// particles [T/M], > 0. `rigid_bodies`: if one particle of a rigid body takes part, all do. All
+  /// particles [T/M], > 0. If one particle of a rigid body of `particles` takes part, all do. All
   /// must outlive the object.
   ContactSystem(std::span<double> displacements, std::span<const double> mobilities,
-                const RigidBodies& rigid_bodies)
+                const Particles& particles)
       : displacements_(displacements),
         mobilities_(mobilities),
-        rigid_bodies_(rigid_bodies),
+        particles_(particles),
         body_of_(mobilities.size(), -1) {}
 
   /// Adds a contact, makes its particles take part, and joins them to one island.
@@ -39,6 +39,8 @@ class ContactSystem {
 
   /// Makes two particles take part, in one island; if `first` is -1, only `second`.
   void connect(std::int32_t first, std::int32_t second);
+  /// Tells that a rigid link holds `particle`, which must take part.
+  void hold(std::int32_t particle) { is_held_[index_of(island(body_of(particle)))] = 1; }
 
   /// Solves the dual problem, with the impulses of `contacts` as the first guess and at most
   /// `max_iterations` > 0 iterations. Sets these impulses, and in the array of the constructor the
@@ -49,6 +51,14 @@ class ContactSystem {
   /// The contacts, which name particles by their own numbers, not by those of bodies. A caller may
   /// change `impulse` and `allowed` of a contact, and nothing else.
   std::vector<Contact<D>> contacts;
+
+  /// True if a particle of the contact is in an island with a rigid body or a rigid link.
+  bool is_held(const Contact<D>& contact);
+  /// Gap of a contact, which need not be in the system, after the present displacements [L]: if
+  /// is_held(), distance_after(), otherwise the linearised gap, gap_after(). The linearised gap of
+  /// two particles in touch becomes negative when they turn about each other. It would contradict
+  /// bodies and links that turn with them.
+  double gap(const Contact<D>& contact);
 
   const std::vector<std::int32_t>& bodies() const { return bodies_; }  ///< particle of each body
   /// Number of the body that a particle is; -1 if the particle does not take part.
@@ -65,13 +75,15 @@ class ContactSystem {
 
   std::span<double> displacements_;
   std::span<const double> mobilities_;
-  const RigidBodies& rigid_bodies_;
+  const Particles& particles_;
   std::vector<std::int32_t> bodies_, body_of_;
   std::vector<double> free_, body_mobilities_;
   // The islands as trees (union-find): the parent of each body, which is another body of its
   // island, or the body itself if it is the root, which represents the island.
   std::vector<std::int32_t> island_of_;
   std::vector<std::size_t> island_sizes_;  // number of bodies of each island, at its root
+  // 1 for an island with a rigid body or a rigid link, otherwise 0; at its root.
+  std::vector<char> is_held_;
   std::size_t largest_island_ = 1;
   FreeSetFactor<D> factor_;  // of the last solve() that needed a factor, for the next one
 };

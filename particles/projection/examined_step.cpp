@@ -121,7 +121,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   for (std::size_t c = 0; is_final && c < chosen_.size(); ++c) {
     const auto& here = system_.contacts[c];
     const auto scale = scales.of(here);
-    const double gap = gap_after(here, displacements_);
+    const double gap = system_.gap(here);
     const double residual = constraints_
                                 ? constraints_->residual(c).normal
                                 : contact_residual(gap, here.w * (here.impulse - here.lowest));
@@ -141,7 +141,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   for (std::size_t k = 0; k < pair_count(); ++k) {
     if (!may_have_closed(k) || !gap_would_close(k, 0)) continue;
     const auto here = contact(k);
-    const double gap = gap_after(here, displacements_);
+    const double gap = system_.gap(here);
     if (take(-gap, scales.of(here), settings, mean_radius, result)) closed.push_back(k);
     result.residuals.take_gap(gap - here.tolerated, pair(k));
   }

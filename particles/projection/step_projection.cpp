@@ -34,17 +34,20 @@ std::vector<std::size_t> interleaved(const std::vector<std::size_t>& pairs) {
 }  // namespace
 
 template <int D>
-StepProjection<D>::StepProjection(State& state, double h, std::span<const PlanePosition> planes,
+StepProjection<D>::StepProjection(State& state, double h,
+                                  std::span<const PlanePosition> planes_before,
+                                  std::span<const PlanePosition> planes,
                                   std::span<double> displacements,
                                   std::span<const double> mobilities, ThreadPool& pool)
     : state_(state),
       h_(h),
+      planes_before_(planes_before),
       planes_(planes),
       displacements_(displacements),
       mobilities_(mobilities),
       pool_(pool),
       is_chosen_(pair_count(), 0),
-      system_(displacements, mobilities, state.particles.bodies) {
+      system_(displacements, mobilities, state.particles) {
   if (std::ranges::none_of(planes, &PlanePosition::is_curved)) return;
   const auto& p = state.particles;
   for (const auto& wall : state.walls) {
@@ -103,7 +106,7 @@ bool StepProjection<D>::gap_would_close(std::size_t k, double margin) {
   const auto& p = state_.particles;
   if (pair(k).first >= 0 && cannot_close<D>(p, pair(k), displacements_, margin)) return false;
   const auto here = contact_at_start(k);
-  return gap_after(resolved(here, p, pair(k), planes_, tolerated_), displacements_) < margin &&
+  return gap_after(with_gap_to_close(here, k), displacements_) < margin &&
          paths_meet(p, here, displacements_);
 }
 
@@ -199,7 +202,7 @@ std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
   }
   const double farthest = std::sqrt(square);
   const auto may_close = [&](std::size_t k) {
-    return is_chosen_[k] == 0 && gap_after(contact(k), displacements_) <= farthest;
+    return is_chosen_[k] == 0 && system_.gap(contact(k)) <= farthest;
   };
   if (!pairs_of_particles_) pairs_of_particles_.emplace(state_);
   const int depth = 1 << std::min(round - kFirstRound, kLargestDepth);
@@ -295,7 +298,7 @@ ResidualScales<D>::ResidualScales(const State& state, double h,
   for (std::size_t b = 0; b < bodies.size(); ++b)
     body_scales_.push_back(of_particle(bodies[b], system.free_displacement(b)));
   for (const auto& contact : system.contacts) {
-    const double gap = gap_after(contact, displacements_);
+    const double gap = system.gap(contact);
     // The film of a pair with gamma < 0 also pulls, so that an open gap needs an impulse, too.
     const double impulse = std::max(std::abs(contact.impulse),
                                     (contact.lowest < 0 ? std::abs(gap) : -gap) / contact.w);
@@ -351,6 +354,20 @@ ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, dou
   // length [L]. A particle that moves by less is at rest in any unit of length.
   constexpr double kAtRest = 1e-100;
   scale.rounding = std::max(kRounding * scale.rounding, kAtRest);
+  return scale;
+}
+
+template <int D>
+ResidualScale ResidualScales<D>::of(const Contact<D>& contact) {
+  const std::array particles{contact.first, contact.second};
+  auto scale = of(particles, contact.w, std::abs(contact.gap));
+  if (!system_.is_held(contact)) return scale;
+  // The errors are taken as 8 units in the last place of the radii.
+  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+  double radii = 0;
+  for (const auto particle : particles)
+    if (particle >= 0) radii += state_.particles.radii[index_of(particle)];
+  scale.rounding = std::max(scale.rounding, kRounding * radii);
   return scale;
 }
 

@@ -70,10 +70,10 @@ class ResidualScales {
   /// small for a heavy particle may be all that moves a light one. The rounding errors are those of
   /// the gap, of the displacements of the particles, and of a solution for all connected contacts.
   ResidualScale of(std::span<const std::int32_t> particles, double w, double length);
-  /// Scales of a contact, from its own particles, w and gap.
-  ResidualScale of(const Contact<D>& contact) {
-    return of(std::array{contact.first, contact.second}, contact.w, std::abs(contact.gap));
-  }
+  /// Scales of a contact, from its own particles, w and gap. In an island with a rigid body or link
+  /// (ContactSystem::is_held()) rounding errors are at least those of the radii, because finite
+  /// turns move points of the surface with such errors.
+  ResidualScale of(const Contact<D>& contact);
 
  private:
   /// Contribution of a particle to the scales of its contacts.
@@ -132,12 +132,12 @@ struct ProjectionResult {
 template <int D>
 class StepProjection {
  public:
-  /// All arguments must outlive this object. `h` > 0 [T]; `planes`: all obstacles at the end of the
-  /// step; `displacements`: D numbers for each particle [L], h u* before solve(), then h v;
+  /// All arguments must outlive this object. `h` > 0 [T]; `planes_before`, `planes`: all obstacles
+  /// at the beginning and at the end of the step; `displacements`: D numbers for each particle [L], h u* before solve(), then h v;
   /// `mobilities`: h/m of each particle [T/M], > 0.
-  StepProjection(State& state, double h, std::span<const PlanePosition> planes,
-                 std::span<double> displacements, std::span<const double> mobilities,
-                 ThreadPool& pool);
+  StepProjection(State& state, double h, std::span<const PlanePosition> planes_before,
+                 std::span<const PlanePosition> planes, std::span<double> displacements,
+                 std::span<const double> mobilities, ThreadPool& pool);
   /// Makes solve() treat friction, rigid bodies and links, too. `step` must outlive this object.
   void add_constraints(const ConstraintStep& step);
   /// Makes solve() linearise contacts where collisions (impacts/) have left their particles,
@@ -163,9 +163,21 @@ class StepProjection {
   }
   Contact<D> contact_at_end(std::size_t k);
   Contact<D> contact(std::size_t k) {
-    auto contact = resolved(contact_at_start(k), state_.particles, pair(k), planes_, tolerated_);
+    auto contact = with_gap_to_close(contact_at_start(k), k);
     contact.w = w(contact.first, contact.second);
     return contact;
+  }
+  // The contact `here` of pair k after resolved(). An overlap with an obstacle is tolerated only as
+  // far as it is there at the beginning of the step, without the motion of the obstacle in it.
+  Contact<D> with_gap_to_close(const Contact<D>& here, std::size_t k) {
+    const auto& p = state_.particles;
+    double tolerated = tolerated_;
+    if (here.first < 0) {
+      const auto j = index_of(here.second);
+      const double overlap = -gap(planes_before_[pair(k).plane()], p.position(j), p.radii[j]);
+      tolerated = std::clamp(overlap, 0.0, tolerated);
+    }
+    return resolved(here, p, pair(k), planes_, tolerated);
   }
   // Contact::w for two particles, or for an obstacle (< 0) and a particle.
   double w(std::int32_t first, std::int32_t second) const {
@@ -197,14 +209,14 @@ class StepProjection {
 
   State& state_;
   double h_;
-  std::span<const PlanePosition> planes_;
+  std::span<const PlanePosition> planes_before_, planes_;
   std::span<double> displacements_;
   std::span<const double> mobilities_;
   ThreadPool& pool_;
   // The tangent of each pair in state.walls where the free motion ends; empty if no obstacle is
   // curved. The particle cannot leave a circle in the step, because the circle is convex.
   std::vector<PlanePosition> tangents_;
-  double tolerated_ = 0;             // overlap that is left as it is [L]
+  double tolerated_ = 0;             // largest overlap that is left as it is [L]
   double margin_ = 0;                // gap below which a pair is nearly closed [L]
   std::vector<std::size_t> chosen_;  // pair of each contact of system_
   std::vector<char> is_chosen_;      // 1 for each chosen pair, else 0; in the order of pair()
