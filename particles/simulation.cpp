@@ -205,8 +205,12 @@ ProjectionResult Simulation::project(double h, double next) {
     // The impulses moved particles further than the lists allow for, so that pairs may be missing:
     // the projection is repeated with longer lists. The loop ends because skins and margin only
     // grow. The new impulses are its first guess. With restitution the impulses of the step before
-    // are kept instead, because they say which pairs bore a load, which the blows need to know.
-    if (!setting_.laws.restitution.is_on()) {
+    // are kept instead, because they say which pairs bore a load, which the blows need to know. So
+    // they are with the convex relaxation, which needs no guess, and whose friction depends on them
+    // where there are films.
+    const auto& friction = setting_.laws.friction;
+    const bool is_convex = friction && friction->method == FrictionMethod::kConvex;
+    if (!setting_.laws.restitution.is_on() && !is_convex) {
       save_impulses();
       take_impulses(projected);
     }

@@ -75,15 +75,15 @@ bool ConstraintSystem<D>::is_held_apart(const Pair& pair) const {
     // A case may give lengths that are shorter by the rounding errors of its numbers.
     constexpr double kShorter = 1e-6;
     const double touching = (1 - kShorter) * (particles_.radii[i] + particles_.radii[j]);
-    // An arm holds the nearest image. Images that are farther away may still touch.
+    // An arm holds the nearest image. Other images may touch, also where they are as near.
     constexpr double kRounding = 1e-9;
     const Vector nearest =
         nearest_image(particles_.cell, particles_.position(j) - particles_.position(i));
-    double square = 0;
-    for (const double x : separation<D>(particles_, pair.first, pair.second, pair.image))
-      square += x * x;
+    Vector apart{};
+    std::ranges::copy(separation<D>(particles_, pair.first, pair.second, pair.image),
+                      apart.begin());
     return length_at(arm.length, times_.end) >= touching &&
-           std::sqrt(square) <= (1 + kRounding) * norm(nearest);
+           norm(apart - nearest) <= kRounding * norm(nearest);
   }
   return false;
 }
@@ -97,6 +97,7 @@ void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
       step_.laws.lowest_gamma(pair, memory, radii_of(pair, particles_, step_.obstacles));
   frictions_.push_back(memory.friction());
   carried_.push_back(memory[Remembered::kCarried]);
+  first_loads_.push_back(carried_.back());
   residuals_.emplace_back();
 }
 
@@ -144,7 +145,7 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c,
   block.rows = rubs ? static_cast<std::size_t>(D) : 1;
   if (problem_.is_convex && rubs) {
     block.friction_bound = block.has_film() ? FrictionBound::kGiven : FrictionBound::kCone;
-    block.given_load = carried_[c];
+    block.given_load = first_loads_[c];
   }
   problem_.blocks.push_back(block);
   const auto first = side_of(contact.first), second = side_of(contact.second);
@@ -435,6 +436,11 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
       gained_change = change;
       gained_at = n;
     }
+    // The first correction contains most of what turns change. The loads are those of the solution
+    // after it, from the same first loads, so that they do not depend on whether it is needed.
+    if (n == 0 && !problem_.keeps_loads)
+      for (std::size_t c = 0; c < first_loads_.size(); ++c)
+        problem_.blocks[c].given_load = first_loads_[c];
     // The loads of a solution bound the friction of the next one. With large friction this may
     // repeat without end, while corrections would follow the loads instead of vanishing. The first
     // correction contains most of what turns add to the loads, so that later ones keep them, and
@@ -457,6 +463,7 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     n = growing = gained_at = 0;
   }
   take_over(system, solution);
+  if (is_rough) first_loads_ = carried_;
   if (is_rough || has_given_up_) return result;
   last_loads_.clear();
   for (std::size_t c = 0; c < system.contacts.size(); ++c)

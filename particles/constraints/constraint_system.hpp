@@ -157,6 +157,9 @@ class ConstraintSystem {
   // can_give_up_: false if the problem had no solution with given loads either.
   bool has_given_up_ = false, can_give_up_ = true;
   std::vector<double> given_loads_;  // of the contacts, if has_given_up_ [M L/T]
+  // Loads of all contacts with which solutions begin [M L/T]: those of the last rough solution, or
+  // of the step before.
+  std::vector<double> first_loads_;
   // ConstraintBlock::given_load of all contacts in the last solution that was not rough [M L/T].
   std::vector<double> last_loads_;
 };

@@ -280,6 +280,7 @@ TEST(Arms, ADiscWithoutRoomBetweenTwoThatAnArmHoldsTurnsWithThem) {
         SCOPED_TRACE(mu_s);
         auto setting = setting_of(0.01, Scheme::kEuler);
         setting.solver.tolerance = 1e-6;
+        setting.laws.film.gamma_min = 0;
         if (mu_s > 0) setting.laws.friction = FrictionLaw{mu_s, method};
         setting.links.arms = {{0, 2, PiecewiseLinearLength{{{0, 4}}}}};
         State state = no_particles(2);
@@ -288,12 +289,18 @@ TEST(Arms, ADiscWithoutRoomBetweenTwoThatAnArmHoldsTurnsWithThem) {
         Simulation simulation(setting, state, 1);
         run(simulation, 2, expect_converged);
         const auto& p = simulation.state().particles;
-        const double impulse = mu_s > 0 ? 2 * w / (1 + 3 / kInertia) : 0;
+        // The load of a disc without room is not unique. Interior points find a large one, with
+        // which the surfaces stick; with the load of another method they may slip.
+        const double most = mu_s > 0 ? 2 * w / (1 + 3 / kInertia) : 0;
+        const double impulse = kInertia * p.angular_velocities[0];
         // The scheme is of second order in the turn of a step, at most 0.01.
         const double error = 2e-4 * w;
+        EXPECT_LE(impulse, most + error);
+        EXPECT_GE(impulse, -error);
+        if (method == FrictionMethod::kConvex) EXPECT_NEAR(impulse, most, error);
         EXPECT_NEAR(norm(p.velocity(2) - p.velocity(0)) / 4, w - impulse / 2, error);
-        for (const std::size_t k : {0, 1, 2})
-          EXPECT_NEAR(p.angular_velocities[k], (k == 1 ? 2 : 1) * impulse / kInertia, error) << k;
+        EXPECT_NEAR(p.angular_velocities[1], 2 * impulse / kInertia, error);
+        EXPECT_NEAR(p.angular_velocities[2], impulse / kInertia, error);
         for (const std::size_t k : {0, 2})
           EXPECT_NEAR(norm(p.position(k) - p.position(1)), 2, 1e-6);
       }
