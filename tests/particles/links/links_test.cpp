@@ -297,7 +297,9 @@ TEST(Arms, ADiscWithoutRoomBetweenTwoThatAnArmHoldsTurnsWithThem) {
         const double error = 2e-4 * w;
         EXPECT_LE(impulse, most + error);
         EXPECT_GE(impulse, -error);
-        if (method == FrictionMethod::kConvex) EXPECT_NEAR(impulse, most, error);
+        if (method == FrictionMethod::kConvex) {
+          EXPECT_NEAR(impulse, most, error);
+        }
         EXPECT_NEAR(norm(p.velocity(2) - p.velocity(0)) / 4, w - impulse / 2, error);
         EXPECT_NEAR(p.angular_velocities[1], 2 * impulse / kInertia, error);
         EXPECT_NEAR(p.angular_velocities[2], impulse / kInertia, error);
