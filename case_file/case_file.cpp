@@ -345,8 +345,7 @@ void check_exact_drag(const TomlSection& root, const Case& c) {
 template <class Part>
 const Part& required(const std::optional<Part>& part, const Case& c, std::string_view section) {
   if (!part)
-    throw_bad_input({c.path.string()},
-                    fmt::format("has no section [{}], which this command needs", section));
+    throw_bad_input({c.path.string()}, "has no section [{}], which this command needs", section);
   return *part;
 }
 

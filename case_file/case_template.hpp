@@ -46,13 +46,14 @@ void read_units(const TomlSection& root, Units& units);
 /// What docs/case-file.md says about that key. This does not throw.
 KeyTable table_of_units();
 
-/// The case whose root table is `root`. `text` is the content of the file at `path`. Throws
-/// Error(kBadInput) with the file, the line, the key, its value and what is allowed.
+/// Reads the title and the units of a case. Throws Error(kBadInput) if the title is missing although
+/// `needs_title`, and the error of read_units().
 template <class CaseType>
 CaseType case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
 
-/// A case with the text, the path, the title and the units of its file, and nothing else. Throws
-/// Error(kBadInput) if the title is missing although `needs_title`, and the error of read_units().
+/// The case whose root table is `root`. `text` is the content of the file at `path`. The function
+/// read_root(root, c) beside CaseType reads all but these two members. It throws Error(kBadInput)
+/// with the file, the line, the key, its value and what is allowed.
 template <class CaseType>
 CaseType titled_case(const TomlSection& root, std::string text, const std::filesystem::path& path,
                      bool needs_title = false) {

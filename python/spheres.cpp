@@ -163,10 +163,10 @@ motions::PairFit fit_of(const rolling::RollingCase& c, const std::optional<Given
       return rolling::fit_for(c, **object, "fit");
   const auto path = given ? std::optional(std::get<fs::path>(*given)) : c.fit;
   if (!path)
-    throw Error(ErrorKind::kWrongUsage,
-                c.path.string() +
-                    ": the case names no fit of a pair; give fit=, a PairFit or the "
-                    "path of its file");
+    throw Error(
+        ErrorKind::kWrongUsage,
+        c.path.string() +
+            ": the case names no fit of a pair; give fit=, a PairFit or the path of its file");
   return rolling::fit_for(c, motions::read_pair_fit(*path), *path);
 }
 
@@ -230,25 +230,22 @@ py::object columns_of(const SwumStroke& stroke) {
 swimmer::ResistanceTable table_of(const swimmer::SwimmerCase& c,
                                   const std::optional<fs::path>& given) {
   if (given.has_value() == c.table_file.has_value())
-    throw Error(ErrorKind::kWrongUsage,
-                fmt::format("{} {} swimmer.table; give a table there or as an argument",
-                            c.path.string(), c.table_file ? "has" : "lacks"));
+    throw Error(ErrorKind::kWrongUsage, "{} {} swimmer.table; give a table there or as an argument",
+                c.path.string(), c.table_file ? "has" : "lacks");
   if (c.table_file) return c.table;
   const auto& path = *given;
   auto table = swimmer::read_resistance_table(path);
   const auto plan = swimmer::case_table(c, path).plan;
   if (!freefem_axi::missing_points(plan.read(path), plan.points).empty())
-    throw_bad_input(
-        {path.string()},
-        fmt::format("is not the table of {}, or lacks rows; viscontact.tabulate() makes "
-                    "it",
-                    c.path.string()));
+    throw_bad_input({path.string()},
+                    "is not the table of {}, or lacks rows; viscontact.tabulate() makes it",
+                    c.path.string());
   return table;
 }
 
 py::dict swim(const fs::path& path, const std::optional<fs::path>& table_path, int intervals) {
   if (intervals < 1)
-    throw Error(ErrorKind::kWrongUsage, fmt::format("intervals is {}; it must be > 0", intervals));
+    throw Error(ErrorKind::kWrongUsage, "intervals is {}; it must be > 0", intervals);
   std::optional<SwumStroke> given, optimal;
   long_call([&](const StopToken& stop) {
     const auto c = swimmer::read_swimmer_case(path);

@@ -189,9 +189,9 @@ void warn_of_missing_pictures(const std::exception_ptr& failure) {
   try {
     std::rethrow_exception(failure);
   } catch (const GnuplotMissing& missing) {
-    terminal::warn(fmt::format("report: warning: {}; {}", on_one_line(missing.what()), kWritten));
+    terminal::warn("report: warning: {}; {}", on_one_line(missing.what()), kWritten);
   } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}; {}", on_one_line(error.what()), kWritten));
+    throw Error(error.kind(), "{}; {}", on_one_line(error.what()), kWritten);
   }
 }
 
@@ -359,7 +359,7 @@ void Report::write(std::string_view title, const std::string& opening, const std
           return figure.plot.name == name && !figure.svg.empty();
         }))
       remove_file(run_.plot(std::string(name)));
-  terminal::say(fmt::format("report: {}", run_.report().string()));
+  terminal::say("report: {}", run_.report().string());
   if (failure_) warn_of_missing_pictures(failure_);
 }
 

@@ -103,9 +103,8 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
     // no check.
     if (!(std::isfinite(row.gap) && std::isfinite(row.position) && std::isfinite(row.angle) &&
           std::isfinite(row.contact_force) && std::isfinite(row.friction_force)))
-      throw Error(
-          ErrorKind::kNotConverged,
-          fmt::format("a number of the motion leaves the range of a double at time {:.6g}", time));
+      throw Error(ErrorKind::kNotConverged,
+                  "a number of the motion leaves the range of a double at time {:.6g}", time);
     rows.push_back(row);
   }
   return rows;

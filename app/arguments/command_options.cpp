@@ -51,9 +51,8 @@ void check_outputs(const std::vector<std::string>& paths) {
       throw Error(ErrorKind::kWrongUsage, "the name of an output is empty; give it a name");
     for (std::size_t j = 0; j < i; ++j)
       if (resolved_place_of(paths[i]) == resolved_place_of(paths[j]))
-        throw Error(
-            ErrorKind::kWrongUsage,
-            fmt::format("{} would be written twice; give each output its own name", paths[i]));
+        throw Error(ErrorKind::kWrongUsage,
+                    "{} would be written twice; give each output its own name", paths[i]);
   }
 }
 
@@ -62,8 +61,8 @@ void check_picture(const std::string& path) {
   const auto* kind = results::picture_kind(path);
   if (kind == nullptr)
     throw Error(ErrorKind::kWrongUsage,
-                fmt::format("--plot: {} does not end in {}, the kinds of pictures that are written",
-                            path, names_of(results::kPictureKinds, " or ")));
+                "--plot: {} does not end in {}, the kinds of pictures that are written", path,
+                names_of(results::kPictureKinds, " or "));
   results::refuse_other_kind(path, kind->marker, "picture");
 }
 
@@ -194,8 +193,7 @@ pipeline::Share share_of(const ArrayOptions& o) {
     const auto count = std::from_chars(number.ptr + 1, end, share.count);
     if (count.ec == std::errc() && count.ptr == end && share.number < share.count) return share;
   }
-  throw Error(ErrorKind::kWrongUsage,
-              fmt::format("--task is '{}'; it must be K/T with 0 <= K < T", o.task));
+  throw Error(ErrorKind::kWrongUsage, "--task is '{}'; it must be K/T with 0 <= K < T", o.task);
 }
 
 pipeline::ArrayRequest array_request(const ArrayOptions& o, const std::string& output,

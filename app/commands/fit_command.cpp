@@ -54,10 +54,9 @@ void read_fix(const std::string& word, fitting::FitSettings& settings) {
   settings.leading_value =
       word.starts_with(prefix) ? parse_number(word.substr(prefix.size())) : std::nullopt;
   if (!settings.leading_value)
-    throw Error(
-        ErrorKind::kWrongUsage,
-        fmt::format("--fix is '{}'; it must be 1/q or theory (the value of theory), or 1/q=NUMBER",
-                    word));
+    throw Error(ErrorKind::kWrongUsage,
+                "--fix is '{}'; it must be 1/q or theory (the value of theory), or 1/q=NUMBER",
+                word);
 }
 
 /// The values of the options of `fit`. Each member is named after its option, which add_fit()

@@ -54,8 +54,8 @@ void add_init(CLI::App& app) {
     };
     auto results = path;
     results.replace_extension(path.has_extension() ? "" : ".results");
-    terminal::say(fmt::format("init: {}; edit it, then: viscontact run {} -o {}", *file,
-                              named(*file), named(results.string())));
+    terminal::say("init: {}; edit it, then: viscontact run {} -o {}", *file, named(*file),
+                  named(results.string()));
   });
 }
 

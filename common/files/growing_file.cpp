@@ -20,7 +20,7 @@ namespace viscontact {
 namespace {
 
 [[noreturn]] void throw_cannot_be(const char* action, const std::filesystem::path& path) {
-  throw_bad_input({path.string()}, fmt::format("cannot be {} ({})", action, std::strerror(errno)));
+  throw_bad_input({path.string()}, "cannot be {} ({})", action, std::strerror(errno));
 }
 
 }  // namespace

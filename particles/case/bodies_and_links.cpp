@@ -42,10 +42,10 @@ void check_members(const case_file::TomlSection& section, const std::vector<std:
   // In a periodic domain the images that make the body must not depend on the order of the members.
   if (const auto ambiguous = ambiguous_images(c.particles, members))
     section.fail("particles",
-                 fmt::format("do not determine which of their images make the body: along {} the "
-                             "largest distance between neighbouring centres, {:.6g}, occurs more "
-                             "than once; it must occur once, because the body ends there",
-                             kAxes[ambiguous->axis], ambiguous->distance));
+                 "do not determine which of their images make the body: along {} the largest "
+                 "distance between neighbouring centres, {:.6g}, occurs more than once; it must "
+                 "occur once, because the body ends there",
+                 kAxes[ambiguous->axis], ambiguous->distance);
 }
 
 /// Throws if a body is so large that it could touch its own periodic image.

@@ -89,9 +89,8 @@ void check_shape(const case_file::TomlSection& section, int dimension) {
   for (const auto& shape : kShapes) {
     if (!section.has(shape.first)) continue;
     if (given != nullptr)
-      section.fail(shape.first, fmt::format("must be left out, because {} is given; a case has one "
-                                            "domain",
-                                            given->first));
+      section.fail(shape.first, "must be left out, because {} is given; a case has one domain",
+                   given->first);
     given = &shape;
   }
   section.finish();
@@ -161,9 +160,10 @@ void read_side(const case_file::TomlSection& section, std::string_view side, Wal
     read_vector(section, side, velocity, 2);
     wall.value = {velocity[0], velocity[1]};
   } else {
-    section.fail(side, fmt::format("is {}; it must be a velocity [u, v], \"open\", or a table {{ "
-                                   "parabolic = SPEED }} or {{ constant = VELOCITY }}",
-                                   section.shown(side)));
+    section.fail(side,
+                 "is {}; it must be a velocity [u, v], \"open\", or a table {{ parabolic = SPEED "
+                 "}} or {{ constant = VELOCITY }}",
+                 section.shown(side));
   }
 }
 
@@ -252,12 +252,12 @@ void check_periods(const case_file::TomlSection& section, const char* key, bool 
   const auto* box = std::get_if<BoxDomain>(&domain);
   if (box == nullptr || box->periodic[0] == box->periodic[1]) return;
   if (is_shear && box->periodic[0]) return;
-  section.fail(
-      key, fmt::format("does not fit a box that is periodic along {} only, because the velocity "
-                       "{} of its walls is not the same on both sides of the period; {}",
-                       box->periodic[0] ? "x" : "y", is_shear ? "(s y, 0)" : "(s x, -s y)",
-                       is_shear ? "the box may be periodic along x, both ways or not at all"
-                                : "the box may be periodic both ways or not at all"));
+  section.fail(key,
+               "does not fit a box that is periodic along {} only, because the velocity {} of its "
+               "walls is not the same on both sides of the period; {}",
+               box->periodic[0] ? "x" : "y", is_shear ? "(s y, 0)" : "(s x, -s y)",
+               is_shear ? "the box may be periodic along x, both ways or not at all"
+                        : "the box may be periodic both ways or not at all");
 }
 
 void read_velocity(const case_file::TomlSection& fluid, std::string_view key, const Domain& domain,

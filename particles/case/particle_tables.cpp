@@ -360,9 +360,10 @@ std::int32_t ParticleIds::number(const case_file::TomlSection& section, std::str
   section.require(case_.particles.count() > 0, key, "{} {}, but the case has no particles", verb,
                   id);
   if (found == places_.end() && case_.particles.ids.empty())
-    section.fail(key, fmt::format("{} {}, which is not the number of a particle; the particles are "
-                                  "numbered from 0 to {}",
-                                  verb, id, case_.particles.count() - 1));
+    section.fail(
+        key,
+        "{} {}, which is not the number of a particle; the particles are numbered from 0 to {}",
+        verb, id, case_.particles.count() - 1);
   section.require(found != places_.end(), key,
                   "{} {}, which is not the id of a particle; {} gives "
                   "the ids",

@@ -25,9 +25,9 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
   const double longest = h * fastest(motion.moved, layout_);
   if (!(longest < largest))
     throw Error(ErrorKind::kNotConverged,
-                fmt::format("a particle moves by {} in the step to time {}, too far for the "
-                            "precision of a double; check the forces and the time step",
-                            longest, report.time));
+                "a particle moves by {} in the step to time {}, too far for the precision of a "
+                "double; check the forces and the time step",
+                longest, report.time);
   const auto& blow = motion.blow;
   // The displacements of a step with a blow are not those by the impulses of `contact`: only its
   // gaps are examined.

@@ -59,12 +59,11 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
   }
   holds = off <= allowed;
   if (!(off <= mean_radius_))
-    throw Error(
-        ErrorKind::kNotConverged,
-        fmt::format("the links do not hold in the step to time {}: a length or place would be "
-                    "off by {:.3g} mean radii; is the time step too long for the velocities, "
-                    "or do lengths, places and given motions contradict each other?",
-                    state_.time + h, off / mean_radius_));
+    throw Error(ErrorKind::kNotConverged,
+                "the links do not hold in the step to time {}: a length or place would be off by "
+                "{:.3g} mean radii; is the time step too long for the velocities, or do lengths, "
+                "places and given motions contradict each other?",
+                state_.time + h, off / mean_radius_);
   for (std::size_t r = 0; r < forces.size(); ++r) forces[r] -= of_flow[r];
   return forces;
 }

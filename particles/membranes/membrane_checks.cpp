@@ -32,9 +32,9 @@ void check_case_in_fluid(const case_file::TomlSection& root, const case_file::To
   for (const auto* key : {"body", "hinge", "spring", "arm", "plane"})
     if (root.has(key))
       throw_bad_input(at,
-                      fmt::format("section [[membrane]] stands beside {}; a case with membranes in "
-                                  "a fluid must have no planes, bodies and links",
-                                  key));
+                      "section [[membrane]] stands beside {}; a case with membranes in a fluid "
+                      "must have no planes, bodies and links",
+                      key);
   const auto& fluid = *c.setting.fluid;
   const auto section = root.section("fluid");
   section.require(!fluid.has_inertia(), "density",
@@ -238,10 +238,10 @@ void check_others(const case_file::TomlSection& first, const ParticlesCase& c) {
   for (std::size_t k = 0; k < p.count(); ++k) {
     if (is_bead[k] != 0) continue;
     const auto refuse = [&](const char* what) {
-      throw_bad_input(at, fmt::format("section [[membrane]] stands beside particle {}, which {}; "
-                                      "beside membranes particles must be discs without mass and "
-                                      "torque",
-                                      p.id(k), what));
+      throw_bad_input(at,
+                      "section [[membrane]] stands beside particle {}, which {}; beside membranes "
+                      "particles must be discs without mass and torque",
+                      p.id(k), what);
     };
     if (p.masses[k] > 0) refuse("has a mass");
     if (!c.setting.fluid->is_disc(k)) refuse("is an ellipse or a plate");
@@ -258,9 +258,10 @@ void check_others(const case_file::TomlSection& first, const ParticlesCase& c) {
         const Vector side = b - a;
         const double along = std::clamp(dot(x - a, side) / dot(side, side), 0.0, 1.0);
         if (!(norm(nearest_image(p.cell, x - a - along * side)) > p.radii[k]))
-          throw_bad_input(at, fmt::format("section [[membrane]] stands beside particle {}, which "
-                                          "crosses a membrane; it must be inside or outside",
-                                          p.id(k)));
+          throw_bad_input(at,
+                          "section [[membrane]] stands beside particle {}, which crosses a "
+                          "membrane; it must be inside or outside",
+                          p.id(k));
       }
     }
   }

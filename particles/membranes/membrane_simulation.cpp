@@ -50,7 +50,6 @@ class MembraneSimulation::Implementation {
   void to_particles(const Eigen::VectorXd& all, std::vector<double>& numbers) const;
   void move_to(const Eigen::VectorXd& places, Particles& particles) const;
   Eigen::VectorXd applied_forces(double from, double to) const;
-  void set_velocities(const Eigen::VectorXd& velocities);
   void place(const Eigen::VectorXd& places, double from, double to);
   FluidAnswer ask(const Eigen::VectorXd& places, double from, double to);
   FluidAnswer answer_to_beads(const FluidAnswer& answer, const Eigen::VectorXd& loads) const;

@@ -149,7 +149,7 @@ void report_particles(const fs::path& folder) {
   files.push_back(folder / "particles.pvd");
   if (c.setting.fluid) files.push_back(folder / "flow.pvd");
   write_pages(c, folder, results::provenance_of({files, {}}));
-  terminal::say(fmt::format("report: {0}/particles.html, {0}/particles.svg", folder.string()));
+  terminal::say("report: {0}/particles.html, {0}/particles.svg", folder.string());
 }
 
 }  // namespace viscontact::particles

@@ -50,13 +50,13 @@ std::string ask_slurm(const std::vector<std::string>& command, const std::string
     said += character == '\n' ? " | " : std::string(1, character);
   if (!result.started)
     throw Error(ErrorKind::kExternalProgram,
-                fmt::format("{} cannot be run ({}); submit where Slurm is installed (apt-get "
-                            "install slurm-client), or {} here",
-                            command.front(), said, here));
+                "{} cannot be run ({}); submit where Slurm is installed (apt-get install "
+                "slurm-client), or {} here",
+                command.front(), said, here);
   if (result.exit_status != 0)
     throw Error(ErrorKind::kExternalProgram,
-                fmt::format("{} failed (exit status {}): {}; nothing was submitted",
-                            command.front(), result.exit_status, said));
+                "{} failed (exit status {}): {}; nothing was submitted", command.front(),
+                result.exit_status, said);
   return result.output;
 }
 
@@ -124,18 +124,18 @@ void refuse_second_job(const ArrayJob& job, const ArrayRequest& request) {
                 job.command, request.stop);
   if (jobs.empty()) return;
   const std::string number = jobs.substr(0, jobs.find('\n'));
-  throw_bad_input({request.output.string()},
-                  fmt::format("{0} by Slurm job {1}; wait until it is over (squeue -j {1}), or end "
-                              "it (scancel {1})",
-                              job.is_running, number));
+  throw_bad_input(
+      {request.output.string()},
+      "{0} by Slurm job {1}; wait until it is over (squeue -j {1}), or end it (scancel {1})",
+      job.is_running, number);
 }
 
 void submit(const ArrayJob& job, const ArrayRequest& request) {
   const auto options = split_words(request.options);
   const std::string gather = gather_command(job, request);
   if (job.tasks.empty()) {
-    terminal::say(fmt::format("{}: no row is missing; this command writes {}: {}", job.command,
-                              job.results, gather));
+    terminal::say("{}: no row is missing; this command writes {}: {}", job.command, job.results,
+                  gather);
     return;
   }
   const auto folder = slurm_folder(request.output);
@@ -156,9 +156,9 @@ void submit(const ArrayJob& job, const ArrayRequest& request) {
   // If there are several clusters, sbatch prints "number;cluster".
   number = number.substr(0, number.find(';'));
   terminal::say(
-      fmt::format("{}: Slurm job {} with {} tasks is submitted; its logs are in {}; when it is "
-                  "over (squeue -j {}), run:\n  {}",
-                  job.command, number, job.tasks.size(), folder.string(), number, gather));
+      "{}: Slurm job {} with {} tasks is submitted; its logs are in {}; when it is over (squeue -j "
+      "{}), run:\n  {}",
+      job.command, number, job.tasks.size(), folder.string(), number, gather);
   fmt::print("{}\n", number);
 }
 

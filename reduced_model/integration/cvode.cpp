@@ -166,9 +166,9 @@ void Cvode::check(int code, const char* call) const {
   if (code >= 0) return;
   const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(code), std::free);
   throw Error(ErrorKind::kNotConverged,
-              fmt::format("CVODE gave up at time {:.6g} ({} returned {}); take another {}, or less "
-                          "extreme mass, velocity or force",
-                          time_, call, name.get(), system_.tolerance_key));
+              "CVODE gave up at time {:.6g} ({} returned {}); take another {}, or less extreme "
+              "mass, velocity or force",
+              time_, call, name.get(), system_.tolerance_key);
 }
 
 int Cvode::keep_error(double time) {

@@ -265,9 +265,8 @@ void check_start_outside_roughness(const Motion& motion) {
   if (!(motion.initial_gap > solid_gap))
     throw Error(
         ErrorKind::kBadInput,
-        fmt::format("motion.initial_gap is {}; it must be greater than the roughness heights "
-                    "together, {}",
-                    motion.initial_gap, solid_gap));
+        "motion.initial_gap is {}; it must be greater than the roughness heights together, {}",
+        motion.initial_gap, solid_gap);
 }
 
 Trajectory simulate_inertial_rough(const Motion& motion,

@@ -139,9 +139,8 @@ MomentumEnergyBudget budget_of_drag(const std::vector<TrajectoryRow>& rows, cons
 /// increase.
 void check_finite(const Trajectory& trajectory) {
   const auto refuse = [](double time) {
-    throw Error(
-        ErrorKind::kNotConverged,
-        fmt::format("a number of the motion leaves the range of a double at time {:.6g}", time));
+    throw Error(ErrorKind::kNotConverged,
+                "a number of the motion leaves the range of a double at time {:.6g}", time);
   };
   const auto is_number = [](const OptionalDouble& value) {
     return !value || std::isfinite(*value);

@@ -235,9 +235,9 @@ void read_samples(const case_file::TomlSection& section, std::string_view key, d
                   for (std::size_t i = 0; i < columns.size(); ++i)
                     if (!fields[i]) throw_bad_input(here, columns[i] + " is empty");
                   if (!times.empty() && !(*fields[0] > times.back()))
-                    throw_bad_input(here, fmt::format("time is {}; it must be greater than in the "
-                                                      "row above, {}",
-                                                      *fields[0], times.back()));
+                    throw_bad_input(here,
+                                    "time is {}; it must be greater than in the row above, {}",
+                                    *fields[0], times.back());
                   times.push_back(*fields[0]);
                   Eigen::VectorXd arms(static_cast<Eigen::Index>(c.gaps.size()));
                   for (std::size_t k = 0; k < c.gaps.size(); ++k) {
@@ -248,9 +248,9 @@ void read_samples(const case_file::TomlSection& section, std::string_view key, d
                   samples.push_back(arms);
                 });
   if (samples.size() < 3)
-    throw_bad_input({file}, fmt::format("has {} rows; a stroke needs at least 3, of which the last "
-                                        "one closes the loop",
-                                        samples.size()));
+    throw_bad_input({file},
+                    "has {} rows; a stroke needs at least 3, of which the last one closes the loop",
+                    samples.size());
   c.stroke_files.push_back(path);
   c.stroke = with_place(file, [&] { return sampled_stroke(times, samples); });
 }

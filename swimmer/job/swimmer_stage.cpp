@@ -58,12 +58,12 @@ ResistanceFit fit_table(const SwimmerFolder& folder, const ResistanceTable& tabl
   fit.table_sha256 = results::content_sha256(read_file(folder.table()));
   fit.versions = results::library_versions();
   if (const auto text = write_resistance_fit(fit); results::has_content(folder.fit(), text))
-    terminal::say(fmt::format("fit: {} is up to date", folder.fit().string()));
+    terminal::say("fit: {} is up to date", folder.fit().string());
   else
     results::write_output(folder.fit(), TextKind::kJson, text, provenance);
-  terminal::say(fmt::format(
+  terminal::say(
       "fit: a row predicted from the others is off by {:.2g} at most (relative), {:.2g} rms",
-      fit.largest_left_one_out_error, fit.rms_left_one_out_error));
+      fit.largest_left_one_out_error, fit.rms_left_one_out_error);
   return fit;
 }
 
@@ -202,10 +202,10 @@ SwimmerResults read_results(const SwimmerFolder& folder, const fs::path& case_fi
 }
 
 void tell(const std::string& name, const StrokeResult& stroke) {
-  terminal::say(fmt::format(
+  terminal::say(
       "{}: displacement {:.9g} (error estimate {:.1g}), energy {:.9g} ({:.1g}), efficiency {:.4g}",
       name, stroke.sums.displacement, stroke.errors.displacement, stroke.sums.energy,
-      stroke.errors.energy, stroke.sums.efficiency));
+      stroke.errors.energy, stroke.sums.efficiency);
 }
 
 }  // namespace
@@ -247,7 +247,7 @@ void run_swimmer(const SwimmerRequest& request) {
   if (wrote || !swimmer_report_is_current(folder.path))
     write_swimmer_report(results, folder.path, provenance, request.stop);
   else
-    terminal::say(fmt::format("swimmer: {} is up to date", folder.path.string()));
+    terminal::say("swimmer: {} is up to date", folder.path.string());
   if (request.json) fmt::print("{}", json);
 }
 
