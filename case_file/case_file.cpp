@@ -10,7 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "viscontact/case_file/keys.hpp"
 #include "viscontact/case_file/shared_sections.hpp"
 #include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/files/file.hpp"

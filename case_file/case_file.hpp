@@ -4,7 +4,6 @@
 // read it. A change must keep accepting the cases that users have written.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -4,8 +4,11 @@
 // in docs/command-line.md.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace viscontact {
 

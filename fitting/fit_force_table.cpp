@@ -17,17 +17,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <set>
-#include <string_view>
-#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/fitting/robust_least_squares.hpp"
-#include "viscontact/lubrication/fit.hpp"
-#include "viscontact/lubrication/motion_table.hpp"
-#include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact::fitting {
 namespace {

@@ -6,8 +6,6 @@
 // Error(kBadInput) that names a row whose resistance no gap of the smooth wall has.
 #include "viscontact/fitting/wall_shift.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

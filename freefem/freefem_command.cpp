@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <sstream>
 #include <system_error>
-#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/process.hpp"

@@ -7,10 +7,7 @@
 // MotionKind.
 #include "viscontact/freefem_axi/geometry.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <iterator>
 
 #include "viscontact/common/named.hpp"

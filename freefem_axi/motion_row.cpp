@@ -7,9 +7,6 @@
 // in the order of motions_of().
 #include "viscontact/freefem_axi/motion_row.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>

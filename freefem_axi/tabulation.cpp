@@ -16,7 +16,6 @@
 #include <sstream>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 

@@ -13,9 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <numbers>
-#include <span>
 #include <string>
 #include <utility>
 #include <variant>

@@ -6,8 +6,6 @@
 // identifies these, and the labels, which scripts/ and docs/fluid-solver.md repeat.
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

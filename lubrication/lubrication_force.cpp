@@ -7,17 +7,12 @@
 // A change must keep R and Gamma continuous at q1 and q2, where one formula replaces another one.
 #include "viscontact/lubrication/lubrication_force.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/root_finding.hpp"
-#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/plane_drag.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 

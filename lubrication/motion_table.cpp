@@ -6,8 +6,6 @@
 // have.
 #include "viscontact/lubrication/motion_table.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>

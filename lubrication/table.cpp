@@ -6,8 +6,6 @@
 // the order of MotionKind.
 #include "viscontact/lubrication/table.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <limits>
 #include <sstream>

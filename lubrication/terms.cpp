@@ -6,8 +6,6 @@
 // antiderivative a primitive of value.
 #include "viscontact/lubrication/terms.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <type_traits>
 #include <utility>

@@ -19,8 +19,6 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/report/summaries.hpp"
-#include "viscontact/results/picture_kind.hpp"
-#include "viscontact/results/provenance.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::pipeline {

@@ -10,8 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
-#include <utility>
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/particles/case/particles_case.hpp"

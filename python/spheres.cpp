@@ -4,7 +4,6 @@
 // their names; a wrong argument is an Error(kWrongUsage), a wrong file an Error(kBadInput).
 // core.cpp adds them to the module. A change must keep the names of functions, arguments and
 // columns, which users' scripts contain; docs/python.md describes them.
-#include <fmt/format.h>
 
 #include <limits>
 #include <map>

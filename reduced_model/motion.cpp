@@ -5,8 +5,6 @@
 // row_times() changes trajectories and must raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/motion.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>

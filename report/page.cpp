@@ -15,7 +15,6 @@
 #include <cmath>
 #include <future>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"

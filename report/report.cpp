@@ -11,18 +11,14 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/shell_words.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/report/page.hpp"
 #include "viscontact/report/run_plots.hpp"
 #include "viscontact/report/run_warnings.hpp"
 #include "viscontact/results/provenance.hpp"

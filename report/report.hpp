@@ -3,10 +3,13 @@
 // elsewhere, and that folders of earlier versions can be read.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
+#include "viscontact/report/page.hpp"
 
 namespace viscontact::report {
 

@@ -4,12 +4,9 @@
 // A change must still recognise files of earlier versions.
 #include "viscontact/results/foreign_files.hpp"
 
-#include <fmt/format.h>
-
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <string>
 
 #include "viscontact/common/error.hpp"
 

@@ -7,7 +7,6 @@
 // Error(kInterrupted). Used by rolling/case,
 // rolling/job, app/ and python/. A change must keep the balance of contact_step.hpp and the order
 // of the models, which gives their colours in pages.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +14,6 @@
 #include <numbers>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/models/contact/contact_step.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/rolling/rolling_resistance.hpp"

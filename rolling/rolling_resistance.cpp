@@ -5,9 +5,6 @@
 // in the order of lubrication::all_terms().
 #include "viscontact/rolling/rolling_resistance.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 
 #include "viscontact/common/error.hpp"

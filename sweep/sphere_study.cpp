@@ -11,10 +11,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
-#include <optional>
-#include <set>
 #include <string_view>
 
 #include "viscontact/common/error.hpp"

@@ -21,7 +21,6 @@
 #include <optional>
 #include <set>
 #include <thread>
-#include <utility>
 
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locks.hpp"

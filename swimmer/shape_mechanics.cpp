@@ -6,8 +6,6 @@
 // derivatives.
 #include "viscontact/swimmer/shape_mechanics.hpp"
 
-#include <fmt/format.h>
-
 #include "viscontact/common/error.hpp"
 
 namespace viscontact::swimmer {

@@ -5,8 +5,6 @@
 // (quadrature). A change must keep the times at which legs meet, because forces jump there.
 #include "viscontact/swimmer/stroke.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>

@@ -4,13 +4,10 @@
 // A change may alter sums by rounding errors only; swim.hpp repeats kMost and kTolerance.
 #include "viscontact/swimmer/swim.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/swimmer/stroke.hpp"
 
 namespace viscontact::swimmer {
 namespace {

@@ -5,11 +5,14 @@
 // report/ call it. Nothing is thrown.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <chrono>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace viscontact::terminal {
 

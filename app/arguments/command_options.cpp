@@ -17,17 +17,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
-#include <string_view>
 #include <system_error>
 #include <thread>
 
 #include "viscontact/app/commands/interrupt.hpp"
-#include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/terms.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/results/picture_kind.hpp"
 
 namespace viscontact::app {
 namespace {

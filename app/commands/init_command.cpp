@@ -3,7 +3,6 @@
 // Error(kBadInput) if the file exists or cannot be written, Error(kWrongUsage) for an empty name,
 // and std::filesystem::filesystem_error for a path that the system refuses. A change must keep that
 // `viscontact run` accepts the case as it is written.
-#include <fmt/format.h>
 
 #include <filesystem>
 #include <memory>

@@ -9,9 +9,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <array>
-#include <string>
 #include <utility>
 
 #include "viscontact/app/arguments/command_options.hpp"

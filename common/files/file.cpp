@@ -16,7 +16,6 @@
 #include <charconv>
 #include <csignal>
 #include <cstring>
-#include <string_view>
 #include <system_error>
 #include <vector>
 

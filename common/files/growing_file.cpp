@@ -5,7 +5,6 @@
 #include "viscontact/common/files/growing_file.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -5,7 +5,6 @@
 #include "viscontact/common/files/locks.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>

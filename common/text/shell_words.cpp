@@ -5,8 +5,6 @@
 // as it was.
 #include "viscontact/common/text/shell_words.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string_view>
 

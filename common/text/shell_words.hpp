@@ -4,6 +4,7 @@
 // quoted.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 

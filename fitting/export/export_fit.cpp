@@ -19,10 +19,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/text/csv.hpp"
-#include "viscontact/common/text/number.hpp"
 #include "viscontact/fitting/export/code_text.hpp"
-#include "viscontact/lubrication/fit.hpp"
-#include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 
 namespace viscontact::fitting {

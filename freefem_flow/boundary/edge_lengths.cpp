@@ -7,10 +7,7 @@
 // fluid.edges_per_particle.
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 
-#include <fmt/format.h>
-
 #include <limits>
-#include <numbers>
 
 #include "viscontact/common/error.hpp"
 

@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <map>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/number.hpp"

@@ -10,8 +10,6 @@
 
 #include "viscontact/common/named.hpp"
 #include "viscontact/fitting/export/code_text.hpp"
-#include "viscontact/fitting/export/export_fit.hpp"
-#include "viscontact/lubrication/fit.hpp"
 
 namespace viscontact::motions {
 namespace {

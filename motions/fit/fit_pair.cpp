@@ -7,8 +7,6 @@
 // both tables.
 #include "viscontact/motions/fit/fit_pair.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

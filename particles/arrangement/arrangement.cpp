@@ -12,15 +12,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <numeric>
 #include <optional>
 #include <variant>
-#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/splitmix.hpp"
-#include "viscontact/particles/domain/domain.hpp"
 
 namespace viscontact::particles {
 namespace {

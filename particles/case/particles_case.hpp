@@ -4,7 +4,6 @@
 // accepting the cases that users have written.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,8 +12,7 @@
 #include "viscontact/case_file/case_template.hpp"
 #include "viscontact/case_file/keys.hpp"
 #include "viscontact/particles/arrangement/arrangement.hpp"
-#include "viscontact/particles/arrangement/species.hpp"
-#include "viscontact/particles/simulation.hpp"
+#include "viscontact/particles/setting.hpp"
 
 namespace viscontact::particles {
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
 #include "viscontact/particles/case/particles_sections.hpp"
 

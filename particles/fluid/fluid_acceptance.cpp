@@ -4,7 +4,6 @@
 // must leave the state as it was. In a fluid with inertia accept() also throws the errors of
 // FluidSolver::keep_flow(), before it changes the state. A change must also keep that a continued
 // run gives the same bits as one without a break.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>

@@ -7,8 +7,6 @@
 // of contacts and restart files have.
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
-#include <fmt/format.h>
-
 #include <iterator>
 #include <limits>
 #include <map>

@@ -15,8 +15,6 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <optional>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/domain/domain.hpp"

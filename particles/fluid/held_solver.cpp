@@ -8,8 +8,6 @@
 // beside stiff ones.
 #include "viscontact/particles/fluid/held_solver.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>

@@ -6,10 +6,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/vtk/appended_data.hpp"

@@ -3,7 +3,6 @@
 // them. Lengths are in the unit of the case file; membrane.hpp has the dimensions and ranges. Every
 // fault throws Error(kBadInput) with its line. A change must not refuse what users' cases may
 // contain now.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

@@ -19,7 +19,6 @@
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 #include "viscontact/particles/membranes/membrane_motion.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
-#include "viscontact/particles/steps/step_report.hpp"
 #include "viscontact/particles/steps/step_times.hpp"
 
 namespace viscontact::particles {

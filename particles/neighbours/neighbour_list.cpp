@@ -5,10 +5,7 @@
 // simulation depend on it.
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <tuple>

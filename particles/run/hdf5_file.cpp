@@ -9,7 +9,6 @@
 
 #ifdef VISCONTACT_HAS_HDF5
 
-#include <fmt/format.h>
 #include <hdf5.h>
 
 #include <array>

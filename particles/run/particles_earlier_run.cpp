@@ -12,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
 
 #include "viscontact/common/error.hpp"

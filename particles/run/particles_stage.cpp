@@ -12,8 +12,6 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <filesystem>
-#include <span>
 #include <utility>
 #include <vector>
 

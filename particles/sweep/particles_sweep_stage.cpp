@@ -12,8 +12,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <functional>
-#include <optional>
 #include <utility>
 
 #include "viscontact/common/error.hpp"

@@ -7,8 +7,6 @@
 // simulates again.
 #include "viscontact/pipeline/simulate/run_inputs.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
 

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 
-#include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
 #include "viscontact/common/text/shell_words.hpp"

@@ -6,13 +6,8 @@
 // which lose no digits by cancellation for short intervals and small arguments.
 #include "viscontact/reduced_model/external_force/external_force.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>

@@ -14,18 +14,14 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
-#include <string>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
-#include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/reference.hpp"
-#include "viscontact/reduced_model/motion.hpp"
-#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact::reduced_model {
 namespace {

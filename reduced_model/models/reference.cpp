@@ -5,8 +5,6 @@
 // raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/reference.hpp"
 
-#include <fmt/format.h>
-
 #include "viscontact/common/error.hpp"
 
 namespace viscontact::reduced_model {

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "viscontact/common/error.hpp"
 #include "viscontact/common/system/process.hpp"
 
 namespace viscontact::report {

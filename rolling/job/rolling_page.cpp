@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 
-#include "viscontact/report/page.hpp"
 #include "viscontact/report/pictures/colours.hpp"
 
 namespace viscontact::rolling {

@@ -3,13 +3,16 @@
 // keep the names of the pictures, so that those of earlier runs are replaced.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/motions/pair_fit.hpp"
+#include "viscontact/report/page.hpp"
 #include "viscontact/results/failed_models.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/rolling/case/rolling_case.hpp"

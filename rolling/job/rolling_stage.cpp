@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
 #include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"

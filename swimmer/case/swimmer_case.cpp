@@ -7,13 +7,11 @@
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
-#include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 namespace viscontact::swimmer {
 namespace {

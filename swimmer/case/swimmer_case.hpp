@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "viscontact/case_file/case_template.hpp"
-#include "viscontact/case_file/keys.hpp"
 #include "viscontact/swimmer/optimal_stroke.hpp"
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 #include "viscontact/swimmer/stroke.hpp"

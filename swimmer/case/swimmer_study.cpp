@@ -7,8 +7,6 @@
 // kept.
 #include "viscontact/swimmer/case/swimmer_study.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 #include "viscontact/common/error.hpp"

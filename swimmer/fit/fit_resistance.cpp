@@ -7,8 +7,6 @@
 // signs of change_by_estimates(), on which the error estimates depend.
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -17,9 +15,6 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/splitmix.hpp"
-#include "viscontact/common/text/number.hpp"
-#include "viscontact/swimmer/resistance/resistance_fit.hpp"
-#include "viscontact/swimmer/resistance/resistance_table.hpp"
 #include "viscontact/swimmer/resistance/tensor_polynomial.hpp"
 
 namespace viscontact::swimmer {

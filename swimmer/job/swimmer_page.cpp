@@ -16,7 +16,6 @@
 #include <string>
 #include <utility>
 
-#include "viscontact/report/page.hpp"
 #include "viscontact/report/pictures/colours.hpp"
 #include "viscontact/report/pictures/gnuplot.hpp"
 

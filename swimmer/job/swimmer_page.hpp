@@ -3,11 +3,14 @@
 // change must keep the names of the pictures, so that those of earlier runs are replaced.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
+#include "viscontact/report/page.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 #include "viscontact/swimmer/optimal_stroke.hpp"

@@ -8,9 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <optional>
-#include <set>
 #include <span>
 
 #include "viscontact/common/error.hpp"
@@ -19,7 +17,6 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/json.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_folder.hpp"

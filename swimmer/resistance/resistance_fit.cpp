@@ -6,13 +6,8 @@
 // the rest.
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
 
 #include "viscontact/common/error.hpp"
 

@@ -4,13 +4,10 @@
 // other ratios. The functions are declared in resistance_fit.hpp; swimmer/job and swimmer/case use
 // them. A change must keep earlier files readable, and the text "resistance fit", for which
 // swimmer_stage.cpp searches.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 
-#include "viscontact/common/equal_up_to_rounding.hpp"
-#include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/json_fields.hpp"
 #include "viscontact/lubrication/scaling.hpp"

@@ -12,7 +12,6 @@
 #include <algorithm>
 
 #include "viscontact/common/equal_up_to_rounding.hpp"
-#include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/lubrication/table_codec.hpp"
 

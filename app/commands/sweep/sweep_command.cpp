@@ -24,7 +24,6 @@
 #include "viscontact/pipeline/sweep_stage.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/report/pictures/sweep_plot.hpp"
-#include "viscontact/results/picture_kind.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/rolling/rolling_motion.hpp"
 

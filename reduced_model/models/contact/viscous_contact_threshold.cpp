@@ -6,9 +6,6 @@
 // raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <limits>
 
 #include "viscontact/common/error.hpp"
