@@ -361,9 +361,8 @@ CaseKind kind_of_case(const fs::path& path) {
   return root.has("rolling") ? CaseKind::kRolling : CaseKind::kSphere;
 }
 
-template <>
-Case case_of_root(const TomlSection& root, std::string text, const fs::path& path) {
-  auto c = titled_case<Case>(root, std::move(text), path, true);
+void read_root(const TomlSection& root, Case& c) {
+  read_title_and_units(root, c, true);
   read_keys(root.section("fluid"), fluid_keys, c.viscosity, c.fluid_density);
   double mass = 1;  // without [motion] nothing depends on the mass
   const bool needs_mass = root.has("motion");
@@ -371,7 +370,7 @@ Case case_of_root(const TomlSection& root, std::string text, const fs::path& pat
   if (root.has("tabulation"))
     c.tabulation = read_tabulation(root.section("tabulation"), c.viscosity, c.radius);
   if (root.has("fit"))
-    read_keys(root.section("fit"), fit_keys, c.fit.emplace(), path.parent_path());
+    read_keys(root.section("fit"), fit_keys, c.fit.emplace(), c.path.parent_path());
   if (root.has("motion")) c.motion = read_motion(root, mass, c);
   if (root.has("published"))
     read_keys(root.section("published"), published_keys, c.published.emplace());
@@ -380,7 +379,6 @@ Case case_of_root(const TomlSection& root, std::string text, const fs::path& pat
   // has() makes finish() accept these sections, which a case without [motion] may have, too.
   for (const auto& name : reduced_model::model_sections()) (void)root.has(name);
   root.finish();
-  return c;
 }
 
 lubrication::Fit fit_for(const Case& c, lubrication::Fit fit, const fs::path& file) {
@@ -391,9 +389,9 @@ lubrication::Fit fit_for(const Case& c, lubrication::Fit fit, const fs::path& fi
                          const std::string& of_case) {
     if (!of_fit.empty() && !lubrication::same_words(of_fit, of_case))
       throw_bad_input({file.string()},
-                      fmt::format("the {} of the fit, scaled from the radius {} to {}, is '{}'; "
-                                  "that of the case is '{}'. Both must be equal in radii",
-                                  key, radius, c.radius, of_fit, of_case));
+                      "the {} of the fit, scaled from the radius {} to {}, is '{}'; that of the "
+                      "case is '{}'. Both must be equal in radii",
+                      key, radius, c.radius, of_fit, of_case);
   };
   check("geometry", fit.geometry, geometry_in_words(*c.tabulation));
   check("container", fit.container, container_in_words(*c.tabulation));

@@ -265,11 +265,10 @@ void read_domain_and_fluid(const case_file::TomlSection& root, ParticlesCase& c)
   command = with_absolute_files(std::move(command), fs::absolute(c.path).parent_path());
 }
 
-/// Reads the whole case from the root table `root` of its TOML and checks it. `text` and `path` are
-/// those of the file.
-ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string text,
-                                const fs::path& path) {
-  auto c = case_file::titled_case<ParticlesCase>(root, std::move(text), path, true);
+}  // namespace
+
+void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
+  case_file::read_title_and_units(root, c, true);
   case_file::read_keys(root.section("space"), space_keys, c);
   read_domain_and_fluid(root, c);
   read_probes(root, c.setting.domain, c.setting.fluid);
@@ -325,10 +324,7 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
     if (!root.section("fluid").has("threshold_gap")) set_default_threshold_gap(c);
     check_fluid_start(root, c, lines);
   }
-  return c;
 }
-
-}  // namespace
 
 ParticlesCase read_particles_case(const fs::path& path) {
   return case_file::read_case_file<ParticlesCase>(path);
@@ -368,13 +364,3 @@ std::string text_for_any_folder(const case_file::TomlSection& root, const fs::pa
 }
 
 }  // namespace viscontact::particles
-
-namespace viscontact::case_file {
-
-template <>
-particles::ParticlesCase case_of_root(const TomlSection& root, std::string text,
-                                      const std::filesystem::path& path) {
-  return particles::particles_case_of(root, std::move(text), path);
-}
-
-}  // namespace viscontact::case_file

@@ -160,10 +160,10 @@ void rolling_sweep_keys(case_file::Keys& keys, case_file::SweepRequest& sweep) {
   case_file::points_and_plot_keys(keys, sweep);
 }
 
-/// The case with the root table `root`; see case_of_root().
-RollingCase rolling_case_of(const case_file::TomlSection& root, std::string text,
-                            const std::filesystem::path& path) {
-  auto c = case_file::titled_case<RollingCase>(root, std::move(text), path);
+}  // namespace
+
+void read_root(const case_file::TomlSection& root, RollingCase& c) {
+  case_file::read_title_and_units(root, c);
   for (const auto& model : rolling_models()) c.models.emplace_back(model.name);
   case_file::read_keys(root.section("fluid"), case_file::fluid_keys, c.viscosity, c.fluid_density);
   case_file::read_keys(root.section("sphere"), rolling_sphere_keys, c);
@@ -182,10 +182,7 @@ RollingCase rolling_case_of(const case_file::TomlSection& root, std::string text
   if (root.has("sweep"))
     case_file::read_keys(root.section("sweep"), rolling_sweep_keys, c.sweep.emplace());
   root.finish();
-  return c;
 }
-
-}  // namespace
 
 RollingCase read_rolling_case(const std::filesystem::path& path) {
   return case_file::read_case_file<RollingCase>(path);
@@ -207,13 +204,3 @@ std::vector<case_file::KeyTable> tables_of_rolling_case() {
 }
 
 }  // namespace viscontact::rolling
-
-namespace viscontact::case_file {
-
-template <>
-rolling::RollingCase case_of_root(const TomlSection& root, std::string text,
-                                  const std::filesystem::path& path) {
-  return rolling::rolling_case_of(root, std::move(text), path);
-}
-
-}  // namespace viscontact::case_file

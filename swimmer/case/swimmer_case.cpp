@@ -379,19 +379,16 @@ void optimal_keys(case_file::Keys& keys, SwimmerCase& c) {
                                      kFewestPolynomials, request.polynomials);
 }
 
-/// The case with the root table `root`; see case_of_root().
-SwimmerCase swimmer_case_of(const case_file::TomlSection& root, std::string text,
-                            const std::filesystem::path& path) {
-  auto c = case_file::titled_case<SwimmerCase>(root, std::move(text), path);
+}  // namespace
+
+void read_root(const case_file::TomlSection& root, SwimmerCase& c) {
+  case_file::read_title_and_units(root, c);
   case_file::read_keys(root.section("fluid"), case_file::viscosity_keys, c.spheres.viscosity);
   case_file::read_keys(root.section("swimmer"), swimmer_keys, c);
   if (root.has("stroke")) case_file::read_keys(root.section("stroke"), stroke_keys, c);
   if (root.has("optimal")) case_file::read_keys(root.section("optimal"), optimal_keys, c);
   root.finish();
-  return c;
 }
-
-}  // namespace
 
 std::vector<case_file::KeyTable> tables_of_swimmer_case() {
   return {case_file::describe_keys("[swimmer]", swimmer_keys),
@@ -414,13 +411,3 @@ SwimmerCase read_swimmer_case(const std::filesystem::path& path) {
 }
 
 }  // namespace viscontact::swimmer
-
-namespace viscontact::case_file {
-
-template <>
-swimmer::SwimmerCase case_of_root(const TomlSection& root, std::string text,
-                                  const std::filesystem::path& path) {
-  return swimmer::swimmer_case_of(root, std::move(text), path);
-}
-
-}  // namespace viscontact::case_file
