@@ -15,9 +15,6 @@
 namespace viscontact::rolling {
 namespace {
 
-constexpr auto kRollingPictures =
-    std::to_array<std::string_view>({"gap", "velocity", "rotation", "slip", "friction"});
-
 /// Index of the colour of a model: its place among all models, so that it is the same in all runs.
 std::size_t place_of(const std::string& model) {
   const auto& models = rolling_models();
@@ -126,14 +123,6 @@ std::vector<std::string> rolling_warnings(const RollingResults& results) {
                       model, thinnest, low));
   }
   return warnings;
-}
-
-void check_rolling_report(const std::filesystem::path& folder) {
-  (void)report::Report(folder, kRollingPictures);
-}
-
-bool rolling_report_is_current(const std::filesystem::path& folder) {
-  return report::page_is_current(folder, kRollingPictures);
 }
 
 void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,

@@ -51,7 +51,7 @@ void check_rolling_files(const RollingFolder& folder) {
   for (const auto& model : rolling_models())
     results::refuse_other_kind(folder.trajectory(model.name), "# viscontact: rolling sphere",
                                "trajectory of a rolling sphere");
-  check_rolling_report(folder.path);
+  (void)report::Report(folder.path, kRollingPictures);  // throws if a file is in its way
 }
 
 /// Computes the tables and fits them, unless the case names a fit. Sets `failure` to the error that
@@ -217,7 +217,7 @@ void run_rolling(const RollingRequest& request) {
     terminal::warn("rolling: warning: " + warning);
   const auto json = rolling_json(results);
   if (results::write_if_changed(folder.results(), TextKind::kJson, json, provenance)) wrote = true;
-  if (wrote || !rolling_report_is_current(folder.path))
+  if (wrote || !report::page_is_current(folder.path, kRollingPictures))
     write_rolling_report(results, folder.path, provenance, request.stop);
   else
     terminal::say("rolling: {} is up to date", folder.path.string());

@@ -45,7 +45,7 @@ void check_files(const SwimmerFolder& folder) {
   results::refuse_other_kind(folder.results(), "\"swimmer\"", "swimmer.json");
   for (const auto& stroke : {folder.stroke(), folder.optimal()})
     results::refuse_other_kind(stroke, "# viscontact: stroke of a swimmer", "stroke");
-  check_swimmer_report(folder.path);
+  (void)report::Report(folder.path, kSwimmerPictures);  // throws if a file is in its way
 }
 
 /// Fits the table and writes fit.json, unless it is there already.
@@ -241,7 +241,7 @@ void run_swimmer(const SwimmerRequest& request) {
   if (results::write_if_changed(folder.results(), TextKind::kJson, json, provenance)) wrote = true;
   if (results.stroke) tell("stroke", *results.stroke);
   if (results.optimal) tell("optimal stroke", *results.optimal);
-  if (wrote || !swimmer_report_is_current(folder.path))
+  if (wrote || !report::page_is_current(folder.path, kSwimmerPictures))
     write_swimmer_report(results, folder.path, provenance, request.stop);
   else
     terminal::say("swimmer: {} is up to date", folder.path.string());
