@@ -156,12 +156,6 @@ void move_to(results::Provenance& provenance, const fs::path& to) {
   provenance.folder = to.string();
 }
 
-std::string in_words(const std::vector<std::string>& command) {
-  std::string text = "viscontact";
-  for (std::size_t i = 1; i < command.size(); ++i) text += " " + shell_word(command[i]);
-  return text;
-}
-
 void rerun(const RerunOptions& o) {
   auto provenance = results::read_provenance(o.file);
   if (!provenance || provenance->command.empty())
@@ -198,8 +192,8 @@ void rerun(const RerunOptions& o) {
     terminal::warn("rerun: warning: the file was made by Viscontact {}, and this is {}",
                    ours->second, VISCONTACT_VERSION);
   if (!changes.empty()) terminal::warn("rerun: warning: " + list);
-  const std::string words =
-      fmt::format("cd {} && {}", shell_word(folder.string()), in_words(command));
+  const std::string words = fmt::format("cd {} && viscontact{}", shell_word(folder.string()),
+                                        shell_arguments(std::span(command).subspan(1)));
   if (o.dry_run) {
     fmt::print("{}\n", words);
     return;

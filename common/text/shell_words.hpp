@@ -19,4 +19,7 @@ std::vector<std::string> split_words(const std::string& text);
 /// if it is empty. Throws nothing.
 std::string shell_word(const std::string& text);
 
+/// The shell_word() of each of `words`, each after a blank.
+std::string shell_arguments(std::span<const std::string> words);
+
 }  // namespace viscontact

@@ -72,12 +72,6 @@ std::string array_of(const std::vector<std::size_t>& tasks) {
   return text;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += " " + shell_word(word);
-  return text;
-}
-
 /// The script of a task. It runs this program on copies of the cases, which are written when the
 /// job is submitted.
 std::string task_script(const ArrayJob& job, const ArrayRequest& request) {
@@ -87,8 +81,8 @@ std::string task_script(const ArrayJob& job, const ArrayRequest& request) {
   return fmt::format(
       "#!/bin/sh\n# One task of the array; made by viscontact.\nexec {} {}{} -o {}{} --jobs {} "
       "--task \"$SLURM_ARRAY_TASK_ID/{}\"\n",
-      shell_word(fs::read_symlink("/proc/self/exe").string()), job.command, joined(copies),
-      shell_word(absolute_output(request.output).string()), joined(job.options),
+      shell_word(fs::read_symlink("/proc/self/exe").string()), job.command, shell_arguments(copies),
+      shell_word(absolute_output(request.output).string()), shell_arguments(job.options),
       request.jobs.value_or(1), job.count);
 }
 
@@ -103,8 +97,8 @@ std::string log_pattern(const fs::path& folder) {
 
 /// The command, for the user, that puts the results together after the job is over.
 std::string gather_command(const ArrayJob& job, const ArrayRequest& request) {
-  return fmt::format("viscontact {}{} -o {}{} --gather", job.command, joined(job.cases),
-                     shell_word(request.output.string()), joined(job.options));
+  return fmt::format("viscontact {}{} -o {}{} --gather", job.command, shell_arguments(job.cases),
+                     shell_word(request.output.string()), shell_arguments(job.options));
 }
 
 }  // namespace
