@@ -174,11 +174,9 @@ EntryFit fit_entry(PairEntry which, const EntryTable& entry, const PairFitSettin
   one.loss = settings.loss;
   one.row_scales = entry.scales;
   one.shape = named.shape;
-  try {
-    return {fitting::fit_force_table(entry.table, one, stop), entry.theory};
-  } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}: {}", named.name, error.what()));
-  }
+  return with_place(std::string(named.name), [&] {
+    return EntryFit{fitting::fit_force_table(entry.table, one, stop), entry.theory};
+  });
 }
 
 }  // namespace

@@ -82,11 +82,8 @@ void roll_models(const RollingPlan& plan, RollingCase c, const motions::PairFit&
   c.motion.stop = stop;
   const auto fit_here = fit_for(c, fit, plan.fit_path);
   const auto run = [&](const std::string& name) {
-    try {
-      return find_named(rolling_models(), name)->run(c.motion, fit_here);
-    } catch (const Error& error) {
-      throw Error(error.kind(), fmt::format("model {}: {}", name, error.what()));
-    }
+    return with_place("model " + name,
+                      [&] { return find_named(rolling_models(), name)->run(c.motion, fit_here); });
   };
   for (const auto& name : plan.models)
     sweep::add_part(results,
