@@ -363,10 +363,6 @@ bool moves(const Contact<2>& contact, const Mobility& mobility,
   return opening(contact, mobility(forces).data(), conditions.layout) > conditions.least_w;
 }
 
-}  // namespace
-
-namespace {
-
 /// A mobility that remembers the velocities for the forces of single contacts, because problems
 /// with friction ask for them repeatedly.
 Mobility remembered(const Mobility& mobility) {
