@@ -108,10 +108,9 @@ void piece_keys(Keys& keys, ExternalForce::Piece& piece) {
     piece.value = coefficients.front();
     piece.higher.assign(coefficients.begin() + 1, coefficients.end());
   };
-  const bool is_polynomial =
-      keys.optional("polynomial", custom("`[c0, c1, ...]`", read_polynomial),
-                    {"the piece is c0 + c1 tau + c2 tau² + ..., where tau is the time since it "
-                     "began"});
+  const bool is_polynomial = keys.optional(
+      "polynomial", custom("`[c0, c1, ...]`", read_polynomial),
+      {"the piece is c0 + c1 tau + c2 tau² + ..., where tau is the time since it began"});
   keys.require(!(is_polynomial && keys.has("value")), "value",
                "must be left out, because the first coefficient of polynomial gives it");
   if (!is_polynomial)
@@ -219,11 +218,11 @@ void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
                  "[all](file-formats.md#fewer-rows)",
                  {},
                  "1000"});
-  keys.optional("time_scale", number(time_scale, kPositive),
-                {"multiplies every time of `[motion]` and the time steps, and stretches the "
-                 "external force with them: f_ext(t/`time_scale`). The angular frequencies, the "
-                 "coefficients of polynomials and the times of files are those of the unscaled "
-                 "time"});
+  keys.optional(
+      "time_scale", number(time_scale, kPositive),
+      {"multiplies every time of `[motion]` and the time steps, and stretches the external force "
+       "with them: f_ext(t/`time_scale`). The angular frequencies, the coefficients of polynomials "
+       "and the times of files are those of the unscaled time"});
 }
 
 /// Heights of the roughness of sphere and plane [L], whose sum must be less than the radius.
@@ -335,10 +334,10 @@ void check_exact_drag(const TomlSection& root, const Case& c) {
                                 "the exact drag is not known",
                                 c.tabulation->geometry);
   for (const auto& model : c.models)
-    root.section("motion").require(!reduced_model::find_model(model).exact_drag, "models",
-                                   "contains {}, which runs with the exact drag near a plane; "
-                                   "tabulation.geometry is {}",
-                                   model, c.tabulation->geometry);
+    root.section("motion").require(
+        !reduced_model::find_model(model).exact_drag, "models",
+        "contains {}, which runs with the exact drag near a plane; tabulation.geometry is {}",
+        model, c.tabulation->geometry);
 }
 
 template <class Part>

@@ -330,8 +330,7 @@ std::string Report::figures(std::initializer_list<std::string_view> names) const
 std::string Report::hints() const {
   std::string text =
       "<p class=hint>Drag in a plot to zoom; double-click or tap twice to see the whole plot "
-      "again. "
-      "The values at the pointer are shown beside the legend.</p>\n";
+      "again. The values at the pointer are shown beside the legend.</p>\n";
   if (!is_drawn())
     text +=
         "<p class=fine>gnuplot was missing or failed when this page was made. The page therefore "

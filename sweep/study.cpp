@@ -217,10 +217,9 @@ std::uint64_t write_sweep(
   fs::path part = target;
   part += ".part";
   if (part.has_parent_path()) make_folder(part.parent_path());
-  const Descriptor file = open_and_lock(
-      part,
-      "is locked by another sweep that writes the same file; wait until it has ended, or write "
-      "elsewhere");
+  const Descriptor file = open_and_lock(part,
+                                        "is locked by another sweep that writes the same file; "
+                                        "wait until it has ended, or write elsewhere");
   auto kept = kept_rows(part, header, study);
   // Removes an incomplete last row, or all rows if they are those of another sweep.
   if (::ftruncate(file.get(), kept ? static_cast<off_t>(kept->bytes) : 0) != 0)

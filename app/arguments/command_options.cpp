@@ -167,10 +167,9 @@ void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& re
   o.gather_option = command.add_flag(
       "--gather", o.gather,
       fmt::format("write {} from the rows of an array job, and compute no row", results));
-  o.task_option = command.add_option(
-      "--task", o.task,
-      "K/T: compute only the rows K, K+T, ..., and write no table (as each task of the array job "
-      "does)");
+  o.task_option = command.add_option("--task", o.task,
+                                     "K/T: compute only the rows K, K+T, ..., and write no table "
+                                     "(as each task of the array job does)");
   o.gather_option->excludes(o.launcher_option);
   o.task_option->excludes(o.launcher_option)->excludes(o.gather_option);
 }

@@ -157,11 +157,10 @@ std::string write_c_header(const lubrication::Fit& fit, std::string_view source,
     if (!e.above.empty())
       text += fmt::format("  if (gap > VISCONTACT_LARGEST_GAP && gap < HUGE_VAL)\n    return {};\n",
                           e.above);
-    return text +
-           fmt::format(
-               "  if (!(gap >= VISCONTACT_SMALLEST_GAP && gap <= VISCONTACT_LARGEST_GAP)) return "
-               "NAN;\n  return {};\n}}\n\n",
-               e.inside);
+    return text + fmt::format(
+                      "  if (!(gap >= VISCONTACT_SMALLEST_GAP && gap <= VISCONTACT_LARGEST_GAP)) "
+                      "return NAN;\n  return {};\n}}\n\n",
+                      e.inside);
   };
   constexpr std::string_view kBetween = "\n      + ";
   return commented(facts(fit, source, outside), "//") +

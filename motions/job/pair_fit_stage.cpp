@@ -58,13 +58,12 @@ std::string reason_and_remedy(const fs::path& folder, const fs::path& file,
   const auto rerun = fmt::format("viscontact rerun {}", shell_word(file.string()));
   if (is_where_made(file))
     return fmt::format(
-        "because the tabulation of {} that made {} has not ended, or its table was "
-        "removed; '{}' completes it",
+        "because the tabulation of {} that made {} has not ended, or its table was removed; '{}' "
+        "completes it",
         motions, name, rerun);
   return fmt::format(
-      "although the tabulation that made {} was one of {}; {} was copied from "
-      "another folder, from which the rest can be copied, too, or "
-      "'{} -o {}' computes it",
+      "although the tabulation that made {} was one of {}; {} was copied from another folder, from "
+      "which the rest can be copied, too, or '{} -o {}' computes it",
       name, motions, name, rerun, shell_word(folder.string()));
 }
 

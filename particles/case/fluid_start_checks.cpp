@@ -71,11 +71,10 @@ bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size
     const double turn = i + 1 < chords.size() ? 0 : 2 * std::numbers::pi;
     const double arc = after.middle - after.half + turn - before.middle - before.half;
     if (arc < 0)
-      fail(
-          fmt::format("{} has a part in common with both {} and {}, and each two of the three "
-                      "circles meet outside the third one, which the mesh does not join; move one "
-                      "of them or leave it out",
-                      names(k), names(before.other), names(after.other)));
+      fail(fmt::format(
+          "{} has a part in common with both {} and {}, and each two of the three circles meet "
+          "outside the third one, which the mesh does not join; move one of them or leave it out",
+          names(k), names(before.other), names(after.other)));
     if (arc < kLeastArc)
       fail(
           fmt::format("less than one degree of the circle of {} is between two of the others; the "
@@ -102,8 +101,7 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
       !(p.bodies.empty() && c.setting.links.empty()))
     root.section("fluid").fail(
         "coupling",
-        "is 'splitting', which does not know rigid bodies and links; it must "
-        "be \"constrained\"");
+        "is 'splitting', which does not know rigid bodies and links; it must be \"constrained\"");
   for (std::size_t b = 0; b < p.bodies.count(); ++b) {
     const auto& body = p.bodies.bodies[b];
     const auto masses = member_masses(body, p);
@@ -146,11 +144,10 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
                           names(other), names(k), gap, needed);
       }
     }
-    root.sections("body")[b].require(
-        body.inertia[8] >= least, "moment_of_inertia",
-        "is {}; in a fluid it must be at least that of the masses of the body's particles at their "
-        "centres, {:.6g}",
-        body.inertia[8], least);
+    root.sections("body")[b].require(body.inertia[8] >= least, "moment_of_inertia",
+                                     "is {}; in a fluid it must be at least that of the masses of "
+                                     "the body's particles at their centres, {:.6g}",
+                                     body.inertia[8], least);
   }
   for (std::size_t a = 0; a < c.setting.links.arms.size(); ++a) {
     const auto& arm = c.setting.links.arms[a];
@@ -202,11 +199,10 @@ void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
                                 "is a program of the user's own, which knows discs only; it must "
                                 "be left out, because discs of a body overlap");
   for (std::size_t k = 0; k < fluid.semi_axes.size(); ++k) {
-    root.section("fluid").require(
-        fluid.solver.empty() || !fluid.is_plate(k), "solver",
-        "is a program of the user's own, which knows discs only; it must be left out, because {} "
-        "is a plate",
-        names(k));
+    root.section("fluid").require(fluid.solver.empty() || !fluid.is_plate(k), "solver",
+                                  "is a program of the user's own, which knows discs only; it must "
+                                  "be left out, because {} is a plate",
+                                  names(k));
     if (!fluid.is_ellipse(k)) continue;
     if (!c.particles.bodies.empty() || !c.setting.links.empty())
       throw_bad_input(
@@ -214,8 +210,7 @@ void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
           "{} is an ellipse; the particles of a case with bodies or links must be discs", names(k));
     root.section("fluid").require(fluid.solver.empty(), "solver",
                                   "is a program of the user's own, which knows discs only; it must "
-                                  "be left out, because {} is "
-                                  "an ellipse",
+                                  "be left out, because {} is an ellipse",
                                   names(k));
   }
 }
@@ -319,14 +314,14 @@ void check_arrangement(const case_file::TomlSection& root, const ParticlesCase& 
                   "smallest_gap",
                   "is {}; it must be at least fluid.threshold_gap, {}, at which contact is made",
                   gap, fluid.threshold_gap);
-  section.require(gap >= gap_of_solids(c), "smallest_gap",
-                  "is {}; it must be at least twice viscous_contact.roughness, {}, at which the "
-                  "solids touch",
-                  gap, gap_of_solids(c));
-  section.require(fluid.mesh != FluidMesh::kFitted || gap >= least, "smallest_gap",
-                  "is {}; it must be at least a thousandth of the radius, {:.3g}, which the mesh "
-                  "resolves",
-                  gap, least);
+  section.require(
+      gap >= gap_of_solids(c), "smallest_gap",
+      "is {}; it must be at least twice viscous_contact.roughness, {}, at which the solids touch",
+      gap, gap_of_solids(c));
+  section.require(
+      fluid.mesh != FluidMesh::kFitted || gap >= least, "smallest_gap",
+      "is {}; it must be at least a thousandth of the radius, {:.3g}, which the mesh resolves", gap,
+      least);
 }
 
 void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGap& at) {
@@ -410,11 +405,10 @@ void check_fluid_start(const case_file::TomlSection& root, const ParticlesCase& 
         "makes each side open that is not periodic, so that nothing balances the forces on the "
         "particles; at least one side must be a wall, or the motion of a particle must be given");
   check_mean_flow(root, c);
-  root.section("fluid").require(
-      c.setting.fluid->threshold_gap >= gap_of_solids(c), "threshold_gap",
-      "is {}; it must be at least twice viscous_contact.roughness, {}, because the solids touch at "
-      "that gap",
-      c.setting.fluid->threshold_gap, gap_of_solids(c));
+  root.section("fluid").require(c.setting.fluid->threshold_gap >= gap_of_solids(c), "threshold_gap",
+                                "is {}; it must be at least twice viscous_contact.roughness, {}, "
+                                "because the solids touch at that gap",
+                                c.setting.fluid->threshold_gap, gap_of_solids(c));
   check_arrangement(root, c);
   check_penalty(root, c);
   check_bodies(root, c, names);

@@ -163,8 +163,7 @@ void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& requ
   const auto missing = missing_rows(sweep, runs, false);
   if (!missing.empty()) {
     std::string text = fmt::format(
-        "{}: {} of {} rows are missing (the first is row {}); the "
-        "finished ones are kept",
+        "{}: {} of {} rows are missing (the first is row {}); the finished ones are kept",
         request.output, missing.size(), sweep.points().rows(), missing[0] + 1);
     const auto folder = pipeline::slurm_folder(request.output);
     if (fs::exists(folder)) text += fmt::format("; logs are in {}", folder.string());

@@ -47,8 +47,7 @@ std::string plot_of(const std::string& name, const ColourField& field) {
   const double height = (field.top - field.bottom) / static_cast<double>(field.rows);
   return fmt::format(
       "plot ${} matrix using ({:.17g} + $1 * {:.17g}):({:.17g} + $2 * {:.17g}):($3 < {} ? $3 : "
-      "NaN) "
-      "with image notitle",
+      "NaN) with image notitle",
       name, field.left + width / 2, width, field.bottom + height / 2, height, kTransparent);
 }
 

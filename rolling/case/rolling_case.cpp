@@ -37,8 +37,8 @@ void weight_keys(case_file::Keys& keys, WeightKeys& given, double mass) {
   for (const auto* key : kOneOf)
     if (keys.has(key)) {
       keys.require(first.empty(), key,
-                   "must be left out, because {} is given; only one of force, "
-                   "weight and gravity may be given",
+                   "must be left out, because {} is given; only one of force, weight and gravity "
+                   "may be given",
                    first);
       first = key;
     }
@@ -53,11 +53,11 @@ void weight_keys(case_file::Keys& keys, WeightKeys& given, double mass) {
                  "along the plane and -`weight` cos(`incline`) away from it",
                  "from `force` or `gravity`"});
   double gravity = 0;
-  if (keys.optional("gravity", case_file::number(gravity, kFinite),
-                    {"acceleration, negative towards a plane that is level, in place of `weight`: "
-                     "the [weight less buoyancy](physics.md#4-motion-of-one-sphere-reduced_model) "
-                     "is (4.15)",
-                     "from `force` or `weight`"}))
+  if (keys.optional(
+          "gravity", case_file::number(gravity, kFinite),
+          {"acceleration, negative towards a plane that is level, in place of `weight`: the "
+           "[weight less buoyancy](physics.md#4-motion-of-one-sphere-reduced_model) is (4.15)",
+           "from `force` or `weight`"}))
     given.weight = -mass * gravity;
   keys.optional("incline", case_file::number(given.incline, kAngle), {"angle of the plane"});
   keys.require(!keys.has("force") || given.force.size() == 2, "force",
@@ -148,10 +148,9 @@ void rolling_sphere_keys(case_file::Keys& keys, RollingCase& c) {
 
 void pair_fit_keys(case_file::Keys& keys, RollingCase& c) {
   std::string file;
-  keys.required(
-      "file", case_file::file_name(file),
-      {"fit of a pair (JSON) beside a plane, which is [scaled](physics.md#3-the-fit-fitting) "
-       "to radius and viscosity of the case"});
+  keys.required("file", case_file::file_name(file),
+                {"fit of a pair (JSON) beside a plane, which is "
+                 "[scaled](physics.md#3-the-fit-fitting) to radius and viscosity of the case"});
   c.fit = c.path.parent_path() / file;
 }
 

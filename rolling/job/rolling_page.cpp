@@ -117,10 +117,9 @@ std::vector<std::string> rolling_warnings(const RollingResults& results) {
     // Relative rounding error of the gap of a sphere that rests at the smallest fitted gap.
     constexpr double kRounding = 1e-9;
     if (thinnest < (1 - kRounding) * low)
-      warnings.push_back(
-          fmt::format("Extrapolation: {} gets down to a gap of {:.4g}, below the smallest fitted "
-                      "gap, {:.4g}",
-                      model, thinnest, low));
+      warnings.push_back(fmt::format(
+          "Extrapolation: {} gets down to a gap of {:.4g}, below the smallest fitted gap, {:.4g}",
+          model, thinnest, low));
   }
   return warnings;
 }

@@ -37,10 +37,9 @@ struct ArmGrid {
 };
 
 void arm_keys(case_file::Keys& keys, ArmGrid& grid) {
-  keys.required(
-      "from", case_file::number(grid.from, kPositive),
-      {"the shortest arm, greater than the sum of both radii, so that the gap is at least "
-       "1e-6 of the smaller radius"});
+  keys.required("from", case_file::number(grid.from, kPositive),
+                {"the shortest arm, greater than the sum of both radii, so that the gap is at "
+                 "least 1e-6 of the smaller radius"});
   keys.required("to", case_file::number(grid.to, kPositive), {"the longest arm"});
   // At least 3, because fit_resistance() needs three values of each gap.
   keys.required("count", case_file::count(grid.count, 3, 200), {"the number of arms between them"});
@@ -59,11 +58,10 @@ std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
                   from, both_radii, k + 1, k + 2);
   constexpr double kLeastGap = 1e-6;  // of the smaller radius; tests go down to this value
   const double least = kLeastGap * std::min(radii[k], radii[k + 1]);
-  section.require(
-      from - both_radii >= least, "from",
-      "is {}, a gap of {:.3g}; a gap must be at least {} of the smaller radius, so from "
-      "must be at least {}",
-      from, from - both_radii, kLeastGap, both_radii + least);
+  section.require(from - both_radii >= least, "from",
+                  "is {}, a gap of {:.3g}; a gap must be at least {} of the smaller radius, so "
+                  "from must be at least {}",
+                  from, from - both_radii, kLeastGap, both_radii + least);
   section.require(to > from, "to", "is {}; it must be greater than from, {}", to, from);
   constexpr double kLargestArm = 1e4;  // times the sum of both radii
   section.require(to <= kLargestArm * both_radii, "to",
@@ -154,8 +152,8 @@ void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
                 {"radii in the order of the line; the largest is at most 100 times the smallest"});
   keys.optional(
       "table", case_file::custom("a CSV file", read_given_table, c),
-      {"a [table](file-formats.md#resistance-matrices-csv) of spheres with the same "
-       "ratios of radii, in any units and for any viscosity, which is scaled to this case",
+      {"a [table](file-formats.md#resistance-matrices-csv) of spheres with the same ratios of "
+       "radii, in any units and for any viscosity, which is scaled to this case",
        "the table is computed, for `arms`"});
   keys.required_if(!c.table_file, "arms",
                    case_file::custom("`{ from, to, count }`, or a list of these, one for each arm",
@@ -167,8 +165,8 @@ void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
   keys.optional(
       "container",
       case_file::custom("`\"unbounded\"`, `{ radius }` or `{ radius, height }`", read_tube, c),
-      {"what is around the line: nothing, a long tube without slip, or a closed cylinder "
-       "with the swimmer in the middle",
+      {"what is around the line: nothing, a long tube without slip, or a closed cylinder with the "
+       "swimmer in the middle",
        "`\"unbounded\"`"});
   if (!c.table_file) return;
   const auto around = surroundings_in_words(c.spheres);
@@ -187,12 +185,12 @@ std::string fault_of_arm(double arm, std::size_t k, const SwimmerCase& c) {
   if (arm >= from * (1 - kRounding) && arm <= to * (1 + kRounding)) return "";
   if (!(arm > both_radii))
     return fmt::format(
-        "makes arm x{} {:.9g}; spheres {} and {} would overlap, as the sum of their "
-        "radii is {:.9g}",
+        "makes arm x{} {:.9g}; spheres {} and {} would overlap, as the sum of their radii is "
+        "{:.9g}",
         k + 1, arm, k + 1, k + 2, both_radii);
   return fmt::format(
-      "makes arm x{} {:.9g}; the table has arms from {:.9g} to {:.9g}, so change "
-      "the stroke or swimmer.arms",
+      "makes arm x{} {:.9g}; the table has arms from {:.9g} to {:.9g}, so change the stroke or "
+      "swimmer.arms",
       k + 1, arm, from, to);
 }
 
@@ -298,8 +296,8 @@ void read_phases(const case_file::TomlSection& section, std::string_view key,
 void ellipse_keys(case_file::Keys& keys, Ellipse& ellipse, const SwimmerCase& c) {
   constexpr std::string_view kArms = "a number for each arm, or one number for all";
   keys.required("centre", case_file::custom(kArms, read_arms, ellipse.centre, c, kPositive),
-                {"x1 = `centre[0]` + `semi_axes[0]` cos t, x2 = `centre[1]` + `semi_axes[1]` "
-                 "cos(t + `phase`), with t from 0 to 2 pi in a period"});
+                {"x1 = `centre[0]` + `semi_axes[0]` cos t, x2 = `centre[1]` + `semi_axes[1]` cos(t "
+                 "+ `phase`), with t from 0 to 2 pi in a period"});
   keys.required("semi_axes",
                 case_file::custom(kArms, read_arms, ellipse.semi_axes, c, kNotNegative),
                 {"not all 0"});
@@ -331,11 +329,11 @@ void stroke_keys(case_file::Keys& keys, SwimmerCase& c) {
   double period = 1;
   keys.optional("period", case_file::number(period, kPositive),
                 {"duration of the stroke; not with `file`"});
-  keys.optional(
-      "corners", case_file::custom("at least two shapes `[x1, x2, ...]`", read_corners, period, c),
-      {"straight legs from one shape to the next and back to the first. Each leg takes an "
-       "equal share of the period, at constant velocity",
-       "or `ellipse` or `file`"});
+  keys.optional("corners",
+                case_file::custom("at least two shapes `[x1, x2, ...]`", read_corners, period, c),
+                {"straight legs from one shape to the next and back to the first. Each leg takes "
+                 "an equal share of the period, at constant velocity",
+                 "or `ellipse` or `file`"});
   keys.optional("ellipse",
                 case_file::custom("`{ centre, semi_axes, phase }`", read_ellipse, period, c),
                 {"an ellipse in the space of shapes, see below", "or `corners` or `file`"});

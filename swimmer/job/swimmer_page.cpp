@@ -303,13 +303,12 @@ std::string files_words(const SwimmerResults& results) {
 /// The section (HTML) with the loops; empty if they are not drawn.
 std::string loops_section(const report::Report& report) {
   const auto loops = report.figures({"loops"});
-  return report::section("Loops in the plane of the arms",
-                         loops.empty()
-                             ? ""
-                             : "<p>The displacement of a stroke is the integral of the coloured "
-                               "quantity over the area in its loop, positive for loops run "
-                               "counter-clockwise.</p>\n" +
-                                   loops);
+  return report::section(
+      "Loops in the plane of the arms",
+      loops.empty() ? ""
+                    : "<p>The displacement of a stroke is the integral of the coloured quantity "
+                      "over the area in its loop, positive for loops run counter-clockwise.</p>\n" +
+                          loops);
 }
 
 }  // namespace
