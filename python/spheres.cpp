@@ -53,9 +53,9 @@ lubrication::Fit fit_of(const case_file::Case& c, const std::optional<GivenFit>&
     return case_file::fit_for(c, lubrication::read_fit(*c.fit->file), *c.fit->file);
   if (c.fit && c.fit->exact) return lubrication::exact_plane_fit(c.viscosity, c.radius);
   throw Error(ErrorKind::kWrongUsage,
-              c.path.string() +
-                  ": the drag is not given: the section [fit] of the case has neither 'file' nor "
-                  "'exact'; give fit=, a Fit or the path of a fit file");
+              "{}: the drag is not given: the section [fit] of the case has neither 'file' nor "
+              "'exact'; give fit=, a Fit or the path of a fit file",
+              c.path.string());
 }
 
 /// The value as an object of Python, or None.
@@ -162,10 +162,9 @@ motions::PairFit fit_of(const rolling::RollingCase& c, const std::optional<Given
       return rolling::fit_for(c, **object, "fit");
   const auto path = given ? std::optional(std::get<fs::path>(*given)) : c.fit;
   if (!path)
-    throw Error(
-        ErrorKind::kWrongUsage,
-        c.path.string() +
-            ": the case names no fit of a pair; give fit=, a PairFit or the path of its file");
+    throw Error(ErrorKind::kWrongUsage,
+                "{}: the case names no fit of a pair; give fit=, a PairFit or the path of its file",
+                c.path.string());
   return rolling::fit_for(c, motions::read_pair_fit(*path), *path);
 }
 

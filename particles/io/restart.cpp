@@ -266,9 +266,8 @@ int read_version(std::string_view& rest, const std::string& file) {
         "is a restart file of a version that is not known ({}); versions {} to {} can be read",
         line.substr(0, 20), kFirstVersion, kLastVersion);
   if (const auto order = rest_of_line.substr(2); order != kOrder)
-    throw_bad_input({file}, "was written by a machine with another byte order (" +
-                                std::string(order.substr(0, 20)) + "; it must be " +
-                                std::string(kOrder) + ")");
+    throw_bad_input({file}, "was written by a machine with another byte order ({}; it must be {})",
+                    order.substr(0, 20), kOrder);
   return version;
 }
 
