@@ -81,9 +81,8 @@ int run(int argc, char** argv) {
     for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
       names.push_back(command->get_name());
     if (std::ranges::find(names, argv[1]) == names.end())
-      throw Error(ErrorKind::kWrongUsage,
-                  fmt::format("there is no subcommand '{}'; the subcommands are: {}", argv[1],
-                              fmt::join(names, ", ")));
+      throw Error(ErrorKind::kWrongUsage, "there is no subcommand '{}'; the subcommands are: {}",
+                  argv[1], fmt::join(names, ", "));
   }
   try {
     auto arguments = with_files_apart({argv + std::min(argc, 1), argv + argc});

@@ -10,7 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "viscontact/case_file/keys.hpp"
 #include "viscontact/case_file/shared_sections.hpp"
 #include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -109,10 +108,9 @@ void piece_keys(Keys& keys, ExternalForce::Piece& piece) {
     piece.value = coefficients.front();
     piece.higher.assign(coefficients.begin() + 1, coefficients.end());
   };
-  const bool is_polynomial =
-      keys.optional("polynomial", custom("`[c0, c1, ...]`", read_polynomial),
-                    {"the piece is c0 + c1 tau + c2 tau² + ..., where tau is the time since it "
-                     "began"});
+  const bool is_polynomial = keys.optional(
+      "polynomial", custom("`[c0, c1, ...]`", read_polynomial),
+      {"the piece is c0 + c1 tau + c2 tau² + ..., where tau is the time since it began"});
   keys.require(!(is_polynomial && keys.has("value")), "value",
                "must be left out, because the first coefficient of polynomial gives it");
   if (!is_polynomial)
@@ -220,11 +218,11 @@ void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
                  "[all](file-formats.md#fewer-rows)",
                  {},
                  "1000"});
-  keys.optional("time_scale", number(time_scale, kPositive),
-                {"multiplies every time of `[motion]` and the time steps, and stretches the "
-                 "external force with them: f_ext(t/`time_scale`). The angular frequencies, the "
-                 "coefficients of polynomials and the times of files are those of the unscaled "
-                 "time"});
+  keys.optional(
+      "time_scale", number(time_scale, kPositive),
+      {"multiplies every time of `[motion]` and the time steps, and stretches the external force "
+       "with them: f_ext(t/`time_scale`). The angular frequencies, the coefficients of polynomials "
+       "and the times of files are those of the unscaled time"});
 }
 
 /// Heights of the roughness of sphere and plane [L], whose sum must be less than the radius.
@@ -336,17 +334,16 @@ void check_exact_drag(const TomlSection& root, const Case& c) {
                                 "the exact drag is not known",
                                 c.tabulation->geometry);
   for (const auto& model : c.models)
-    root.section("motion").require(!reduced_model::find_model(model).exact_drag, "models",
-                                   "contains {}, which runs with the exact drag near a plane; "
-                                   "tabulation.geometry is {}",
-                                   model, c.tabulation->geometry);
+    root.section("motion").require(
+        !reduced_model::find_model(model).exact_drag, "models",
+        "contains {}, which runs with the exact drag near a plane; tabulation.geometry is {}",
+        model, c.tabulation->geometry);
 }
 
 template <class Part>
 const Part& required(const std::optional<Part>& part, const Case& c, std::string_view section) {
   if (!part)
-    throw_bad_input({c.path.string()},
-                    fmt::format("has no section [{}], which this command needs", section));
+    throw_bad_input({c.path.string()}, "has no section [{}], which this command needs", section);
   return *part;
 }
 
@@ -363,9 +360,8 @@ CaseKind kind_of_case(const fs::path& path) {
   return root.has("rolling") ? CaseKind::kRolling : CaseKind::kSphere;
 }
 
-template <>
-Case case_of_root(const TomlSection& root, std::string text, const fs::path& path) {
-  auto c = titled_case<Case>(root, std::move(text), path, true);
+void read_root(const TomlSection& root, Case& c) {
+  read_title_and_units(root, c, true);
   read_keys(root.section("fluid"), fluid_keys, c.viscosity, c.fluid_density);
   double mass = 1;  // without [motion] nothing depends on the mass
   const bool needs_mass = root.has("motion");
@@ -373,7 +369,7 @@ Case case_of_root(const TomlSection& root, std::string text, const fs::path& pat
   if (root.has("tabulation"))
     c.tabulation = read_tabulation(root.section("tabulation"), c.viscosity, c.radius);
   if (root.has("fit"))
-    read_keys(root.section("fit"), fit_keys, c.fit.emplace(), path.parent_path());
+    read_keys(root.section("fit"), fit_keys, c.fit.emplace(), c.path.parent_path());
   if (root.has("motion")) c.motion = read_motion(root, mass, c);
   if (root.has("published"))
     read_keys(root.section("published"), published_keys, c.published.emplace());
@@ -382,7 +378,6 @@ Case case_of_root(const TomlSection& root, std::string text, const fs::path& pat
   // has() makes finish() accept these sections, which a case without [motion] may have, too.
   for (const auto& name : reduced_model::model_sections()) (void)root.has(name);
   root.finish();
-  return c;
 }
 
 lubrication::Fit fit_for(const Case& c, lubrication::Fit fit, const fs::path& file) {
@@ -393,9 +388,9 @@ lubrication::Fit fit_for(const Case& c, lubrication::Fit fit, const fs::path& fi
                          const std::string& of_case) {
     if (!of_fit.empty() && !lubrication::same_words(of_fit, of_case))
       throw_bad_input({file.string()},
-                      fmt::format("the {} of the fit, scaled from the radius {} to {}, is '{}'; "
-                                  "that of the case is '{}'. Both must be equal in radii",
-                                  key, radius, c.radius, of_fit, of_case));
+                      "the {} of the fit, scaled from the radius {} to {}, is '{}'; that of the "
+                      "case is '{}'. Both must be equal in radii",
+                      key, radius, c.radius, of_fit, of_case);
   };
   check("geometry", fit.geometry, geometry_in_words(*c.tabulation));
   check("container", fit.container, container_in_words(*c.tabulation));

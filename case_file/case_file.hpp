@@ -4,7 +4,6 @@
 // read it. A change must keep accepting the cases that users have written.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -80,9 +79,8 @@ struct Case {
 /// value and what is allowed; also if the file, or a file of the external force, cannot be read.
 Case read_case(const std::filesystem::path& path);
 
-/// The case of one sphere whose root table is `root` (case_template.hpp). Errors as read_case().
-template <>
-Case case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
+/// Reads a case from the root table of its file (case_template.hpp). Throws as read_case().
+void read_root(const TomlSection& root, Case& c);
 
 /// Names of the sections with parameters of models, which all have defaults.
 template <>

@@ -5,8 +5,6 @@
 // the tables of docs/case-file.md.
 #include "viscontact/case_file/case_template.hpp"
 
-#include "viscontact/case_file/keys.hpp"
-
 namespace viscontact::case_file {
 namespace {
 

@@ -1,8 +1,8 @@
 // The parts that all kinds of cases share for sweeps: the section [sweep], and a case file that is
 // read once and from which cases with other numbers are made. Numbers have the units of the case.
 // Each kind of case (case_file.hpp, and those in particles/, rolling/ and swimmer/) takes part by a
-// specialisation of case_of_root(), which its own header declares; the command `sweep` and python/
-// make such cases. A change must keep accepting users' cases.
+// function read_root(), which its own header declares; the command `sweep` and python/ make such
+// cases. A change must keep accepting users' cases.
 #pragma once
 
 #include <cstdint>
@@ -46,21 +46,24 @@ void read_units(const TomlSection& root, Units& units);
 /// What docs/case-file.md says about that key. This does not throw.
 KeyTable table_of_units();
 
-/// The case whose root table is `root`. `text` is the content of the file at `path`. Throws
-/// Error(kBadInput) with the file, the line, the key, its value and what is allowed.
+/// Reads the title and the units of a case. Throws Error(kBadInput) if the title is missing although
+/// `needs_title`, and the error of read_units().
 template <class CaseType>
-CaseType case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
+void read_title_and_units(const TomlSection& root, CaseType& c, bool needs_title = false) {
+  if (needs_title || root.has("title")) c.title = root.text("title");
+  read_units(root, c.units);
+}
 
-/// A case with the text, the path, the title and the units of its file, and nothing else. Throws
-/// Error(kBadInput) if the title is missing although `needs_title`, and the error of read_units().
+/// The case whose root table is `root`. `text` is the content of the file at `path`. The function
+/// read_root(root, c) beside CaseType reads all but these two members. It throws Error(kBadInput)
+/// with the file, the line, the key, its value and what is allowed.
 template <class CaseType>
-CaseType titled_case(const TomlSection& root, std::string text, const std::filesystem::path& path,
-                     bool needs_title = false) {
+CaseType case_of_root(const TomlSection& root, std::string text,
+                      const std::filesystem::path& path) {
   CaseType c;
   c.text = std::move(text);
   c.path = path;
-  if (needs_title || root.has("title")) c.title = root.text("title");
-  read_units(root, c.units);
+  read_root(root, c);
   return c;
 }
 

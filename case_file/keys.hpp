@@ -42,7 +42,7 @@ auto at_key(const TomlSection& section, std::string_view key, const Check& check
   try {
     return check();
   } catch (const Error& error) {
-    section.fail(key, fmt::format("is not accepted: {}", error.what()));
+    section.fail(key, "is not accepted: {}", error.what());
   }
 }
 

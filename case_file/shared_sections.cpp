@@ -65,8 +65,7 @@ void read_gaps(const TomlSection& section, std::string_view key, Tabulation& tab
   }
   gaps.back() = to;
   table.require(std::ranges::adjacent_find(gaps, std::greater_equal()) == gaps.end(), "count",
-                "is {}; there are not so many different numbers of double precision from {} to "
-                "{}",
+                "is {}; there are not so many different numbers of double precision from {} to {}",
                 count, from, to);
 }
 
@@ -114,19 +113,19 @@ void read_container(const TomlSection& section, std::string_view key, Tabulation
   table.require(container.radius > space.container_radius, "radius",
                 "is {}; it must be greater than {}, the radius of sphere and neighbour",
                 container.radius, space.container_radius);
-  table.require(container.height > space.container_height, "height",
-                "is {}; it must be greater than {}, what the largest gap, the sphere and its "
-                "neighbour need",
-                container.height, space.container_height);
+  table.require(
+      container.height > space.container_height, "height",
+      "is {}; it must be greater than {}, what the largest gap, the sphere and its neighbour need",
+      container.height, space.container_height);
   // In larger containers FreeFEM's mesh generator cannot make edges that are short enough for the
   // gap (boundary_edges.idp). The drag there is nearly that in unbounded fluid.
   constexpr double kLargestLength = 2e5;  // in radii of the sphere
   for (const auto& [name, length] :
        {std::pair("radius", container.radius), std::pair("height", container.height)})
-    table.require(length <= kLargestLength * tabulation.radius, name,
-                  "is {}; it must be at most {} sphere radii, {}, or the container must be "
-                  "\"unbounded\"",
-                  length, kLargestLength, kLargestLength * tabulation.radius);
+    table.require(
+        length <= kLargestLength * tabulation.radius, name,
+        "is {}; it must be at most {} sphere radii, {}, or the container must be \"unbounded\"",
+        length, kLargestLength, kLargestLength * tabulation.radius);
   tabulation.container = container;
 }
 
@@ -175,16 +174,16 @@ void tabulation_keys(Keys& keys, Tabulation& tabulation) {
                 {.meaning = "what the sphere approaches",
                  .fallback = "`{ kind = \"plane\" }`",
                  .example = "{ kind = \"plane\" }"});
-  keys.optional("motion",
-                custom("`\"approach\"`, `\"slide\"`, `\"roll\"`, `\"spin\"`, a list of these, or "
-                       "`\"all\"`",
-                       read_motions, tabulation),
-                {"[motions](motions.md) that are tabulated; `\"all\"` are those that the geometry "
-                 "has. The reference velocities are those of each motion, angular ones for roll "
-                 "and spin. `run` needs the approach alone",
-                 "`\"approach\"`",
-                 {},
-                 "\"approach\""});
+  keys.optional(
+      "motion",
+      custom("`\"approach\"`, `\"slide\"`, `\"roll\"`, `\"spin\"`, a list of these, or `\"all\"`",
+             read_motions, tabulation),
+      {"[motions](motions.md) that are tabulated; `\"all\"` are those that the geometry has. The "
+       "reference velocities are those of each motion, angular ones for roll and spin. `run` needs "
+       "the approach alone",
+       "`\"approach\"`",
+       {},
+       "\"approach\""});
   if (keys.reads()) check_gaps(keys.section(), tabulation);
   keys.required_if(!keys.reads() || freefem_axi::find_geometry(tabulation.geometry).takes_container,
                    "container",

@@ -6,7 +6,6 @@
 
 #include <vector>
 
-#include "viscontact/case_file/case_template.hpp"
 #include "viscontact/case_file/keys.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 

@@ -102,10 +102,10 @@ void check_dotted_keys(const std::string& text, const std::string& file) {
       parts = after_dot ? parts + 1 : 1;
       after_dot = false;
       if (parts > kMostParts)
-        throw_bad_input({file, line},
-                        fmt::format("has a key of more than {0} parts joined by dots; a key may "
-                                    "have at most {0}",
-                                    kMostParts));
+        throw_bad_input(
+            {file, line},
+            "has a key of more than {0} parts joined by dots; a key may have at most {0}",
+            kMostParts);
       const std::size_t end =
           c == '"' || c == '\'' ? end_of_string(all, i) : end_of_bare_word(all, i);
       line += static_cast<int>(std::ranges::count(all.substr(i, end - i), '\n'));
@@ -144,8 +144,8 @@ TomlSection TomlSection::parse(const std::string& text, const std::string& file)
     auto root = std::make_shared<const toml::table>(toml::parse(text, file));
     return TomlSection(Node{root, root.get(), file, "", {}});
   } catch (const toml::parse_error& error) {
-    throw_bad_input({file, static_cast<int>(error.source().begin.line)},
-                    fmt::format("is not valid TOML ({})", error.description()));
+    throw_bad_input({file, static_cast<int>(error.source().begin.line)}, "is not valid TOML ({})",
+                    error.description());
   }
 }
 
@@ -154,8 +154,7 @@ std::string TomlSection::full_name(std::string_view key) const {
 }
 
 void TomlSection::fail_of_section(std::string_view key, const std::string& what) const {
-  if (node_->path.empty())
-    throw_bad_input({node_->file}, fmt::format("section [{}] {}", key, what));
+  if (node_->path.empty()) throw_bad_input({node_->file}, "section [{}] {}", key, what);
   fail(key, what);
 }
 
@@ -198,10 +197,10 @@ bool TomlSection::is_array_of_tables(std::string_view key) const {
 }
 
 double TomlSection::number(std::string_view key, const Allowed& allowed) const {
-  if (!has(key)) fail(key, fmt::format("is missing; it must be a number {}", allowed.words));
+  if (!has(key)) fail(key, "is missing; it must be a number {}", allowed.words);
   const auto* node = node_->table->get(key);
   const auto value = allowed_number(*node, allowed);
-  if (!value) fail(key, fmt::format("is {}; it must be a number {}", show(*node), allowed.words));
+  if (!value) fail(key, "is {}; it must be a number {}", show(*node), allowed.words);
   return *value;
 }
 
@@ -211,10 +210,9 @@ int TomlSection::count(std::string_view key, int least, int most) const {
   const auto* node = node_->table->get(key);
   // show() writes 3.0 as "3", which would look allowed. This message writes the decimal point.
   if (const auto decimal = node->value_exact<double>(); decimal && *decimal == std::floor(*decimal))
-    fail(key, fmt::format("is {:.1f}; {}, without a decimal point", *decimal, allowed));
+    fail(key, "is {:.1f}; {}, without a decimal point", *decimal, allowed);
   const auto value = node->is_integer() ? node->value<int>() : std::nullopt;
-  if (!value || *value < least || *value > most)
-    fail(key, fmt::format("is {}; {}", show(*node), allowed));
+  if (!value || *value < least || *value > most) fail(key, "is {}; {}", show(*node), allowed);
   return *value;
 }
 
@@ -222,7 +220,7 @@ std::string TomlSection::text(std::string_view key) const {
   if (!has(key)) fail(key, "is missing; it must be a text in quotes");
   const auto* node = node_->table->get(key);
   const auto value = node->is_string() ? node->value<std::string>() : std::nullopt;
-  if (!value) fail(key, fmt::format("is {}; it must be a text in quotes", show(*node)));
+  if (!value) fail(key, "is {}; it must be a text in quotes", show(*node));
   return *value;
 }
 
@@ -235,7 +233,7 @@ std::string TomlSection::file_name(std::string_view key) const {
 bool TomlSection::truth(std::string_view key) const {
   if (!has(key)) fail(key, "is missing; it must be true or false");
   const auto value = node_->table->get(key)->value_exact<bool>();
-  if (!value) fail(key, fmt::format("is {}; it must be true or false", shown(key)));
+  if (!value) fail(key, "is {}; it must be true or false", shown(key));
   return *value;
 }
 
@@ -276,7 +274,7 @@ std::vector<std::vector<double>> TomlSection::rows(std::string_view key, std::si
       for (const auto& number : *list)
         if (const auto value = allowed_number(number, allowed)) row.push_back(*value);
     if (!element.is_array() || row.size() != columns || element.as_array()->size() != columns)
-      fail(key, fmt::format("contains {}; it must be a list of {}", show(element), many));
+      fail(key, "contains {}; it must be a list of {}", show(element), many);
     rows.push_back(std::move(row));
   }
   return rows;
@@ -287,8 +285,7 @@ std::vector<std::string> TomlSection::texts(std::string_view key) const {
   for (const auto& element :
        elements(*this, key, node_->table->get(key), "texts in quotes", "text in quotes")) {
     const auto value = element.value_exact<std::string>();
-    if (!value)
-      fail(key, fmt::format("contains {}; it must be a list of texts in quotes", show(element)));
+    if (!value) fail(key, "contains {}; it must be a list of texts in quotes", show(element));
     values.push_back(*value);
   }
   return values;
@@ -308,7 +305,7 @@ std::vector<TomlSection> TomlSection::sections(std::string_view key) const {
        elements(*this, key, node_->table->get(key), "tables { ... }", "table { ... }")) {
     const auto* table = element.as_table();
     if (table == nullptr)
-      fail(key, fmt::format("contains {}; it must be a list of tables {{ ... }}", show(element)));
+      fail(key, "contains {}; it must be a list of tables {{ ... }}", show(element));
     const auto path = fmt::format("{}[{}]", full_name(key), sections.size());
     sections.push_back(TomlSection(Node{node_->root, table, node_->file, path, {}}));
   }
@@ -322,8 +319,8 @@ void TomlSection::finish() const {
       for (const auto& name : node_->asked)
         known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
       throw_bad_input({node_->file, static_cast<int>(key.source().begin.line)},
-                      fmt::format("{} is not a key that is known here; the known keys are: {}",
-                                  full_name(key.str()), known));
+                      "{} is not a key that is known here; the known keys are: {}",
+                      full_name(key.str()), known);
     }
 }
 
@@ -334,7 +331,7 @@ TomlSection TomlSection::with_numbers(
     const std::string& path = number.first;
     const double value = number.second;
     const auto refuse = [&](const std::string& what) {
-      throw_bad_input({node_->file}, fmt::format("{} {}", path, what));
+      throw_bad_input({node_->file}, "{} {}", path, what);
     };
     auto* place = root->at_path(path).node();
     // Puts a new node at `path`, because the existing node of an integer cannot store a fraction.
@@ -370,8 +367,7 @@ TomlSection TomlSection::with_texts(
   auto root = std::make_shared<toml::table>(*node_->root);
   for (const auto& [path, text] : texts) {
     auto* place = root->at_path(path).as_string();
-    if (place == nullptr)
-      throw_bad_input({node_->file}, fmt::format("{} is not a text in this case", path));
+    if (place == nullptr) throw_bad_input({node_->file}, "{} is not a text in this case", path);
     **place = text;
   }
   return TomlSection(Node{root, root.get(), node_->file, "", {}});

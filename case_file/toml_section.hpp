@@ -9,7 +9,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -84,6 +83,12 @@ class TomlSection {
   /// Throws Error(kBadInput) with the message "section.key what" at the line of this key, or at the
   /// line of this table if the key does not exist.
   [[noreturn]] void fail(std::string_view key, const std::string& what) const;
+  /// As above; `what` is a format with these arguments.
+  template <class First, class... Rest>
+  [[noreturn]] void fail(std::string_view key, fmt::format_string<First, Rest...> what,
+                         First&& first, Rest&&... rest) const {
+    fail(key, fmt::format(what, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
 
   /// Throws the same error if the condition is false; `what` is a format with these arguments.
   template <class... Arguments>

@@ -4,8 +4,11 @@
 // in docs/command-line.md.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace viscontact {
 
@@ -30,6 +33,10 @@ class Error : public std::runtime_error {
  public:
   /// `message` is what() of the error; that it has the form above is not checked.
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  /// As above; the message is fmt::format(text, first, rest...).
+  template <class First, class... Rest>
+  Error(ErrorKind kind, fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest)
+      : Error(kind, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...)) {}
 
   ErrorKind kind() const { return kind_; }  ///< decides the exit code
 
@@ -60,6 +67,12 @@ struct FilePosition {
 [[noreturn]] inline void throw_bad_input(const FilePosition& at, const std::string& message) {
   const std::string line = at.line > 0 ? ":" + std::to_string(at.line) : "";
   throw Error(ErrorKind::kBadInput, at.file + line + ": " + message);
+}
+/// As above; the message is fmt::format(text, first, rest...).
+template <class First, class... Rest>
+[[noreturn]] void throw_bad_input(const FilePosition& at, fmt::format_string<First, Rest...> text,
+                                  First&& first, Rest&&... rest) {
+  throw_bad_input(at, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
 }
 
 }  // namespace viscontact

@@ -5,8 +5,6 @@
 // used; besides, its header takes 1.2 s to compile.
 #pragma once
 
-#include <utility>
-
 namespace viscontact {
 
 /// Returns the smallest double at which holds(x) is true. The caller knows that it is false at

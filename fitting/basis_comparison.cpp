@@ -7,7 +7,6 @@
 #include "viscontact/fitting/basis_comparison.hpp"
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
 
 namespace viscontact::fitting {
 

@@ -17,17 +17,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <set>
-#include <string_view>
-#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/fitting/robust_least_squares.hpp"
-#include "viscontact/lubrication/fit.hpp"
-#include "viscontact/lubrication/motion_table.hpp"
-#include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact::fitting {
 namespace {
@@ -301,11 +295,10 @@ void check_linearity(const lubrication::MotionTable& table) {
         (row.force / row.reference_velocity) / (first->force / first->reference_velocity);
     if (allowed > 0 && std::abs(ratio - 1) > allowed)
       throw Error(ErrorKind::kBadInput,
-                  fmt::format("at gap {} the force is not linear in the velocity: force over "
-                              "velocity differs by {:.2g} relative between the velocities {} and "
-                              "{}; the rows' error estimates allow {:.2g}",
-                              row.gap, ratio - 1, first->reference_velocity, row.reference_velocity,
-                              allowed));
+                  "at gap {} the force is not linear in the velocity: force over velocity differs "
+                  "by {:.2g} relative between the velocities {} and {}; the rows' error estimates "
+                  "allow {:.2g}",
+                  row.gap, ratio - 1, first->reference_velocity, row.reference_velocity, allowed);
   }
 }
 
@@ -333,13 +326,12 @@ void check_gaps(const lubrication::MotionTable& table, const FitSettings& settin
   const std::size_t needed =
       std::max<std::size_t>(2, settings.basis.terms.size() - (settings.fix_leading ? 1 : 0));
   if (gaps.size() < needed)
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("the table has {} different gap(s); the basis {} needs at least {}{}",
-                            gaps.size(), settings.basis.name, needed,
-                            table.failed_rows.empty()
-                                ? ""
-                                : fmt::format("; {} of its rows could not be computed",
-                                              table.failed_rows.size())));
+    throw Error(
+        ErrorKind::kBadInput, "the table has {} different gap(s); the basis {} needs at least {}{}",
+        gaps.size(), settings.basis.name, needed,
+        table.failed_rows.empty()
+            ? ""
+            : fmt::format("; {} of its rows could not be computed", table.failed_rows.size()));
 }
 
 /// The least squares problem: minimise the sum over the rows of (weight (terms x - left))^2, with
@@ -471,9 +463,10 @@ lubrication::Fit fit_force_table(const lubrication::MotionTable& table, const Fi
   if (const auto& scales = settings.row_scales;
       !scales.empty() && (scales.size() != table.rows.size() ||
                           !std::ranges::all_of(scales, [](double scale) { return scale > 0; })))
-    throw Error(ErrorKind::kBadInput, fmt::format("row_scales must be empty or have one number > 0 "
-                                                  "for each of the {} rows of the table",
-                                                  table.rows.size()));
+    throw Error(
+        ErrorKind::kBadInput,
+        "row_scales must be empty or have one number > 0 for each of the {} rows of the table",
+        table.rows.size());
   const double fixed = settings.fix_leading ? fixed_leading(table, settings) : 0;
   const auto equations = assemble(table, settings, fixed);
   const auto solution = solve_robust_least_squares(equations.weight.asDiagonal() * equations.terms,

@@ -6,8 +6,6 @@
 // Error(kBadInput) that names a row whose resistance no gap of the smooth wall has.
 #include "viscontact/fitting/wall_shift.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -30,9 +28,8 @@ double smooth_gap_of(const lubrication::LubricationForce& smooth, double resista
   if (!(resistance <= smooth.resistance(low) && resistance >= smooth.resistance(high)))
     throw Error(
         ErrorKind::kBadInput,
-        fmt::format(
-            "no gap in the fit's interval [{1}, {2}] has the drag that the table has at gap {0}",
-            row.gap, low, high));
+        "no gap in the fit's interval [{1}, {2}] has the drag that the table has at gap {0}",
+        row.gap, low, high);
   while (true) {
     const double middle = std::sqrt(low * high);
     if (!(middle > low && middle < high)) return middle;
@@ -47,9 +44,9 @@ WallShift fit_wall_shift(const lubrication::MotionTable& rough,
   if (!equal_up_to_rounding(rough.viscosity, smooth.viscosity()) ||
       !equal_up_to_rounding(rough.radius, smooth.radius()))
     throw Error(ErrorKind::kBadInput,
-                fmt::format("the table has viscosity {} and radius {}, and the fit has viscosity "
-                            "{} and radius {}; they must be equal",
-                            rough.viscosity, rough.radius, smooth.viscosity(), smooth.radius()));
+                "the table has viscosity {} and radius {}, and the fit has viscosity {} and radius "
+                "{}; they must be equal",
+                rough.viscosity, rough.radius, smooth.viscosity(), smooth.radius());
   const auto [smallest, largest] = smooth.interval();
   if (smallest == 0 || !std::isfinite(largest))
     throw Error(ErrorKind::kBadInput,
@@ -67,11 +64,10 @@ WallShift fit_wall_shift(const lubrication::MotionTable& rough,
   }
 
   if (!(least <= most))
-    throw Error(
-        ErrorKind::kBadInput,
-        fmt::format("no shift of the wall brings all gaps of the table into the fit's interval "
-                    "[{}, {}]; give a table with fewer gaps or a fit of more",
-                    smallest, largest));
+    throw Error(ErrorKind::kBadInput,
+                "no shift of the wall brings all gaps of the table into the fit's interval [{}, "
+                "{}]; give a table with fewer gaps or a fit of more",
+                smallest, largest);
 
   // Gauss-Newton starts at the median of the shifts that single rows need, within the bounds.
   auto shifts = result.rows;

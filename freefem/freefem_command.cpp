@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <sstream>
 #include <system_error>
-#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/process.hpp"
@@ -91,8 +90,8 @@ std::optional<std::chrono::seconds> time_limit_of_user() {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seconds);
   if (error != std::errc() || end != word.data() + word.size() || seconds < 1 || seconds > kLongest)
     throw Error(ErrorKind::kWrongUsage,
-                fmt::format("{} is '{}'; it must be a whole number of seconds from 1 to {}",
-                            kTimeLimit, word, kLongest));
+                "{} is '{}'; it must be a whole number of seconds from 1 to {}", kTimeLimit, word,
+                kLongest);
   return std::chrono::seconds(seconds);
 }
 
@@ -130,10 +129,10 @@ std::filesystem::path find_script_folder(std::string_view part, std::string_view
     auto folder = (one / "share/viscontact" / part).lexically_normal();
     if (fs::exists(folder / script)) return folder;
   }
-  throw Error(ErrorKind::kExternalProgram,
-              fmt::format("the FreeFEM scripts are not in share/viscontact/{} beside {}; build or "
-                          "install again",
-                          part, program_folder.string()));
+  throw Error(
+      ErrorKind::kExternalProgram,
+      "the FreeFEM scripts are not in share/viscontact/{} beside {}; build or install again", part,
+      program_folder.string());
 }
 
 Command make_command(const std::string& executable, const std::filesystem::path& script_folder,

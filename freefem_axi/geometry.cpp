@@ -7,10 +7,7 @@
 // MotionKind.
 #include "viscontact/freefem_axi/geometry.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <iterator>
 
 #include "viscontact/common/named.hpp"
@@ -147,15 +144,13 @@ std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string
     const auto* known = find_named(lubrication::all_motions(), name);
     if (known == nullptr)
       throw Error(ErrorKind::kBadInput,
-                  fmt::format("is '{}'; it must be approach, slide, roll or spin, a list of these, "
-                              "or all",
-                              name));
+                  "is '{}'; it must be approach, slide, roll or spin, a list of these, or all",
+                  name);
     if (!has_motion(geometry, known->kind))
-      throw Error(ErrorKind::kBadInput,
-                  fmt::format("is {}; beside a {} a sphere has the motions {}", name, geometry_name,
-                              available));
+      throw Error(ErrorKind::kBadInput, "is {}; beside a {} a sphere has the motions {}", name,
+                  geometry_name, available);
     if (std::ranges::find(motions, known->kind) != motions.end())
-      throw Error(ErrorKind::kBadInput, fmt::format("names {} twice; name it once", name));
+      throw Error(ErrorKind::kBadInput, "names {} twice; name it once", name);
     motions.push_back(known->kind);
   }
   std::ranges::sort(motions);

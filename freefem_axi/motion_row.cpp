@@ -7,9 +7,6 @@
 // in the order of motions_of().
 #include "viscontact/freefem_axi/motion_row.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -146,15 +143,15 @@ std::vector<MotionRow> solve_motions(const FreeFem& freefem, const Tabulation& t
   const auto lines = read_action_lines(result.output);
   const std::size_t bodies = neighbour_is_sphere(tabulation) ? 2 : 1;
   if (result.exit_status != 0 || !answer || !lines || !take(*lines, bodies, rows))
-    throw Error(ErrorKind::kExternalProgram,
-                fmt::format("FreeFEM failed at gap {} (exit status {}): {}", format_number(gap),
-                            result.exit_status, failure_in_words(result, freefem.row_limit)));
+    throw Error(ErrorKind::kExternalProgram, "FreeFEM failed at gap {} (exit status {}): {}",
+                format_number(gap), result.exit_status,
+                failure_in_words(result, freefem.row_limit));
   if (group == MotionGroup::kAcross)
     if (const double excess = asymmetry(tabulation, rows); !(excess <= 1))
       throw Error(ErrorKind::kExternalProgram,
-                  fmt::format("at gap {} the torque of sliding and the force of rolling differ by "
-                              "{:.2g} times their error estimates; the matrix must be symmetric",
-                              format_number(gap), excess));
+                  "at gap {} the torque of sliding and the force of rolling differ by {:.2g} times "
+                  "their error estimates; the matrix must be symmetric",
+                  format_number(gap), excess);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     auto& row = rows[i];
     row.gap = gap;

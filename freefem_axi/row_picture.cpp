@@ -6,15 +6,11 @@
 // in the order of BoundaryKind.
 #include "viscontact/freefem_axi/row_picture.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/freefem_axi/motion_row.hpp"
 
 namespace viscontact::freefem_axi {

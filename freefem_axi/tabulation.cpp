@@ -16,7 +16,6 @@
 #include <sstream>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 
@@ -43,9 +42,9 @@ Answer read_answer(const ProcessResult& result, double gap, double reference_vel
   if (result.exit_status == 0 && force && estimate && unknowns && order)
     return {*force, *estimate, *unknowns, *order};
   throw Error(ErrorKind::kExternalProgram,
-              fmt::format("FreeFEM failed at gap {}, velocity {} (exit status {}): {}",
-                          format_number(gap), format_number(reference_velocity), result.exit_status,
-                          failure_in_words(result, time_limit)));
+              "FreeFEM failed at gap {}, velocity {} (exit status {}): {}", format_number(gap),
+              format_number(reference_velocity), result.exit_status,
+              failure_in_words(result, time_limit));
 }
 
 }  // namespace
@@ -137,11 +136,10 @@ lubrication::MotionRow solve_row(const FreeFem& freefem, const Tabulation& tabul
   row.force = force * scale.viscosity * scale.speed;
   if (!std::isnormal(row.force))
     throw Error(ErrorKind::kBadInput,
-                fmt::format("the force at gap {}, velocity {} is {} * {} * {}, which a double "
-                            "cannot hold; choose units in which viscosity and velocity are nearer "
-                            "to 1",
-                            format_number(gap), format_number(reference_velocity), force,
-                            scale.viscosity, scale.speed));
+                "the force at gap {}, velocity {} is {} * {} * {}, which a double cannot hold; "
+                "choose units in which viscosity and velocity are nearer to 1",
+                format_number(gap), format_number(reference_velocity), force, scale.viscosity,
+                scale.speed);
   row.force_factor = -force / (lubrication::stokes_resistance(scaled.viscosity, tabulation.radius) *
                                scaled_velocity);
   row.relative_error_estimate = estimate;

@@ -13,9 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <numbers>
-#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -266,12 +264,11 @@ void refuse_small_particles(const particles::Fluid& fluid, const particles::Doma
   if (radius * chord >= shortest) return;
   throw Error(
       ErrorKind::kBadInput,
-      fmt::format("a particle of radius {} is too small for the domain: {} edges on it are "
-                  "{:.2g} long, and FreeFEM makes no mesh with edges below {:.2g}, which is "
-                  "{} of the length of the domain; with {} edges the radius must be at least "
-                  "{:.3g}. Choose a smaller domain",
-                  radius, fluid.edges_per_particle, radius * chord, shortest, kShortestEdge,
-                  fluid.edges_per_particle, shortest / chord));
+      "a particle of radius {} is too small for the domain: {} edges on it are {:.2g} long, and "
+      "FreeFEM makes no mesh with edges below {:.2g}, which is {} of the length of the domain; "
+      "with {} edges the radius must be at least {:.3g}. Choose a smaller domain",
+      radius, fluid.edges_per_particle, radius * chord, shortest, kShortestEdge,
+      fluid.edges_per_particle, shortest / chord);
 }
 
 /// Throws Error(kNotConverged) if FreeFEM would refuse an edge of `boundary`, which is in units of
@@ -283,13 +280,12 @@ void refuse_short_edges(const MeshBoundary& boundary, double size, double unit) 
                  &to = boundary.points[static_cast<std::size_t>(i) + 1];
       const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
       if (length >= kShortestEdge * size) continue;
-      throw Error(
-          ErrorKind::kNotConverged,
-          fmt::format("a gap is too narrow for the mesh: an edge in it at ({:.6g}, {:.6g}) is "
-                      "{:.2g} long, and FreeFEM makes no mesh with edges below {:.2g}, which "
-                      "is {} of the length of the domain; raise threshold_gap",
-                      from[0] * unit, from[1] * unit, length * unit, kShortestEdge * size * unit,
-                      kShortestEdge));
+      throw Error(ErrorKind::kNotConverged,
+                  "a gap is too narrow for the mesh: an edge in it at ({:.6g}, {:.6g}) is {:.2g} "
+                  "long, and FreeFEM makes no mesh with edges below {:.2g}, which is {} of the "
+                  "length of the domain; raise threshold_gap",
+                  from[0] * unit, from[1] * unit, length * unit, kShortestEdge * size * unit,
+                  kShortestEdge);
     }
 }
 

@@ -6,8 +6,6 @@
 // identifies these, and the labels, which scripts/ and docs/fluid-solver.md repeat.
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -225,10 +223,10 @@ void check_unions(const particles::Fluid& fluid, const particles::Particles& par
     constexpr double kRounding = 1e-9;  // of positions that move with their body
     if (std::abs(area - fluid.cut_areas[k]) > kRounding * particles.radii[k] * particles.radii[k])
       throw Error(ErrorKind::kNotConverged,
-                  fmt::format("particle {} overlaps one of its body across a side of the period, "
-                              "where the mesh does not join them; another origin of the period, or "
-                              "a plate in place of the discs, avoids this",
-                              particles.id(k)));
+                  "particle {} overlaps one of its body across a side of the period, where the "
+                  "mesh does not join them; another origin of the period, or a plate in place of "
+                  "the discs, avoids this",
+                  particles.id(k));
   }
 }
 

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -45,8 +44,8 @@ std::string_view to_string(Weights weights) {
 Weights parse_weights(std::string_view word) {
   if (word == "relative") return Weights::kRelative;
   if (word == "absolute") return Weights::kAbsolute;
-  throw Error(ErrorKind::kBadInput,
-              fmt::format("the weights are '{}'; they must be relative or absolute", word));
+  throw Error(ErrorKind::kBadInput, "the weights are '{}'; they must be relative or absolute",
+              word);
 }
 
 std::string_view to_string(Loss loss) {
@@ -105,22 +104,19 @@ void check_terms(const JsonFields& json, const Fit& fit) {
     for (std::size_t j = 0; j < i; ++j)
       if (fit.terms[j].name == fit.terms[i].name)
         json.fail(fmt::format("terms[{}].name", i),
-                  fmt::format("is '{}' for the second time; each term may be named once",
-                              fit.terms[i].name));
+                  "is '{}' for the second time; each term may be named once", fit.terms[i].name);
 }
 
 void check_covariance(const JsonFields& json, const Fit& fit) {
   const std::size_t size = fit.terms.size();
   const auto is_right = [&](const auto& list) { return list.size() == size; };
   if (!is_right(fit.covariance) || !std::ranges::all_of(fit.covariance, is_right))
-    json.fail("covariance", fmt::format("must be a matrix of {0} rows with {0} numbers each, one "
-                                        "for each term",
-                                        size));
+    json.fail("covariance", "must be a matrix of {0} rows with {0} numbers each, one for each term",
+              size);
   for (std::size_t i = 0; i < size; ++i)
     if (fit.covariance[i][i] < 0)
-      json.fail(
-          fmt::format("covariance[{0}][{0}]", i),
-          fmt::format("is {}; it must be >= 0, since it is a variance", fit.covariance[i][i]));
+      json.fail(fmt::format("covariance[{0}][{0}]", i),
+                "is {}; it must be >= 0, since it is a variance", fit.covariance[i][i]);
 }
 
 /// Reads or writes the two keys of a left-out row: `which` is "inner" or "end".
@@ -179,8 +175,8 @@ void fields_of(JsonFields& json, FitTerm& term) {
   json("standard_error", term.standard_error, kNotNegative);
   json("held", term.is_fixed, kAllowed);
   if (json.reads() && !find_term(term.name))
-    json.fail("name", fmt::format("is '{}', which is not a term; the terms are: {}", term.name,
-                                  names_of(all_terms())));
+    json.fail("name", "is '{}', which is not a term; the terms are: {}", term.name,
+              names_of(all_terms()));
 }
 
 void fields_of(JsonFields& json, Fit& fit) {

@@ -7,17 +7,12 @@
 // A change must keep R and Gamma continuous at q1 and q2, where one formula replaces another one.
 #include "viscontact/lubrication/lubrication_force.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/root_finding.hpp"
-#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/plane_drag.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 
@@ -66,10 +61,9 @@ LubricationForce::LubricationForce(const Fit& fit, const OutsideInterval& outsid
   for (const double gap : spread_gaps(fitted_interval_))
     if (!(resistance(gap) > 0 && std::isfinite(resistance(gap))))
       throw Error(ErrorKind::kBadInput,
-                  fmt::format("the fit's resistance is {:.6g} at gap {:.6g}, "
-                              "inside its interval; a drag must be positive and finite: "
-                              "fit again with another basis or other weights",
-                              resistance(gap), gap));
+                  "the fit's resistance is {:.6g} at gap {:.6g}, inside its interval; a drag must "
+                  "be positive and finite: fit again with another basis or other weights",
+                  resistance(gap), gap);
   set_limits(fit);
   impulses_at_ends_ = {impulse(fitted_interval_[0]), impulse(fitted_interval_[1])};
 }
@@ -80,10 +74,10 @@ void LubricationForce::set_limits(const Fit& fit) {
     limit_ = {leading_, regular_resistance(smallest)};
   if (outside_.below == BelowInterval::kTheoryLimit) {
     if (!fit.leading_coefficient || !(*fit.leading_coefficient > 0))
-      throw Error(ErrorKind::kBadInput,
-                  "the fit does not say what theory's coefficient k of k/q is (its key "
-                  "leading_coefficient must be > 0); fit a table that says it, or use the fitted "
-                  "coefficient");
+      throw Error(
+          ErrorKind::kBadInput,
+          "the fit does not say what theory's coefficient k of k/q is (its key leading_coefficient "
+          "must be > 0); fit a table that says it, or use the fitted coefficient");
     limit_ = {*fit.leading_coefficient, resistance(smallest) - *fit.leading_coefficient / smallest};
   }
   image_ = (resistance(largest) / stokes_resistance(viscosity_, radius_) - 1) * (largest + radius_);
@@ -108,9 +102,8 @@ void LubricationForce::check_gap(double gap) const {
                 "the film is thinner than the smallest number that a double can hold");
   if (exact_)
     throw Error(ErrorKind::kBadInput,
-                fmt::format("gap {} is outside [{}, {}], the gaps at which the exact drag can be "
-                            "computed",
-                            gap, smallest, largest));
+                "gap {} is outside [{}, {}], the gaps at which the exact drag can be computed", gap,
+                smallest, largest);
   if (gap < smallest && outside_.below == BelowInterval::kError)
     remedy =
         ", or let the drag follow the lubrication limit below it (below = \"lubrication_limit\" in "
@@ -119,18 +112,17 @@ void LubricationForce::check_gap(double gap) const {
     remedy =
         ", or let the drag tend to Stokes' drag above it (above = \"stokes_limit\" in the section "
         "[fit] of the case)";
-  throw Error(
-      ErrorKind::kBadInput,
-      fmt::format("gap {} is outside the fitted interval [{}, {}]; tabulate and fit further{}", gap,
-                  smallest, largest, remedy));
+  throw Error(ErrorKind::kBadInput,
+              "gap {} is outside the fitted interval [{}, {}]; tabulate and fit further{}", gap,
+              smallest, largest, remedy);
 }
 
 double LubricationForce::leading_coefficient() const {
   if (!(leading_ > 0))
-    throw Error(ErrorKind::kBadInput, fmt::format("the fit's coefficient of 1/q in the resistance "
-                                                  "is {}; it must be > 0 for a contact model and "
-                                                  "for the lubrication limit",
-                                                  leading_));
+    throw Error(ErrorKind::kBadInput,
+                "the fit's coefficient of 1/q in the resistance is {}; it must be > 0 for a "
+                "contact model and for the lubrication limit",
+                leading_);
   return leading_;
 }
 
@@ -171,7 +163,7 @@ double LubricationForce::resistance(double gap) const {
     const double resistance = limit().k / gap + limit().constant;
     if (!std::isfinite(resistance))
       throw Error(ErrorKind::kNotConverged,
-                  fmt::format("the resistance at gap {} is larger than a double can hold", gap));
+                  "the resistance at gap {} is larger than a double can hold", gap);
     return resistance;
   }
   if (gap > fitted_interval_[1])
@@ -206,8 +198,8 @@ double LubricationForce::impulse(double gap) const {
 std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted) const {
   if (!std::isfinite(impulse_wanted))
     throw Error(ErrorKind::kBadInput,
-                fmt::format("the film would have to absorb an impulse of {}; it must be finite",
-                            impulse_wanted));
+                "the film would have to absorb an impulse of {}; it must be finite",
+                impulse_wanted);
   const auto [smallest, largest] = fitted_interval_;
   const double low = std::log(smallest / radius_);
   const double high = std::log(largest / radius_);
@@ -225,13 +217,11 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
       throw Error(ErrorKind::kNotConverged,
                   "the film is thinner than the smallest number that a double can hold");
     if (outside_.below == BelowInterval::kError)
-      throw Error(
-          ErrorKind::kBadInput,
-          fmt::format("the film would be thinner than the fitted interval [{:.6g}, "
-                      "{:.6g}]; tabulate and fit further, or let the drag follow the lubrication "
-                      "limit below it (below = \"lubrication_limit\" in the section [fit] of the "
-                      "case)",
-                      smallest, largest));
+      throw Error(ErrorKind::kBadInput,
+                  "the film would be thinner than the fitted interval [{:.6g}, {:.6g}]; tabulate "
+                  "and fit further, or let the drag follow the lubrication limit below it (below = "
+                  "\"lubrication_limit\" in the section [fit] of the case)",
+                  smallest, largest);
     // Below the interval R = k/q + c. With s = ln q, Gamma(q) = impulse is the equation
     // k (s - ln q1) + c (e^s - q1) = impulse - Gamma(q1). Without its second term s is known; the
     // term changes s by less than |c| q1/k.
@@ -249,10 +239,10 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   if (!(beyond > 0)) return {low, high};
   if (outside_.above == AboveInterval::kError)
     throw Error(ErrorKind::kBadInput,
-                fmt::format("the gap would be wider than the fitted interval [{:.6g}, {:.6g}]; "
-                            "tabulate and fit further, or let the drag tend to Stokes' drag above "
-                            "it (above = \"stokes_limit\" in the section [fit] of the case)",
-                            smallest, largest));
+                "the gap would be wider than the fitted interval [{:.6g}, {:.6g}]; tabulate and "
+                "fit further, or let the drag tend to Stokes' drag above it (above = "
+                "\"stokes_limit\" in the section [fit] of the case)",
+                smallest, largest);
   // Above the interval R lies between its values at q2 and at infinity.
   const double stokes = stokes_resistance(viscosity_, radius_);
   return {high, std::log((largest + beyond / std::min(stokes, resistance(largest))) / radius_)};

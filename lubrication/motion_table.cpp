@@ -6,8 +6,6 @@
 // have.
 #include "viscontact/lubrication/motion_table.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -79,13 +77,11 @@ void check(const TableHead& head, const MotionRow& row, const FilePosition& here
   const double factor = turning ? row.torque_factor : row.force_factor;
   if (!head.neighbour_moves && (!(own * row.reference_velocity < 0) ||
                                 (head.motion != MotionKind::kApproach && !(factor > 0))))
-    throw_bad_input(here,
-                    fmt::format("{} is {} at velocity {}; a drag must be opposed to the velocity",
-                                turning ? "torque" : "force", own, row.reference_velocity));
+    throw_bad_input(here, "{} is {} at velocity {}; a drag must be opposed to the velocity",
+                    turning ? "torque" : "force", own, row.reference_velocity);
   if (!std::isfinite(row.force_factor) || !std::isfinite(row.torque_factor))
-    throw_bad_input(
-        here, fmt::format("{} is {}, which is {} times Stokes' drag; it must be a finite multiple",
-                          turning ? "torque" : "force", own, factor));
+    throw_bad_input(here, "{} is {}, which is {} times Stokes' drag; it must be a finite multiple",
+                    turning ? "torque" : "force", own, factor);
 }
 
 double largest_estimate(const MotionRow& row) {
@@ -117,8 +113,8 @@ MotionTable read_motion_table(const std::filesystem::path& path) {
 MotionTable read_force_table(const std::filesystem::path& path) {
   auto table = read_motion_table(path);
   if (table.motion != MotionKind::kApproach)
-    throw_bad_input({path.string()}, fmt::format("# motion: is {}; it must be approach here",
-                                                 to_string(table.motion)));
+    throw_bad_input({path.string()}, "# motion: is {}; it must be approach here",
+                    to_string(table.motion));
   return table;
 }
 

@@ -6,8 +6,6 @@
 // the order of MotionKind.
 #include "viscontact/lubrication/table.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <limits>
 #include <sstream>
@@ -81,13 +79,12 @@ std::vector<double> radii_in(const std::string& text, const std::string& file) {
   for (std::string word; words >> word;) {
     const auto radius = parse_number(word);
     if (!radius || !(*radius > 0))
-      throw_bad_input({file},
-                      fmt::format("# radii: contains '{}'; each must be a number > 0", word));
+      throw_bad_input({file}, "# radii: contains '{}'; each must be a number > 0", word);
     radii.push_back(*radius);
   }
   if (radii.size() < kFewestSpheres || radii.size() > kMostSpheres)
-    throw_bad_input({file}, fmt::format("# radii: has {} numbers; it must have {} to {}",
-                                        radii.size(), kFewestSpheres, kMostSpheres));
+    throw_bad_input({file}, "# radii: has {} numbers; it must have {} to {}", radii.size(),
+                    kFewestSpheres, kMostSpheres);
   return radii;
 }
 
@@ -99,12 +96,11 @@ TableHead read_head(const std::string& text, const std::string& file, bool is_of
   for (const auto& key : contradictions)
     if (key == "motion" || key == "viscosity" || key.starts_with("radi") ||
         key.starts_with("leading_"))
-      throw_bad_input(
-          {file}, fmt::format("# {}: stands twice with different values; it must stand once", key));
+      throw_bad_input({file}, "# {}: stands twice with different values; it must stand once", key);
   const auto number = [&](const std::string& key, bool is_positive) {
     const double value = csv_comment_number(lines, key, file);
     if (is_positive && !(value > 0))
-      throw_bad_input({file}, fmt::format("# {}: is {}; it must be > 0", key, value));
+      throw_bad_input({file}, "# {}: is {}; it must be > 0", key, value);
     return value;
   };
   TableHead head;
@@ -167,7 +163,7 @@ void set_numbers(const std::vector<Column>& columns, std::span<const std::option
     *number = fields[i].value_or(
         if_absent == IfAbsent::kZero ? 0 : std::numeric_limits<double>::quiet_NaN());
     if (fields[i] && !allowed.test(*number))
-      throw_bad_input(here, fmt::format("{} is {}; it must be {}", name, *number, allowed.words));
+      throw_bad_input(here, "{} is {}; it must be {}", name, *number, allowed.words);
   }
 }
 

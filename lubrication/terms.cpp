@@ -6,8 +6,6 @@
 // antiderivative a primitive of value.
 #include "viscontact/lubrication/terms.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <type_traits>
 #include <utility>
@@ -54,8 +52,7 @@ std::string_view trimmed(std::string_view text) {
 /// Adds the term with this name. Throws Error(kBadInput) if there is none, or if `basis` has it.
 void add_term(Basis& basis, std::string_view name) {
   if (find_named(basis.terms, name) != nullptr)
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("the term '{}' is named twice; name it once", name));
+    throw Error(ErrorKind::kBadInput, "the term '{}' is named twice; name it once", name);
   basis.terms.push_back(require_named(kTerms, name, "term"));
 }
 

@@ -92,9 +92,8 @@ lubrication::Basis basis_of_entry(const NamedEntry& entry, std::string_view name
 double entry_value(const PairFit& fit, PairEntry entry, double gap) {
   const auto found = fit.entries.find(entry);
   if (found == fit.entries.end())
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("the fit lacks the entry {}",
-                            pair_entries()[static_cast<std::size_t>(entry)].name));
+    throw Error(ErrorKind::kBadInput, "the fit lacks the entry {}",
+                pair_entries()[static_cast<std::size_t>(entry)].name);
   double value = 0;
   for (const auto& term : found->second.fit.terms)
     value += term.coefficient * lubrication::find_term(term.name)->value(gap);
@@ -141,8 +140,8 @@ void check_same_pair(const JsonFields& json, const std::string& name, const lubr
   if (!equal_up_to_rounding(entry.radius, fit.radius)) differs("radius");
   if (entry.geometry != fit.geometry) differs("geometry");
   if (entry.reference_velocity != -1)
-    json.fail("entries." + name + ".reference_velocity",
-              fmt::format("is {}; it must be -1", entry.reference_velocity));
+    json.fail("entries." + name + ".reference_velocity", "is {}; it must be -1",
+              entry.reference_velocity);
 }
 
 }  // namespace

@@ -8,12 +8,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/membranes/membrane.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
 

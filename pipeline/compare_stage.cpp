@@ -35,8 +35,8 @@ void warn_of_different_inputs(const std::vector<reduced_model::Trajectory>& traj
       if (!trajectory.provenance.contains(key)) continue;
       if (first == nullptr) first = &trajectory;
       if (trajectory.provenance.at(key) == first->provenance.at(key)) continue;
-      terminal::warn(fmt::format("viscontact: warning: {} and {} were made from different {}s",
-                                 first->model, trajectory.model, key));
+      terminal::warn("viscontact: warning: {} and {} were made from different {}s", first->model,
+                     trajectory.model, key);
       break;
     }
   }

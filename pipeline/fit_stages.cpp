@@ -19,8 +19,6 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/report/summaries.hpp"
-#include "viscontact/results/picture_kind.hpp"
-#include "viscontact/results/provenance.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::pipeline {
@@ -37,11 +35,10 @@ void fit_stage(const fs::path& table_path, const fs::path& fit_path,
     fit.table_sha256 = results::content_sha256(read_file(table_path));
   fit.versions = results::library_versions();
   stop.throw_if_stop_requested();
-  for (const auto& warning : fit.diagnostics->warnings)
-    terminal::warn(fmt::format("fit: warning: {}", warning));
+  for (const auto& warning : fit.diagnostics->warnings) terminal::warn("fit: warning: {}", warning);
   const std::string text = lubrication::write_fit(fit);
   if (results::has_content(fit_path, text)) {
-    terminal::say(fmt::format("fit: {} is up to date", fit_path.string()));
+    terminal::say("fit: {} is up to date", fit_path.string());
     return;
   }
   results::write_output(fit_path, TextKind::kJson, text, provenance);

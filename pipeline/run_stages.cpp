@@ -77,7 +77,7 @@ void check_outputs_of_run(const results::RunFolder& run, bool writes_fit) {
   results::refuse_other_kind(run.comparison(), "\"reference_model\"", "comparison");
   results::refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
   results::refuse_other_kind(run.failed_models(), "", "failed_models.json");
-  report::check_report_files(run.path);
+  (void)report::Report(run.path, report::kPlotNames);  // throws if a file is in its way
   for (const auto& file : files_of_models(run.trajectories()))
     results::refuse_other_kind(file, "", "trajectory");
 }
@@ -139,7 +139,7 @@ void run_stages(const case_file::Case& c, const fs::path& folder, int jobs, bool
   if (is_current) {
     terminal::say("simulate: trajectories are up to date");
     is_current = has_reference(run.comparison(), results::reference_without(models, failed)) &&
-                 report::report_is_current(folder);
+                 report::page_is_current(folder, report::kPlotNames);
   } else {
     const auto results = simulate_case(c, {fit, fit_text}, models, request.outside, stop);
     stop.throw_if_stop_requested();

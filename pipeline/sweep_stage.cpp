@@ -86,10 +86,10 @@ void run_sweep(const sweep::Study& study, const SweepStageRequest& request,
                                                  : "")) +
                 failures_in_words(outcome, part));
   if (outcome.without_result == outcome.points)
-    throw Error(ErrorKind::kNotConverged,
-                fmt::format("{}: every {} failed at every point; the column 'failure' says why, "
-                            "at the first point: {}",
-                            output, part, outcome.first_failure));
+    throw Error(
+        ErrorKind::kNotConverged,
+        "{}: every {} failed at every point; the column 'failure' says why, at the first point: {}",
+        output, part, outcome.first_failure);
 }
 
 }  // namespace viscontact::pipeline

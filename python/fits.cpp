@@ -7,7 +7,6 @@
 // must be those of app/commands/fit_command.cpp.
 #include <fmt/format.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <thread>

@@ -10,8 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
-#include <utility>
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/particles/case/particles_case.hpp"
@@ -96,8 +94,7 @@ class PythonParticles {
 
 std::unique_ptr<PythonParticles> open_case(const fs::path& path, int threads,
                                            const std::optional<fs::path>& restart) {
-  if (threads < 1)
-    throw Error(ErrorKind::kWrongUsage, fmt::format("threads is {}; it must be > 0", threads));
+  if (threads < 1) throw Error(ErrorKind::kWrongUsage, "threads is {}; it must be > 0", threads);
   return long_call(
       [&](const StopToken&) { return std::make_unique<PythonParticles>(path, threads, restart); });
 }
@@ -136,9 +133,8 @@ double end_of_steps(const PythonParticles& self, const std::optional<double>& un
   if (!until) return otherwise;
   const double now = self.state().time;
   if (!(*until >= now - tiny_time(self)))
-    throw Error(
-        ErrorKind::kWrongUsage,
-        fmt::format("until is {}; it must be at least {}, which is the present time", *until, now));
+    throw Error(ErrorKind::kWrongUsage,
+                "until is {}; it must be at least {}, which is the present time", *until, now);
   return *until;
 }
 
@@ -152,9 +148,8 @@ std::int64_t run(PythonParticles& self, const std::optional<double>& until) {
   const double end = end_of_steps(self, until, self.case_file().end_time);
   const double tiny = tiny_time(self);
   if (!std::isfinite(end))
-    throw Error(
-        ErrorKind::kWrongUsage,
-        fmt::format("until is {}; it must be finite, because run() ends at this time", end));
+    throw Error(ErrorKind::kWrongUsage,
+                "until is {}; it must be finite, because run() ends at this time", end);
   return self.compute([&](const StopToken& stop) {
     auto& simulation = self.simulation();
     const auto before = simulation.state().steps;

@@ -4,7 +4,6 @@
 // their names; a wrong argument is an Error(kWrongUsage), a wrong file an Error(kBadInput).
 // core.cpp adds them to the module. A change must keep the names of functions, arguments and
 // columns, which users' scripts contain; docs/python.md describes them.
-#include <fmt/format.h>
 
 #include <limits>
 #include <map>
@@ -54,9 +53,9 @@ lubrication::Fit fit_of(const case_file::Case& c, const std::optional<GivenFit>&
     return case_file::fit_for(c, lubrication::read_fit(*c.fit->file), *c.fit->file);
   if (c.fit && c.fit->exact) return lubrication::exact_plane_fit(c.viscosity, c.radius);
   throw Error(ErrorKind::kWrongUsage,
-              c.path.string() +
-                  ": the drag is not given: the section [fit] of the case has neither 'file' nor "
-                  "'exact'; give fit=, a Fit or the path of a fit file");
+              "{}: the drag is not given: the section [fit] of the case has neither 'file' nor "
+              "'exact'; give fit=, a Fit or the path of a fit file",
+              c.path.string());
 }
 
 /// The value as an object of Python, or None.
@@ -164,9 +163,8 @@ motions::PairFit fit_of(const rolling::RollingCase& c, const std::optional<Given
   const auto path = given ? std::optional(std::get<fs::path>(*given)) : c.fit;
   if (!path)
     throw Error(ErrorKind::kWrongUsage,
-                c.path.string() +
-                    ": the case names no fit of a pair; give fit=, a PairFit or the "
-                    "path of its file");
+                "{}: the case names no fit of a pair; give fit=, a PairFit or the path of its file",
+                c.path.string());
   return rolling::fit_for(c, motions::read_pair_fit(*path), *path);
 }
 
@@ -230,25 +228,22 @@ py::object columns_of(const SwumStroke& stroke) {
 swimmer::ResistanceTable table_of(const swimmer::SwimmerCase& c,
                                   const std::optional<fs::path>& given) {
   if (given.has_value() == c.table_file.has_value())
-    throw Error(ErrorKind::kWrongUsage,
-                fmt::format("{} {} swimmer.table; give a table there or as an argument",
-                            c.path.string(), c.table_file ? "has" : "lacks"));
+    throw Error(ErrorKind::kWrongUsage, "{} {} swimmer.table; give a table there or as an argument",
+                c.path.string(), c.table_file ? "has" : "lacks");
   if (c.table_file) return c.table;
   const auto& path = *given;
   auto table = swimmer::read_resistance_table(path);
   const auto plan = swimmer::case_table(c, path).plan;
   if (!freefem_axi::missing_points(plan.read(path), plan.points).empty())
-    throw_bad_input(
-        {path.string()},
-        fmt::format("is not the table of {}, or lacks rows; viscontact.tabulate() makes "
-                    "it",
-                    c.path.string()));
+    throw_bad_input({path.string()},
+                    "is not the table of {}, or lacks rows; viscontact.tabulate() makes it",
+                    c.path.string());
   return table;
 }
 
 py::dict swim(const fs::path& path, const std::optional<fs::path>& table_path, int intervals) {
   if (intervals < 1)
-    throw Error(ErrorKind::kWrongUsage, fmt::format("intervals is {}; it must be > 0", intervals));
+    throw Error(ErrorKind::kWrongUsage, "intervals is {}; it must be > 0", intervals);
   std::optional<SwumStroke> given, optimal;
   long_call([&](const StopToken& stop) {
     const auto c = swimmer::read_swimmer_case(path);

@@ -56,12 +56,11 @@ void measure_distances(const Trajectory& trajectory, const Trajectory& reference
   const double from = std::max(trajectory.rows.front().time, reference.rows.front().time);
   const double to = std::min(trajectory.rows.back().time, reference.rows.back().time);
   if (from > to)
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("trajectories {} and {} have no time in common (they are from {} to {} "
-                            "and from {} to {})",
-                            trajectory.model, reference.model, trajectory.rows.front().time,
-                            trajectory.rows.back().time, reference.rows.front().time,
-                            reference.rows.back().time));
+    throw Error(
+        ErrorKind::kBadInput,
+        "trajectories {} and {} have no time in common (they are from {} to {} and from {} to {})",
+        trajectory.model, reference.model, trajectory.rows.front().time,
+        trajectory.rows.back().time, reference.rows.front().time, reference.rows.back().time);
   // Both trajectories are linear between two neighbouring times of the merged list, so the sums
   // below are the exact integrals.
   std::vector<double> times = {from, to};
@@ -112,8 +111,8 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
     for (const auto& trajectory : trajectories)
       names += fmt::format("{}{}", names.empty() ? "" : ", ", trajectory.model);
     throw Error(ErrorKind::kBadInput,
-                fmt::format("the reference model '{}' has no trajectory here; there are: {}",
-                            reference_model, names));
+                "the reference model '{}' has no trajectory here; there are: {}", reference_model,
+                names);
   }
   Comparison comparison{std::string(reference_model), {}};
   const auto& head = trajectories.front().provenance;
@@ -122,9 +121,8 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
   for (const auto& trajectory : trajectories) {
     stop.throw_if_stop_requested();
     if (!seen.insert(trajectory.model).second)
-      throw Error(
-          ErrorKind::kBadInput,
-          fmt::format("two trajectories have the name '{}'; rename one of them", trajectory.model));
+      throw Error(ErrorKind::kBadInput, "two trajectories have the name '{}'; rename one of them",
+                  trajectory.model);
     ModelComparison result;
     result.model = trajectory.model;
     const auto lowest = std::ranges::min_element(trajectory.rows, {}, &TrajectoryRow::gap);

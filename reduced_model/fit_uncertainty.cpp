@@ -8,8 +8,6 @@
 // random numbers, so that the same case gives the same file.
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,6 @@
 // row_times() changes trajectories and must raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/motion.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -23,8 +21,7 @@ double Motion::restitution() const {
 double Motion::parameter(const ModelParameter& which) const {
   const auto found = parameters.find(which.key);
   if (found == parameters.end())
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("the parameter {} of the model has no value", which.key));
+    throw Error(ErrorKind::kBadInput, "the parameter {} of the model has no value", which.key);
   return found->second;
 }
 
@@ -38,10 +35,9 @@ int step_count(double end, double step) {
   // A last step below 1e-6 of a step is the rounding error of end / step.
   const double steps = std::ceil(end / step - 1e-6);
   if (!(steps <= kMostSteps))
-    throw Error(
-        ErrorKind::kBadInput,
-        fmt::format("the time step {} makes {:.3g} steps to time {}; at most {:.0e} are allowed",
-                    step, steps, end, kMostSteps));
+    throw Error(ErrorKind::kBadInput,
+                "the time step {} makes {:.3g} steps to time {}; at most {:.0e} are allowed", step,
+                steps, end, kMostSteps);
   return std::max(1, static_cast<int>(steps));
 }
 

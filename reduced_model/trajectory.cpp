@@ -32,7 +32,7 @@ long steps_of(const CsvComments& comments, const std::string& file) {
   constexpr double kMost = 1e15;  // below 2^53, so every integer up to it is a double
   const double steps = csv_comment_number(comments, "steps", file);
   if (!(steps >= 0 && steps <= kMost))
-    throw_bad_input({file}, fmt::format("# steps: is {}; it must be from 0 to {}", steps, kMost));
+    throw_bad_input({file}, "# steps: is {}; it must be from 0 to {}", steps, kMost);
   return static_cast<long>(steps);
 }
 
@@ -55,9 +55,10 @@ std::vector<Rebound> read_rebounds(const std::string& text, const FilePosition& 
     for (std::string word; words >> word;)
       if (const auto number = parse_number(word)) numbers.push_back(*number);
     if (numbers.size() != 5)
-      throw_bad_input(file, fmt::format("the rebound '{}' in its head is not five numbers: time, "
-                                        "approach_velocity, solid_impulse, velocity, coefficient",
-                                        part));
+      throw_bad_input(file,
+                      "the rebound '{}' in its head is not five numbers: time, approach_velocity, "
+                      "solid_impulse, velocity, coefficient",
+                      part);
     rebounds.push_back({numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]});
   }
   return rebounds;
@@ -108,10 +109,10 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
     if (fields.fields[5]) row.gamma = *fields.fields[5];
     if (fields.fields[6]) row.solid_force = *fields.fields[6];
     const FilePosition here{file, fields.line};
-    if (row.gap < 0) throw_bad_input(here, fmt::format("gap is {}; it must be >= 0", row.gap));
+    if (row.gap < 0) throw_bad_input(here, "gap is {}; it must be >= 0", row.gap);
     if (!trajectory.rows.empty() && !(row.time > trajectory.rows.back().time))
-      throw_bad_input(here, fmt::format("time is {} after {}; it must increase from row to row",
-                                        row.time, trajectory.rows.back().time));
+      throw_bad_input(here, "time is {} after {}; it must increase from row to row", row.time,
+                      trajectory.rows.back().time);
     trajectory.rows.push_back(row);
   }
   if (trajectory.rows.empty())

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <future>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -189,9 +188,9 @@ void warn_of_missing_pictures(const std::exception_ptr& failure) {
   try {
     std::rethrow_exception(failure);
   } catch (const GnuplotMissing& missing) {
-    terminal::warn(fmt::format("report: warning: {}; {}", on_one_line(missing.what()), kWritten));
+    terminal::warn("report: warning: {}; {}", on_one_line(missing.what()), kWritten);
   } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}; {}", on_one_line(error.what()), kWritten));
+    throw Error(error.kind(), "{}; {}", on_one_line(error.what()), kWritten);
   }
 }
 
@@ -331,8 +330,7 @@ std::string Report::figures(std::initializer_list<std::string_view> names) const
 std::string Report::hints() const {
   std::string text =
       "<p class=hint>Drag in a plot to zoom; double-click or tap twice to see the whole plot "
-      "again. "
-      "The values at the pointer are shown beside the legend.</p>\n";
+      "again. The values at the pointer are shown beside the legend.</p>\n";
   if (!is_drawn())
     text +=
         "<p class=fine>gnuplot was missing or failed when this page was made. The page therefore "
@@ -359,7 +357,7 @@ void Report::write(std::string_view title, const std::string& opening, const std
           return figure.plot.name == name && !figure.svg.empty();
         }))
       remove_file(run_.plot(std::string(name)));
-  terminal::say(fmt::format("report: {}", run_.report().string()));
+  terminal::say("report: {}", run_.report().string());
   if (failure_) warn_of_missing_pictures(failure_);
 }
 

@@ -11,18 +11,14 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/shell_words.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/report/page.hpp"
 #include "viscontact/report/run_plots.hpp"
 #include "viscontact/report/run_warnings.hpp"
 #include "viscontact/results/provenance.hpp"
@@ -30,10 +26,6 @@
 
 namespace viscontact::report {
 namespace {
-
-constexpr auto kPlotNames = std::to_array<std::string_view>(
-    {"thinnest_film", "gap", "gap_logarithmic", "external_force", "lubrication_force", "gamma",
-     "solid_force", "fit", "uncertainty"});
 
 /// How well the fit predicts rows of the table that it did not use, as HTML; empty if not known.
 std::string trust(const lubrication::FitDiagnostics& d) {
@@ -391,12 +383,6 @@ std::string sections_of(const results::RunResults& run, const Report& report) {
 }
 
 }  // namespace
-
-void check_report_files(const std::filesystem::path& folder) { (void)Report(folder, kPlotNames); }
-
-bool report_is_current(const std::filesystem::path& folder) {
-  return page_is_current(folder, kPlotNames);
-}
 
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given, const StopToken& stop) {

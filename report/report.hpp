@@ -3,10 +3,13 @@
 // elsewhere, and that folders of earlier versions can be read.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
+#include "viscontact/report/page.hpp"
 
 namespace viscontact::report {
 
@@ -15,20 +18,16 @@ namespace viscontact::report {
 /// the same command made the files in the folder; it is empty if the user gave the files in the
 /// folder. If gnuplot cannot be run, the user is warned, and there are no still pictures and no
 /// files in plots/; browsers draw the plots without gnuplot. Throws Error(kBadInput) if an input is
-/// missing or wrong or a file cannot be written, the error of check_report_files(),
+/// missing or wrong or a file cannot be written, the error of the constructor of Report,
 /// Error(kWrongUsage) if the variable SOURCE_DATE_EPOCH is no time, Error(kExternalProgram) if
 /// gnuplot fails, after the report is written without still pictures, and Error(kInterrupted) if
 /// `stop` requests a stop.
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given = {}, const StopToken& stop = {});
 
-/// Throws Error(kBadInput) if the report or one of its plots would replace or delete a file that
-/// Viscontact did not write, that is of another kind, or that cannot be read.
-void check_report_files(const std::filesystem::path& folder);
-
-/// True if the report and its plots exist and the inputs of the report have not changed since.
-/// False without still pictures, because gnuplot may be there now, and if a file cannot be read,
-/// the report included.
-bool report_is_current(const std::filesystem::path& folder);
+/// The names of all plots of the report (Report).
+inline constexpr auto kPlotNames = std::to_array<std::string_view>(
+    {"thinnest_film", "gap", "gap_logarithmic", "external_force", "lubrication_force", "gamma",
+     "solid_force", "fit", "uncertainty"});
 
 }  // namespace viscontact::report

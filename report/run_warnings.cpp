@@ -81,27 +81,26 @@ void add_coarser_than_table(Warnings& warnings, const lubrication::FitDiagnostic
   if (d.misfit != lubrication::Misfit::kBasis) return;
   if (const auto& worst = d.worst_to_estimate)
     warnings.add("fit.json",
-                 "The fit is coarser than the table: {} of {} rows have a relative residual "
-                 "above their own error estimate, most of all the row at gap {:.4g} ({:.2g}, "
-                 "which is {:.2g} times its estimate); another basis can do better",
+                 "The fit is coarser than the table: {} of {} rows have a relative residual above "
+                 "their own error estimate, most of all the row at gap {:.4g} ({:.2g}, which is "
+                 "{:.2g} times its estimate); another basis can do better",
                  d.rows_beyond_estimate, d.rows, worst->gap, std::abs(worst->relative_residual),
                  worst->ratio);
   else
     warnings.add("fit.json",
-                 "The fit is coarser than the table: chi-squared is {:.2g} for "
-                 "{} degrees of freedom; another basis can do better",
+                 "The fit is coarser than the table: chi-squared is {:.2g} for {} degrees of "
+                 "freedom; another basis can do better",
                  d.chi_squared.value_or(0), d.degrees_of_freedom);
 }
 
 void add_poor_fit(Warnings& warnings, const lubrication::Fit& fit) {
   const auto& diagnostics = fit.diagnostics;
   if (std::abs(fit.largest_relative_residual) > kPoorFit)
-    warnings.add("fit.json",
-                 "Poor fit: the largest relative residual is {:.2g}{}; "
-                 "a fit is called poor above {:g}",
-                 fit.largest_relative_residual,
-                 diagnostics ? fmt::format(" (at gap {:.4g})", diagnostics->worst_gap) : "",
-                 kPoorFit);
+    warnings.add(
+        "fit.json",
+        "Poor fit: the largest relative residual is {:.2g}{}; a fit is called poor above {:g}",
+        fit.largest_relative_residual,
+        diagnostics ? fmt::format(" (at gap {:.4g})", diagnostics->worst_gap) : "", kPoorFit);
   if (!diagnostics) return;
   for (const auto& warning : diagnostics->warnings) warnings.add("fit.json", "Fit: {}", warning);
   add_coarser_than_table(warnings, *diagnostics);
@@ -126,8 +125,8 @@ void add_passage_through_plane(Warnings& warnings, const results::RunResults& ru
     const auto choice = reduced_model::known_model(trajectory.model);
     if (!choice || choice->model->contact != nullptr || trajectory.rows.back().gap > 0) continue;
     warnings.add(trajectory_name(trajectory.model),
-                 "The sphere of {} goes through the plane at time {:.4g}, although "
-                 "the drag of a film forbids it: the time step is too long",
+                 "The sphere of {} goes through the plane at time {:.4g}, although the drag of a "
+                 "film forbids it: the time step is too long",
                  trajectory.model, trajectory.rows.back().time);
   }
 }
@@ -142,12 +141,12 @@ void add_roughness(Warnings& warnings, const results::RunResults& run) {
     const double smallest =
         std::ranges::min(trajectory.rows, {}, &reduced_model::TrajectoryRow::gap).gap;
     if (smallest < roughness)
-      warnings.add(trajectory_name(trajectory.model),
-                   "{} ignores the roughness: its gap falls to {:.4g}, but the solids would "
-                   "touch at {:.4g}. Solids touch in the contact models and in inertial_rough "
-                   "(motion.models), and in 'viscontact rolling', at incline 0 too, where friction "
-                   "acts on them",
-                   trajectory.model, smallest, roughness);
+      warnings.add(
+          trajectory_name(trajectory.model),
+          "{} ignores the roughness: its gap falls to {:.4g}, but the solids would touch at "
+          "{:.4g}. Solids touch in the contact models and in inertial_rough (motion.models), and "
+          "in 'viscontact rolling', at incline 0 too, where friction acts on them",
+          trajectory.model, smallest, roughness);
   }
 }
 
@@ -156,8 +155,8 @@ void add_refused_draws(Warnings& warnings, const results::RunResults& run) {
   const auto& u = *run.uncertainty;
   if (static_cast<double>(u.refused) > kManyRefused * static_cast<double>(u.draws))
     warnings.add("uncertainty.json",
-                 "{} of {} draws of the fit's coefficients were refused, because they "
-                 "give no possible drag; the interval from the others is too narrow",
+                 "{} of {} draws of the fit's coefficients were refused, because they give no "
+                 "possible drag; the interval from the others is too narrow",
                  u.refused, u.draws);
 }
 

@@ -99,9 +99,9 @@ std::string reference_among(const std::vector<reduced_model::Trajectory>& trajec
   if (found == failed.end()) return reference;
   if (asked.empty()) return trajectories.front().model;
   throw Error(ErrorKind::kBadInput,
-              fmt::format("the reference model '{}' has no trajectory here, because it failed: "
-                          "{}; choose another reference",
-                          reference, found->reason));
+              "the reference model '{}' has no trajectory here, because it failed: {}; choose "
+              "another reference",
+              reference, found->reason);
 }
 
 }  // namespace viscontact::results

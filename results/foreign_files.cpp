@@ -4,12 +4,9 @@
 // A change must still recognise files of earlier versions.
 #include "viscontact/results/foreign_files.hpp"
 
-#include <fmt/format.h>
-
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <string>
 
 #include "viscontact/common/error.hpp"
 
@@ -36,8 +33,7 @@ bool has_provenance(std::string_view text) {
 std::string read_head(const std::filesystem::path& path) {
   constexpr std::size_t kMost = std::size_t{1} << 20U;  // bytes; longer than any head
   std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw_bad_input({path.string()}, fmt::format("cannot be read ({})", std::strerror(errno)));
+  if (!file) throw_bad_input({path.string()}, "cannot be read ({})", std::strerror(errno));
   std::string text;
   const auto read_most = [&] {
     std::string part(kMost, '\0');
@@ -67,11 +63,9 @@ void refuse_other_kind(const std::filesystem::path& path, std::string_view marke
   if (head.empty() || (head.find(marker) != std::string::npos && has_provenance(head))) return;
   throw_bad_input(
       {path.string()},
-      fmt::format(
-          "is not {} {} that Viscontact wrote, so it is not replaced; remove it first, or "
-          "write elsewhere",
-          std::string_view("aeiou").find(kind.front()) != std::string_view::npos ? "an" : "a",
-          kind));
+      "is not {} {} that Viscontact wrote, so it is not replaced; remove it first, or write "
+      "elsewhere",
+      std::string_view("aeiou").find(kind.front()) != std::string_view::npos ? "an" : "a", kind);
 }
 
 }  // namespace viscontact::results

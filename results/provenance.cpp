@@ -53,11 +53,9 @@ std::string time_of_making() {
     const std::string_view text = epoch;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), now);
     if (error != std::errc() || end != text.data() + text.size() || now < 0 || now > kYear9999)
-      throw Error(
-          ErrorKind::kWrongUsage,
-          fmt::format("SOURCE_DATE_EPOCH is '{}'; it must be a whole number of seconds from 0 "
-                      "to {}",
-                      epoch, kYear9999));
+      throw Error(ErrorKind::kWrongUsage,
+                  "SOURCE_DATE_EPOCH is '{}'; it must be a whole number of seconds from 0 to {}",
+                  epoch, kYear9999);
   }
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
 }
@@ -370,8 +368,7 @@ std::optional<Provenance> provenance_in(const std::string& text, const std::stri
     provenance.made = json.at("made").get<std::string>();
     return provenance;
   } catch (const Json::exception& error) {
-    throw_bad_input({file},
-                    fmt::format("its line 'provenance' is damaged ({})", cause_in_words(error)));
+    throw_bad_input({file}, "its line 'provenance' is damaged ({})", cause_in_words(error));
   }
 }
 
@@ -407,7 +404,7 @@ std::vector<std::filesystem::path> given_inputs(const std::filesystem::path& pat
     if (input.intermediate) continue;
     const auto place = place_of(input.file, *provenance, folder);
     if (const auto change = change_of({place.string(), input.sha256}, folder); !change.empty())
-      throw_bad_input({path.string()}, fmt::format("was made from other inputs: {}", change));
+      throw_bad_input({path.string()}, "was made from other inputs: {}", change);
     const std::filesystem::path file = input.file;
     files.push_back(is_here && file.is_relative() ? file : place);
   }

@@ -7,7 +7,6 @@
 // Error(kInterrupted). Used by rolling/case,
 // rolling/job, app/ and python/. A change must keep the balance of contact_step.hpp and the order
 // of the models, which gives their colours in pages.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +14,6 @@
 #include <numbers>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/models/contact/contact_step.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/rolling/rolling_resistance.hpp"
@@ -103,9 +101,8 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
     // no check.
     if (!(std::isfinite(row.gap) && std::isfinite(row.position) && std::isfinite(row.angle) &&
           std::isfinite(row.contact_force) && std::isfinite(row.friction_force)))
-      throw Error(
-          ErrorKind::kNotConverged,
-          fmt::format("a number of the motion leaves the range of a double at time {:.6g}", time));
+      throw Error(ErrorKind::kNotConverged,
+                  "a number of the motion leaves the range of a double at time {:.6g}", time);
     rows.push_back(row);
   }
   return rows;

@@ -5,9 +5,6 @@
 // in the order of lubrication::all_terms().
 #include "viscontact/rolling/rolling_resistance.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
@@ -35,9 +32,8 @@ RollingFluid::RollingFluid(const motions::PairFit& fit) : fit_(fit) {
     if (!fit.entries.contains(entry))
       throw Error(
           ErrorKind::kBadInput,
-          fmt::format("the fit lacks the entry {}; it must be made from tables of approach, "
-                      "slide and roll",
-                      motions::pair_entries()[static_cast<std::size_t>(entry)].name));
+          "the fit lacks the entry {}; it must be made from tables of approach, slide and roll",
+          motions::pair_entries()[static_cast<std::size_t>(entry)].name);
   slide_ = weights_of(fit, PairEntry::kSlide);
   roll_ = weights_of(fit, PairEntry::kRoll);
   slide_roll_ = weights_of(fit, PairEntry::kSlideRoll);
@@ -46,9 +42,9 @@ RollingFluid::RollingFluid(const motions::PairFit& fit) : fit_(fit) {
 void RollingFluid::check(double gap) const {
   if (gap > fit_.gap_interval[1])
     throw Error(ErrorKind::kBadInput,
-                fmt::format("the sphere rises above the gap {}, up to which the fit is known; "
-                            "tabulate and fit larger gaps",
-                            format_number(fit_.gap_interval[1])));
+                "the sphere rises above the gap {}, up to which the fit is known; tabulate and fit "
+                "larger gaps",
+                format_number(fit_.gap_interval[1]));
 }
 
 RollingResistance RollingFluid::at(double gap) const {

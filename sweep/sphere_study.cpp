@@ -11,10 +11,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
-#include <optional>
-#include <set>
 #include <string_view>
 
 #include "viscontact/common/error.hpp"
@@ -72,15 +69,14 @@ void refuse_unread(const std::string& key) {
     const auto last = sections.back();
     sections.pop_back();
     throw Error(ErrorKind::kWrongUsage,
-                fmt::format("{} cannot be varied, because a sweep tabulates and fits nothing: it "
-                            "varies keys of [{}] and [{}]",
-                            key, fmt::join(sections, "], ["), last));
+                "{} cannot be varied, because a sweep tabulates and fits nothing: it varies keys "
+                "of [{}] and [{}]",
+                key, fmt::join(sections, "], ["), last);
   }
   if (key == "motion.rows")
-    throw Error(
-        ErrorKind::kWrongUsage,
-        "motion.rows cannot be varied, because it changes only files of trajectories, which "
-        "a sweep does not write");
+    throw Error(ErrorKind::kWrongUsage,
+                "motion.rows cannot be varied, because it changes only files of trajectories, "
+                "which a sweep does not write");
 }
 
 /// True if the motion of a model of the case depends on a key. With gravity, all models depend on
@@ -102,9 +98,9 @@ void refuse_useless(const case_file::Case& c, const std::string& key,
   if (std::ranges::none_of(models,
                            [&](const auto& model) { return motion_depends_on(c, model, key); }))
     throw Error(ErrorKind::kWrongUsage,
-                fmt::format("{} cannot be varied, because none of the models that are run depends "
-                            "on it ({}); leave it out, or add a model that depends on it",
-                            key, fmt::join(models, ", ")));
+                "{} cannot be varied, because none of the models that are run depends on it ({}); "
+                "leave it out, or add a model that depends on it",
+                key, fmt::join(models, ", "));
 }
 
 /// A text that contains everything that determines the rows of a sweep.
@@ -196,10 +192,9 @@ Study sphere_study(SpherePlan plan, const std::string& version) {
   for (const auto& model : plan.models) (void)reduced_model::find_model(model);
   check_keys(plan.points, refuse_unread);
   if (std::ranges::find(plan.models, plan.reference) == plan.models.end())
-    throw Error(
-        ErrorKind::kWrongUsage,
-        fmt::format("the reference model '{}' is not one of the models that are run; they are: {}",
-                    plan.reference, fmt::join(plan.models, ", ")));
+    throw Error(ErrorKind::kWrongUsage,
+                "the reference model '{}' is not one of the models that are run; they are: {}",
+                plan.reference, fmt::join(plan.models, ", "));
   case_file::Case last;
   check_ends(plan.points, [&](const auto& numbers) {
     last = case_with(cases, plan, numbers);

@@ -21,7 +21,6 @@
 #include <optional>
 #include <set>
 #include <thread>
-#include <utility>
 
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locks.hpp"
@@ -113,7 +112,7 @@ void refuse_doubles(const std::vector<std::string>& names, std::string_view kind
   std::set<std::string> seen;
   for (const auto& name : names)
     if (!seen.insert(name).second)
-      throw Error(ErrorKind::kWrongUsage, fmt::format("{} {} is given twice", kind, name));
+      throw Error(ErrorKind::kWrongUsage, "{} {} is given twice", kind, name);
 }
 
 Points points_of_case(const std::vector<std::string>& ranges, const fs::path& case_path, int line) {
@@ -142,11 +141,10 @@ void check_ranges(const Points& points) {
   refuse_doubles(points.keys(), "the key");
   for (const auto& v : points.variations)
     if (points.samples == 0 && v.values.empty() && v.count == 1 && v.first != v.last)
-      throw Error(
-          ErrorKind::kWrongUsage,
-          fmt::format("{}={}:{} has COUNT 1, which leaves out {}; it must be at least 2, or "
-                      "the range must be one value",
-                      v.key, v.first, v.last, v.last));
+      throw Error(ErrorKind::kWrongUsage,
+                  "{}={}:{} has COUNT 1, which leaves out {}; it must be at least 2, or the range "
+                  "must be one value",
+                  v.key, v.first, v.last, v.last);
 }
 
 // Threads compute rows in any order, but the rows must be passed on in order, so that the file does
@@ -219,14 +217,13 @@ std::uint64_t write_sweep(
   fs::path part = target;
   part += ".part";
   if (part.has_parent_path()) make_folder(part.parent_path());
-  const Descriptor file = open_and_lock(
-      part,
-      "is locked by another sweep that writes the same file; wait until it has ended, or write "
-      "elsewhere");
+  const Descriptor file = open_and_lock(part,
+                                        "is locked by another sweep that writes the same file; "
+                                        "wait until it has ended, or write elsewhere");
   auto kept = kept_rows(part, header, study);
   // Removes an incomplete last row, or all rows if they are those of another sweep.
   if (::ftruncate(file.get(), kept ? static_cast<off_t>(kept->bytes) : 0) != 0)
-    throw_bad_input({part.string()}, fmt::format("cannot be written ({})", std::strerror(errno)));
+    throw_bad_input({part.string()}, "cannot be written ({})", std::strerror(errno));
   if (!kept) {
     append_to(file, how_made + header, part);
     kept = {0, how_made.size() + header.size()};
@@ -259,16 +256,13 @@ std::uint64_t write_sweep(
   }
   write();
   if (taken < size)
-    throw Error(
-        ErrorKind::kInterrupted,
-        fmt::format(
-            "interrupted; {} of {} rows are kept in {}; the same command continues from there",
-            taken, size, part.string()));
+    throw Error(ErrorKind::kInterrupted,
+                "interrupted; {} of {} rows are kept in {}; the same command continues from there",
+                taken, size, part.string());
   sync_file(file, part);
   std::error_code error;
   fs::rename(part, target, error);
-  if (error)
-    throw_bad_input({target.string()}, fmt::format("cannot be written ({})", error.message()));
+  if (error) throw_bad_input({target.string()}, "cannot be written ({})", error.message());
   sync_folder_of(target);
   return size - kept->rows;
 }

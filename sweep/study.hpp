@@ -7,7 +7,6 @@
 // A change must keep the form of the file, which users' scripts read.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>

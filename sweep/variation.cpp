@@ -25,9 +25,8 @@ constexpr double kMostPoints = 1e12;
 
 [[noreturn]] void refuse(std::string_view text, const std::string& what) {
   throw Error(ErrorKind::kBadInput,
-              fmt::format("{}: {}; it must be KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or "
-                          "KEY=VALUE,VALUE,...",
-                          text, what));
+              "{}: {}; it must be KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,...",
+              text, what);
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -121,9 +120,8 @@ std::uint64_t grid_size(const std::vector<Variation>& variations) {
   double size = 1;
   for (const auto& variation : variations) size *= static_cast<double>(variation.count);
   if (size > kMostPoints)
-    throw Error(
-        ErrorKind::kWrongUsage,
-        fmt::format("the grid has {:.3g} points; at most {:.0e} are allowed", size, kMostPoints));
+    throw Error(ErrorKind::kWrongUsage, "the grid has {:.3g} points; at most {:.0e} are allowed",
+                size, kMostPoints);
   std::uint64_t points = 1;
   for (const auto& variation : variations) points *= variation.count;
   return points;

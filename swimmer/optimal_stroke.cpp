@@ -6,8 +6,6 @@
 // energies to the digits of docs/swimmer.md.
 #include "viscontact/swimmer/optimal_stroke.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -262,11 +260,11 @@ OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeReq
       best = found;
   }
   if (!best)
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("no loop through this shape with the displacement {:.6g} was found "
-                            "within the table; ask for less, begin at a shape farther from the "
-                            "table's borders, or make a table of more arms",
-                            request.displacement));
+    throw Error(
+        ErrorKind::kBadInput,
+        "no loop through this shape with the displacement {:.6g} was found within the table; ask "
+        "for less, begin at a shape farther from the table's borders, or make a table of more arms",
+        request.displacement);
   // For fewer polynomials than `best` has, the search starts from the first polynomials of `best`.
   // Its result does not replace `best`, because with few polynomials it may be far from the others.
   OptimalStroke optimal;
@@ -287,9 +285,9 @@ OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeReq
     if (count == request.polynomials) {
       if (!found)
         throw Error(ErrorKind::kNotConverged,
-                    fmt::format("Newton's method for the optimal stroke fails with {} polynomials "
-                                "an arm; ask for fewer",
-                                count));
+                    "Newton's method for the optimal stroke fails with {} polynomials an arm; ask "
+                    "for fewer",
+                    count);
       break;
     }
   }

@@ -8,8 +8,6 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "viscontact/swimmer/stroke.hpp"
-
 namespace viscontact::swimmer {
 namespace {
 

@@ -6,8 +6,6 @@
 // derivatives.
 #include "viscontact/swimmer/shape_mechanics.hpp"
 
-#include <fmt/format.h>
-
 #include "viscontact/common/error.hpp"
 
 namespace viscontact::swimmer {
@@ -52,8 +50,8 @@ ShapeMechanics Swimmer::at(const Eigen::VectorXd& arms, bool with_slopes) const 
     // to find the one at fault, because they have rounding errors: an arm is a gap plus two radii.
     if (!contains(arms) && !(arms[k] >= from && arms[k] <= to))
       throw Error(ErrorKind::kBadInput,
-                  fmt::format("arm x{} is {:.9g}; the table has arms from {:.9g} to {:.9g}", k + 1,
-                              arms[k], from, to));
+                  "arm x{} is {:.9g}; the table has arms from {:.9g} to {:.9g}", k + 1, arms[k],
+                  from, to);
   }
   const auto resistance = resistance_(gaps_of(arms));
   const Eigen::MatrixXd& r = resistance.value;

@@ -5,8 +5,6 @@
 // (quadrature). A change must keep the times at which legs meet, because forces jump there.
 #include "viscontact/swimmer/stroke.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -45,9 +43,9 @@ Stroke sampled_stroke(const std::vector<double>& times,
   const Eigen::VectorXd opening = samples.back() - samples.front();
   if (opening.cwiseAbs().maxCoeff() > kRounding * samples.front().cwiseAbs().maxCoeff())
     throw Error(ErrorKind::kBadInput,
-                fmt::format("the loop is open: its last arms differ from its first ones by {:.3g}; "
-                            "add a row with the first arms at the end of the period",
-                            opening.cwiseAbs().maxCoeff()));
+                "the loop is open: its last arms differ from its first ones by {:.3g}; add a row "
+                "with the first arms at the end of the period",
+                opening.cwiseAbs().maxCoeff());
   Stroke stroke{times.back() - times.front(), {}};
   for (std::size_t i = 0; i + 1 < times.size(); ++i)
     stroke.legs.push_back(straight_leg(times[i] - times.front(), times[i + 1] - times.front(),

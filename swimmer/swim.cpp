@@ -4,13 +4,10 @@
 // A change may alter sums by rounding errors only; swim.hpp repeats kMost and kTolerance.
 #include "viscontact/swimmer/swim.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/swimmer/stroke.hpp"
 
 namespace viscontact::swimmer {
 namespace {
@@ -64,11 +61,10 @@ Integrals integrate_leg(const Swimmer& swimmer, const StrokeLeg& leg) {
       return sum;
     before = sum;
   }
-  throw Error(
-      ErrorKind::kNotConverged,
-      fmt::format("the displacement of the leg from time {:.6g} to {:.6g} does not converge "
-                  "with {} points of quadrature; divide the leg by more corners or rows",
-                  leg.start, leg.end, kMost));
+  throw Error(ErrorKind::kNotConverged,
+              "the displacement of the leg from time {:.6g} to {:.6g} does not converge with {} "
+              "points of quadrature; divide the leg by more corners or rows",
+              leg.start, leg.end, kMost);
 }
 
 }  // namespace

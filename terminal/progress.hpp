@@ -5,11 +5,14 @@
 // report/ call it. Nothing is thrown.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <chrono>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace viscontact::terminal {
 
@@ -52,9 +55,19 @@ void clear_progress();
 
 /// Writes a line to standard error; if that fails, the line is lost, as in all functions here.
 void say(const std::string& text);
+/// As above; the line is fmt::format(text, first, rest...).
+template <class First, class... Rest>
+void say(fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
+  say(fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+}
 
 /// Writes a line to standard error, in which the first "warning:" is yellow.
 void warn(const std::string& text);
+/// As above; the line is fmt::format(text, first, rest...).
+template <class First, class... Rest>
+void warn(fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
+  warn(fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+}
 
 /// Writes an error message to standard error, with its first word in red if another one follows.
 void complain(const std::string& text);

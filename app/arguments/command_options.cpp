@@ -17,17 +17,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
-#include <string_view>
 #include <system_error>
 #include <thread>
 
 #include "viscontact/app/commands/interrupt.hpp"
-#include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/terms.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/results/picture_kind.hpp"
 
 namespace viscontact::app {
 namespace {
@@ -51,9 +48,8 @@ void check_outputs(const std::vector<std::string>& paths) {
       throw Error(ErrorKind::kWrongUsage, "the name of an output is empty; give it a name");
     for (std::size_t j = 0; j < i; ++j)
       if (resolved_place_of(paths[i]) == resolved_place_of(paths[j]))
-        throw Error(
-            ErrorKind::kWrongUsage,
-            fmt::format("{} would be written twice; give each output its own name", paths[i]));
+        throw Error(ErrorKind::kWrongUsage,
+                    "{} would be written twice; give each output its own name", paths[i]);
   }
 }
 
@@ -62,8 +58,8 @@ void check_picture(const std::string& path) {
   const auto* kind = results::picture_kind(path);
   if (kind == nullptr)
     throw Error(ErrorKind::kWrongUsage,
-                fmt::format("--plot: {} does not end in {}, the kinds of pictures that are written",
-                            path, names_of(results::kPictureKinds, " or ")));
+                "--plot: {} does not end in {}, the kinds of pictures that are written", path,
+                names_of(results::kPictureKinds, " or "));
   results::refuse_other_kind(path, kind->marker, "picture");
 }
 
@@ -171,10 +167,9 @@ void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& re
   o.gather_option = command.add_flag(
       "--gather", o.gather,
       fmt::format("write {} from the rows of an array job, and compute no row", results));
-  o.task_option = command.add_option(
-      "--task", o.task,
-      "K/T: compute only the rows K, K+T, ..., and write no table (as each task of the array job "
-      "does)");
+  o.task_option = command.add_option("--task", o.task,
+                                     "K/T: compute only the rows K, K+T, ..., and write no table "
+                                     "(as each task of the array job does)");
   o.gather_option->excludes(o.launcher_option);
   o.task_option->excludes(o.launcher_option)->excludes(o.gather_option);
 }
@@ -194,8 +189,7 @@ pipeline::Share share_of(const ArrayOptions& o) {
     const auto count = std::from_chars(number.ptr + 1, end, share.count);
     if (count.ec == std::errc() && count.ptr == end && share.number < share.count) return share;
   }
-  throw Error(ErrorKind::kWrongUsage,
-              fmt::format("--task is '{}'; it must be K/T with 0 <= K < T", o.task));
+  throw Error(ErrorKind::kWrongUsage, "--task is '{}'; it must be K/T with 0 <= K < T", o.task);
 }
 
 pipeline::ArrayRequest array_request(const ArrayOptions& o, const std::string& output,

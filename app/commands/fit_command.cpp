@@ -54,10 +54,9 @@ void read_fix(const std::string& word, fitting::FitSettings& settings) {
   settings.leading_value =
       word.starts_with(prefix) ? parse_number(word.substr(prefix.size())) : std::nullopt;
   if (!settings.leading_value)
-    throw Error(
-        ErrorKind::kWrongUsage,
-        fmt::format("--fix is '{}'; it must be 1/q or theory (the value of theory), or 1/q=NUMBER",
-                    word));
+    throw Error(ErrorKind::kWrongUsage,
+                "--fix is '{}'; it must be 1/q or theory (the value of theory), or 1/q=NUMBER",
+                word);
 }
 
 /// The values of the options of `fit`. Each member is named after its option, which add_fit()
@@ -197,20 +196,18 @@ void add_fit(CLI::App& app) {
             "weight of large residuals: none (least squares), or a robust loss, huber or cauchy, "
             "with which outliers are listed")
       ->capture_default_str();
-  o->fix_option =
-      add_value(
-          *command, "--fix", o->fix, "[1/q[=VALUE]]",
-          "fix the coefficient of 1/q in the force at the table's first velocity: at theory's "
-          "value, or with 1/q=VALUE at this value")
-          ->expected(0, 1);
+  o->fix_option = add_value(*command, "--fix", o->fix, "[1/q[=VALUE]]",
+                            "fix the coefficient of 1/q in the force at the table's first "
+                            "velocity: at theory's value, or with 1/q=VALUE at this value")
+                      ->expected(0, 1);
   auto* bases =
       command->add_flag("--compare-bases", o->compare_bases,
                         "print the fits in all bases side by side, and draw their residuals");
   add_json(*command, o->json)->needs(bases);
-  add_picture(*command, o->plot,
-              "picture of --compare-bases (SVG, PDF, PNG or gnuplot's script, .gp); default: "
-              "FIT.bases.svg beside the fit, or without a fit TABLE.bases.svg in the current "
-              "folder");
+  add_picture(
+      *command, o->plot,
+      "picture of --compare-bases (SVG, PDF, PNG or gnuplot's script, .gp); default: FIT.bases.svg "
+      "beside the fit, or without a fit TABLE.bases.svg in the current folder");
   command->callback([o] { fit_table(*o); });
 }
 

@@ -3,7 +3,6 @@
 // Error(kBadInput) if the file exists or cannot be written, Error(kWrongUsage) for an empty name,
 // and std::filesystem::filesystem_error for a path that the system refuses. A change must keep that
 // `viscontact run` accepts the case as it is written.
-#include <fmt/format.h>
 
 #include <filesystem>
 #include <memory>
@@ -54,8 +53,8 @@ void add_init(CLI::App& app) {
     };
     auto results = path;
     results.replace_extension(path.has_extension() ? "" : ".results");
-    terminal::say(fmt::format("init: {}; edit it, then: viscontact run {} -o {}", *file,
-                              named(*file), named(results.string())));
+    terminal::say("init: {}; edit it, then: viscontact run {} -o {}", *file, named(*file),
+                  named(results.string()));
   });
 }
 

@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
@@ -111,26 +112,21 @@ std::vector<std::string> with_output(const RerunOptions& o, const results::Prove
       command.insert(command.end(), {"-o", fs::absolute(o.output).string()});
       return command;
     }
-    throw Error(
-        ErrorKind::kWrongUsage,
-        fmt::format(
-            "the command that made {} ('{}') has no option for another output; leave out -o",
-            o.file, command[1]));
+    throw Error(ErrorKind::kWrongUsage,
+                "the command that made {} ('{}') has no option for another output; leave out -o",
+                o.file, command[1]);
   }
   const bool one_of_many = value_at(command, *output) != provenance.output;
   if (one_of_many && command[1] == "tabulate" && fs::path(provenance.output).extension() != ".csv")
-    throw Error(
-        ErrorKind::kWrongUsage,
-        fmt::format(
-            "{} is a picture that was drawn beside a table; rerun the table with -o TABLE, and "
-            "its pictures are drawn beside it",
-            o.file));
+    throw Error(ErrorKind::kWrongUsage,
+                "{} is a picture that was drawn beside a table; rerun the table with -o TABLE, and "
+                "its pictures are drawn beside it",
+                o.file);
   if (one_of_many && (fs::is_regular_file(o.output) || fs::path(o.output).has_extension()))
-    throw Error(
-        ErrorKind::kWrongUsage,
-        fmt::format("{} is one of the files that the command ('{}') wrote into {}; -o must be "
-                    "a folder for all of them, but it is '{}'",
-                    o.file, command[1], value_at(command, *output), o.output));
+    throw Error(ErrorKind::kWrongUsage,
+                "{} is one of the files that the command ('{}') wrote into {}; -o must be a folder "
+                "for all of them, but it is '{}'",
+                o.file, command[1], value_at(command, *output), o.output);
   put(*output);
   // The picture of --plot would replace the earlier picture, so --plot and the options that need it
   // are left out. `tabulate` draws its pictures beside the new table.
@@ -160,12 +156,6 @@ void move_to(results::Provenance& provenance, const fs::path& to) {
   provenance.folder = to.string();
 }
 
-std::string in_words(const std::vector<std::string>& command) {
-  std::string text = "viscontact";
-  for (std::size_t i = 1; i < command.size(); ++i) text += " " + shell_word(command[i]);
-  return text;
-}
-
 void rerun(const RerunOptions& o) {
   auto provenance = results::read_provenance(o.file);
   if (!provenance || provenance->command.empty())
@@ -177,11 +167,10 @@ void rerun(const RerunOptions& o) {
                                         : fs::weakly_canonical(o.folder));
   const fs::path folder = provenance->folder;
   if (!fs::is_directory(folder))
-    throw_bad_input(
-        {folder.string()},
-        fmt::format("is not a folder; the command that made {} ran in {}, and '--folder DIR' "
-                    "names another folder to run it in",
-                    o.file, made_in));
+    throw_bad_input({folder.string()},
+                    "is not a folder; the command that made {} ran in {}, and '--folder DIR' names "
+                    "another folder to run it in",
+                    o.file, made_in);
   std::vector<std::string> changes;
   for (const auto& input : provenance->inputs)
     if (const auto change = input.intermediate ? "" : results::change_of(input, folder);
@@ -189,10 +178,10 @@ void rerun(const RerunOptions& o) {
       changes.push_back(change);
   const std::string list = fmt::format("{}", fmt::join(changes, "; "));
   if (!changes.empty() && !o.changed_inputs && !o.dry_run)
-    throw_bad_input({o.file},
-                    fmt::format("was made from other inputs: {}; give --changed-inputs to "
-                                "use the inputs as they are now",
-                                list));
+    throw_bad_input(
+        {o.file},
+        "was made from other inputs: {}; give --changed-inputs to use the inputs as they are now",
+        list);
   check_command(o.file, provenance->command);
   auto command = o.output.empty() ? provenance->command : with_output(o, *provenance);
   // --gather needs the rows of an array job, which may have been deleted since. Without --gather,
@@ -200,27 +189,27 @@ void rerun(const RerunOptions& o) {
   std::erase(command, "--gather");
   if (const auto ours = provenance->versions.find("Viscontact");
       ours != provenance->versions.end() && ours->second != VISCONTACT_VERSION)
-    terminal::warn(fmt::format("rerun: warning: the file was made by Viscontact {}, and this is {}",
-                               ours->second, VISCONTACT_VERSION));
+    terminal::warn("rerun: warning: the file was made by Viscontact {}, and this is {}",
+                   ours->second, VISCONTACT_VERSION);
   if (!changes.empty()) terminal::warn("rerun: warning: " + list);
-  const std::string words =
-      fmt::format("cd {} && {}", shell_word(folder.string()), in_words(command));
+  const std::string words = fmt::format("cd {} && viscontact{}", shell_word(folder.string()),
+                                        shell_arguments(std::span(command).subspan(1)));
   if (o.dry_run) {
     fmt::print("{}\n", words);
     return;
   }
   terminal::say("rerun: " + words);
   if (::chdir(folder.c_str()) != 0)
-    throw_bad_input({folder.string()}, fmt::format("the folder in which the file was made cannot "
-                                                   "be entered ({})",
-                                                   std::strerror(errno)));
+    throw_bad_input({folder.string()},
+                    "the folder in which the file was made cannot be entered ({})",
+                    std::strerror(errno));
   // The program that runs now is started, not the one that the recorded command names.
   std::vector<char*> arguments;
   for (auto& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   ::execv("/proc/self/exe", arguments.data());
-  throw Error(ErrorKind::kExternalProgram,
-              fmt::format("viscontact cannot be started again ({})", std::strerror(errno)));
+  throw Error(ErrorKind::kExternalProgram, "viscontact cannot be started again ({})",
+              std::strerror(errno));
 }
 
 }  // namespace

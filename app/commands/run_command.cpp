@@ -63,8 +63,8 @@ void add_simulate(CLI::App& app) {
   auto o = std::make_shared<Options>();
   add_value(*command, "CASE", o->case_file, kFile, "case file (TOML)")->required();
   add_value(*command, "--fit", o->fit, kFile,
-            "fit of the lubrication force (JSON); default: the case's [fit] file or exact "
-            "drag, else DIR/fit.json");
+            "fit of the lubrication force (JSON); default: the case's [fit] file or exact drag, "
+            "else DIR/fit.json");
   add_value(*command, "-o,--output", o->folder, kFolder,
             "folder; writes trajectories/MODEL.csv in it, and copies of case and fit")
       ->required();
@@ -74,15 +74,14 @@ void add_simulate(CLI::App& app) {
                 "; on request: " + names_of(reduced_model::models_on_request()))
       ->delimiter(',');
   auto* limit = add_value(*command, "--lubrication-limit", o->lubrication_limit, "fitted|theory",
-                          "below the fit's smallest gap, let the drag grow as k/q instead "
-                          "of ending with an error; k is the fitted value (default) or that "
-                          "of theory; default: the key 'below' in the case's section [fit]")
+                          "below the fit's smallest gap, let the drag grow as k/q instead of "
+                          "ending with an error; k is the fitted value (default) or that of "
+                          "theory; default: the key 'below' in the case's section [fit]")
                     ->check(one_of({"fitted", "theory"}))
                     ->expected(0, 1);
-  command->add_flag(
-      "--stokes-limit", o->stokes_limit,
-      "above the fit's largest gap, let the drag fall to Stokes' drag instead of ending "
-      "with an error; default: the key 'above' in the case's section [fit]");
+  command->add_flag("--stokes-limit", o->stokes_limit,
+                    "above the fit's largest gap, let the drag fall to Stokes' drag instead of "
+                    "ending with an error; default: the key 'above' in the case's section [fit]");
   command->callback([o, limit] {
     check_outputs({o->folder});
     check_models("--models", o->models);

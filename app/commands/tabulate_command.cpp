@@ -56,10 +56,8 @@ std::vector<double> read_gaps(const std::string& text) {
   for (std::string word; std::getline(words, word, ',');) {
     const auto gap = parse_number(word);
     if (!gap)
-      throw Error(
-          ErrorKind::kWrongUsage,
-          fmt::format("--plot: '{}' is not a number; give gaps of the case, separated by commas",
-                      word));
+      throw Error(ErrorKind::kWrongUsage,
+                  "--plot: '{}' is not a number; give gaps of the case, separated by commas", word);
     gaps.push_back(*gap);
   }
   return gaps;
@@ -90,8 +88,8 @@ std::vector<pipeline::CaseTable> read_case_tables(const std::vector<std::string>
   for (const auto& file : case_files)
     if (const auto [other, is_new] = case_of.insert({name_of(file), file}); !is_new)
       throw Error(ErrorKind::kWrongUsage,
-                  fmt::format("{} and {} would both be tabulated to {}; rename one of them",
-                              other->second, file, csv_of(file).string()));
+                  "{} and {} would both be tabulated to {}; rename one of them", other->second,
+                  file, csv_of(file).string());
   std::vector<pipeline::CaseTable> tables;
   for (const auto& file : case_files) {
     const auto name = name_of(file), csv = csv_of(file);
@@ -99,9 +97,7 @@ std::vector<pipeline::CaseTable> read_case_tables(const std::vector<std::string>
     if (kind == case_file::CaseKind::kSwimmer) {
       if (!motions.empty())
         throw Error(ErrorKind::kWrongUsage,
-                    fmt::format("--motion: {} is a case of a swimmer, whose spheres move along "
-                                "the axis",
-                                file));
+                    "--motion: {} is a case of a swimmer, whose spheres move along the axis", file);
       tables.push_back(swimmer::case_table(swimmer::read_swimmer_case(file), csv));
       continue;
     }
@@ -110,8 +106,7 @@ std::vector<pipeline::CaseTable> read_case_tables(const std::vector<std::string>
             ? rolling::read_rolling_case(file).tabulation
             : std::optional(case_file::required_tabulation(case_file::read_case(file)));
     if (!tabulation)
-      throw Error(ErrorKind::kBadInput,
-                  fmt::format("{}: the section [tabulation] is missing", file));
+      throw Error(ErrorKind::kBadInput, "{}: the section [tabulation] is missing", file);
     if (!motions.empty())
       tabulation->motions = with_place(
           "--motion", [&] { return freefem_axi::parse_motions(motions, tabulation->geometry); });
@@ -141,9 +136,8 @@ void tabulate_cases(const TabulateOptions& o) {
     for (const auto& one : tables) {
       if (!one.tabulation)
         throw Error(ErrorKind::kWrongUsage,
-                    fmt::format("--plot: {} has no section [tabulation]; flows are drawn only for "
-                                "one sphere",
-                                one.case_path.string()));
+                    "--plot: {} has no section [tabulation]; flows are drawn only for one sphere",
+                    one.case_path.string());
       pictures.push_back(
           with_place("--plot", [&] { return pipeline::gaps_to_picture(*one.tabulation, gaps); }));
       for (const auto& [motion, table] : one.motions)

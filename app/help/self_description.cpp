@@ -9,9 +9,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <array>
-#include <string>
 #include <utility>
 
 #include "viscontact/app/arguments/command_options.hpp"
@@ -217,16 +215,14 @@ std::string item(const std::string& term, const std::string& text) {
 }
 
 std::string option_item(const CLI::Option& option) {
-  const bool flag = option.get_type_size() == 0;
-  const bool positional = option.get_snames().empty() && option.get_lnames().empty();
-  std::string names;
-  for (const auto& name : option.get_snames()) names += (names.empty() ? "-" : ", -") + name;
-  for (const auto& name : option.get_lnames()) names += (names.empty() ? "--" : ", --") + name;
-  if (positional) names = option.get_name(true);
+  const auto spellings = names_of_option(option);
+  const auto names =
+      spellings.empty() ? option.get_name(true) : fmt::format("{}", fmt::join(spellings, ", "));
   std::string text = option.get_description();
   if (!option.get_default_str().empty()) text += " (default: " + option.get_default_str() + ")";
   std::string head = ".TP\n\\fB" + escaped(names) + "\\fR";
-  if (!flag && !positional) head += " \\fI" + escaped(option.get_type_name()) + "\\fR";
+  if (!is_flag(option) && !spellings.empty())
+    head += " \\fI" + escaped(option.get_type_name()) + "\\fR";
   return head + "\n" + escaped(text) + "\n";
 }
 
@@ -248,11 +244,10 @@ std::string manual(const CLI::App& app, const std::string& version) {
       "contact of a sphere\n.SH SYNOPSIS\n.B viscontact\n.I COMMAND\n[\\fIOPTIONS\\fR]\n"
       ".SH DESCRIPTION\n{}\n.SH COMMANDS\n",
       version, escaped(app.get_description()));
-  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+  for (const auto* command : commands_of(app)) {
     std::string synopsis = command->get_name();
     for (const auto* option : command->get_options())
-      if (option->get_snames().empty() && option->get_lnames().empty())
-        synopsis += " " + option->get_name(true);
+      if (names_of_option(*option).empty()) synopsis += " " + option->get_name(true);
     text += fmt::format(".SS {}\n{}.\n", escaped(synopsis), escaped(command->get_description()));
     for (const auto* option : command->get_options()) text += option_item(*option);
   }

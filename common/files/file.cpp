@@ -16,7 +16,6 @@
 #include <charconv>
 #include <csignal>
 #include <cstring>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -28,7 +27,7 @@ namespace {
 
 [[noreturn]] void throw_system_error(const std::filesystem::path& path, const char* action,
                                      int code) {
-  throw_bad_input({path.string()}, fmt::format("cannot be {} ({})", action, std::strerror(code)));
+  throw_bad_input({path.string()}, "cannot be {} ({})", action, std::strerror(code));
 }
 
 // While a process PID writes the file NAME, the file is called NAME.viscontact-PID.tmp.
@@ -120,8 +119,7 @@ std::string read_file(const std::filesystem::path& path) {
   // it may also be a signal whose handler the user has set, which could not run during the wait.
   const auto fail = [&] {
     if (errno == EINTR)
-      throw Error(ErrorKind::kInterrupted,
-                  fmt::format("interrupted while {} was read", path.string()));
+      throw Error(ErrorKind::kInterrupted, "interrupted while {} was read", path.string());
     throw_system_error(path, "read", errno);
   };
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));

@@ -5,7 +5,6 @@
 #include "viscontact/common/files/growing_file.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -20,7 +19,7 @@ namespace viscontact {
 namespace {
 
 [[noreturn]] void throw_cannot_be(const char* action, const std::filesystem::path& path) {
-  throw_bad_input({path.string()}, fmt::format("cannot be {} ({})", action, std::strerror(errno)));
+  throw_bad_input({path.string()}, "cannot be {} ({})", action, std::strerror(errno));
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include "viscontact/common/files/locks.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -24,14 +23,14 @@ namespace {
 /// Throws Error(kBadInput) for a file that could not be opened. Unlike that of throw_not_written(),
 /// the message says nothing of finished rows, because none have been written.
 [[noreturn]] void throw_not_opened(const std::filesystem::path& path, int code) {
-  throw_bad_input({path.string()}, fmt::format("cannot be written ({})", std::strerror(code)));
+  throw_bad_input({path.string()}, "cannot be written ({})", std::strerror(code));
 }
 
 [[noreturn]] void throw_not_written(const std::filesystem::path& path, int code) {
-  throw_bad_input({path.string()},
-                  fmt::format("cannot be written ({}); finished rows are kept, and the same "
-                              "command continues from there",
-                              std::strerror(code)));
+  throw_bad_input(
+      {path.string()},
+      "cannot be written ({}); finished rows are kept, and the same command continues from there",
+      std::strerror(code));
 }
 
 /// True if `path` still names the file that is open as `file`. The process that had the lock may

@@ -69,8 +69,8 @@ std::deque<std::string> LastLines::lines() const {
 ChildProcess::ChildProcess(const ProcessCommand& command, const StopToken& stop)
     : stop_(stop), child_(start_process(command, ErrorStream::kSeparate)) {
   if (child_.id < 0)
-    throw Error(ErrorKind::kExternalProgram,
-                fmt::format("{} cannot be run ({})", command.arguments.front(), child_.failure));
+    throw Error(ErrorKind::kExternalProgram, "{} cannot be run ({})", command.arguments.front(),
+                child_.failure);
 }
 
 ChildProcess::~ChildProcess() {

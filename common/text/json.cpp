@@ -45,7 +45,7 @@ class LineRecorder {
       const auto newline = before.rfind('\n');
       const auto column = newline == std::string_view::npos ? at + 1 : at - newline;
       throw_bad_input({file, static_cast<int>(1 + std::ranges::count(before, '\n'))},
-                      fmt::format("is not valid JSON at column {} ({})", column, cause_));
+                      "is not valid JSON at column {} ({})", column, cause_);
     }
     if (repeated_key_line_ > 0)
       throw_bad_input({file, repeated_key_line_},
@@ -180,7 +180,7 @@ void read_json(const std::filesystem::path& path, const std::function<void(const
   try {
     read(document.root());
   } catch (const Json::exception& error) {
-    throw_bad_input({path.string()}, fmt::format("is not complete ({})", cause_in_words(error)));
+    throw_bad_input({path.string()}, "is not complete ({})", cause_in_words(error));
   }
 }
 

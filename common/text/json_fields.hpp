@@ -74,8 +74,14 @@ class JsonFields {
   /// while reads().
   [[noreturn]] void fail(const std::string& key, const std::string& what) const {
     const std::string where = path_of(key);
-    throw_bad_input({document_->file(), document_->line_of(where)},
-                    fmt::format("{} {}", where.empty() ? "the file" : where, what));
+    throw_bad_input({document_->file(), document_->line_of(where)}, "{} {}",
+                    where.empty() ? "the file" : where, what);
+  }
+  /// As above; `what` is a format with these arguments.
+  template <class First, class... Rest>
+  [[noreturn]] void fail(const std::string& key, fmt::format_string<First, Rest...> what,
+                         First&& first, Rest&&... rest) const {
+    fail(key, fmt::format(what, std::forward<First>(first), std::forward<Rest>(rest)...));
   }
 
   /// Reads or writes the member `value` under `key`. Its type is double (finite), bool,
@@ -101,16 +107,14 @@ class JsonFields {
   /// A finite number that must exist and pass the test `allowed` when it is read.
   void operator()(const std::string& key, double& value, const Allowed& allowed) {
     (*this)(key, value);
-    if (reads() && !allowed.test(value))
-      fail(key, fmt::format("is {}; it must be {}", value, allowed.words));
+    if (reads() && !allowed.test(value)) fail(key, "is {}; it must be {}", value, allowed.words);
   }
 
   /// Two gaps [L], of which, when they are read, the first must be > 0 and less than the second.
   void gap_interval(const std::string& key, std::array<double, 2>& interval) {
     (*this)(key, interval);
     if (reads() && !(interval[0] > 0 && interval[1] > interval[0]))
-      fail(key, fmt::format("is {}; it must be two gaps with 0 < first < second",
-                            json_->at(key).dump()));
+      fail(key, "is {}; it must be two gaps with 0 < first < second", json_->at(key).dump());
   }
 
   /// A vector as a JSON object with a member for each element of `values`: its key is the element's
@@ -145,8 +149,7 @@ class JsonFields {
     } catch (const Error& error) {
       const std::string said = error.what();
       const auto allowed = said.find("; ");
-      fail(key, fmt::format("is '{}'{}", word,
-                            allowed == std::string::npos ? "" : said.substr(allowed)));
+      fail(key, "is '{}'{}", word, allowed == std::string::npos ? "" : said.substr(allowed));
     }
   }
 
@@ -154,7 +157,7 @@ class JsonFields {
   void constant(const std::string& key, const std::string& text) {
     std::string found = text;
     (*this)(key, found);
-    if (found != text) fail(key, fmt::format("is '{}'; it must be '{}'", found, text));
+    if (found != text) fail(key, "is '{}'; it must be '{}'", found, text);
   }
 
   /// A key whose object other code reads and writes, and that a file may lack. Only its type is
@@ -168,7 +171,7 @@ class JsonFields {
   JsonFields() = default;
   JsonFields(const JsonDocument& document, const Json& json, std::string path)
       : document_(&document), json_(&json), path_(std::move(path)) {
-    if (!json.is_object()) fail("", fmt::format("is {}; it must be an object", shown(json)));
+    if (!json.is_object()) fail("", "is {}; it must be an object", shown(json));
   }
 
   /// Reads the fields, and refuses a key that fields_of() does not know.
@@ -197,7 +200,7 @@ class JsonFields {
   }
 
   void require(bool holds, const std::string& key, const Json& json, const char* what) const {
-    if (!holds) fail(key, fmt::format("is {}; it must be {}", shown(json), what));
+    if (!holds) fail(key, "is {}; it must be {}", shown(json), what);
   }
 
   template <class Value>
@@ -258,8 +261,7 @@ class JsonFields {
   void take(const std::string& key, const Json& json, std::array<double, 2>& two) const {
     std::vector<double> numbers;
     take(key, json, numbers);
-    if (numbers.size() != 2)
-      fail(key, fmt::format("has {} elements; it must be two numbers", numbers.size()));
+    if (numbers.size() != 2) fail(key, "has {} elements; it must be two numbers", numbers.size());
     two = {numbers[0], numbers[1]};
   }
   template <class Value>

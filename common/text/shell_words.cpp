@@ -5,8 +5,6 @@
 // as it was.
 #include "viscontact/common/text/shell_words.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string_view>
 
@@ -38,8 +36,7 @@ std::vector<std::string> split_words(const std::string& text) {
       words.back() += character;
   }
   if (quote != '\0')
-    throw Error(ErrorKind::kWrongUsage,
-                fmt::format("the quotation mark {} in {} is not closed", quote, text));
+    throw Error(ErrorKind::kWrongUsage, "the quotation mark {} in {} is not closed", quote, text);
   return words;
 }
 
@@ -52,6 +49,12 @@ std::string shell_word(const std::string& text) {
   std::string word = "'";
   for (const char character : text) word += character == '\'' ? "'\\''" : std::string(1, character);
   return word + "'";
+}
+
+std::string shell_arguments(std::span<const std::string> words) {
+  std::string text;
+  for (const auto& word : words) text += " " + shell_word(word);
+  return text;
 }
 
 }  // namespace viscontact

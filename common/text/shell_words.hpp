@@ -4,6 +4,7 @@
 // quoted.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,5 +18,8 @@ std::vector<std::string> split_words(const std::string& text);
 /// The text with the quotation marks that it needs so that a POSIX shell reads it as one word; ''
 /// if it is empty. Throws nothing.
 std::string shell_word(const std::string& text);
+
+/// The shell_word() of each of `words`, each after a blank.
+std::string shell_arguments(std::span<const std::string> words);
 
 }  // namespace viscontact

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/vtk/appended_data.hpp"

@@ -101,4 +101,11 @@ inline std::vector<std::string> on_lines_of_comments(std::vector<std::string> li
   return lines;
 }
 
+/// These lines as comments, each of which begins with `mark`.
+inline std::string commented(const std::vector<std::string>& lines, std::string_view mark) {
+  std::string text;
+  for (const auto& line : lines) text += fmt::format("{} {}\n", mark, line);
+  return text;
+}
+
 }  // namespace viscontact::fitting

@@ -19,10 +19,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/text/csv.hpp"
-#include "viscontact/common/text/number.hpp"
 #include "viscontact/fitting/export/code_text.hpp"
-#include "viscontact/lubrication/fit.hpp"
-#include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 
 namespace viscontact::fitting {
@@ -144,13 +141,6 @@ std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view sou
   return on_lines_of_comments(std::move(lines));
 }
 
-std::string commented(const lubrication::Fit& fit, std::string_view source, std::string_view mark,
-                      const Outside& outside = {}) {
-  std::string text;
-  for (const auto& line : facts(fit, source, outside)) text += fmt::format("{} {}\n", mark, line);
-  return text;
-}
-
 std::string write_c_header(const lubrication::Fit& fit, std::string_view source,
                            const Limits& limits) {
   const Sum sum = sum_of(fit);
@@ -167,14 +157,13 @@ std::string write_c_header(const lubrication::Fit& fit, std::string_view source,
     if (!e.above.empty())
       text += fmt::format("  if (gap > VISCONTACT_LARGEST_GAP && gap < HUGE_VAL)\n    return {};\n",
                           e.above);
-    return text +
-           fmt::format(
-               "  if (!(gap >= VISCONTACT_SMALLEST_GAP && gap <= VISCONTACT_LARGEST_GAP)) return "
-               "NAN;\n  return {};\n}}\n\n",
-               e.inside);
+    return text + fmt::format(
+                      "  if (!(gap >= VISCONTACT_SMALLEST_GAP && gap <= VISCONTACT_LARGEST_GAP)) "
+                      "return NAN;\n  return {};\n}}\n\n",
+                      e.inside);
   };
   constexpr std::string_view kBetween = "\n      + ";
-  return commented(fit, source, "//", outside) +
+  return commented(facts(fit, source, outside), "//") +
          "// C99 or C++11. At other gaps the answer is NaN.\n" +
          fmt::format(
              "#ifndef VISCONTACT_LUBRICATION_H\n#define VISCONTACT_LUBRICATION_H\n\n"
@@ -213,7 +202,7 @@ std::string write_fortran(const lubrication::Fit& fit, std::string_view source,
            fmt::format("    l = log(gap)\n    answer = {}\n  end function\n\n", e.inside);
   };
   constexpr std::string_view kBetween = " &\n      + ";
-  return commented(fit, source, "!", outside) + "! At other gaps the answer is NaN.\n" +
+  return commented(facts(fit, source, outside), "!") + "! At other gaps the answer is NaN.\n" +
          fmt::format(
              "module viscontact_lubrication\n"
              "  use, intrinsic :: iso_fortran_env, only: real64\n"
@@ -258,7 +247,7 @@ std::string write_python(const lubrication::Fit& fit, std::string_view source,
                       name, what, tuples.substr(0, tuples.size() - 1));
   };
   constexpr std::string_view kBetween = "\n            + ";
-  return commented(fit, source, "#", outside) +
+  return commented(facts(fit, source, outside), "#") +
          "# A gap is a number or an array of NumPy, and so is the answer.\n" +
          fmt::format("import math\nimport sys\n\nSMALLEST_GAP, LARGEST_GAP = {}, {}\n\n\n",
                      plain(fit.gap_interval[0]), plain(fit.gap_interval[1])) +
@@ -289,7 +278,7 @@ std::string write_matlab(const lubrication::Fit& fit, std::string_view source,
         plain(outside.smallest), plain(outside.largest), elementwise(e.inside));
   };
   constexpr std::string_view kBetween = " ...\n      + ";
-  return commented(fit, source, "%", outside) +
+  return commented(facts(fit, source, outside), "%") +
          fmt::format(
              "% MATLAB or Octave, in a file viscontact_lubrication.m: f = "
              "viscontact_lubrication();\n"
@@ -351,7 +340,7 @@ std::string write_csv(const lubrication::Fit& fit, std::string_view source, cons
                 "csv has samples within the interval of the fit only; leave out --below and "
                 "--above, or choose another target");
   const lubrication::LubricationForce force(fit);
-  std::string text = commented(fit, source, "#");
+  std::string text = commented(facts(fit, source), "#");
   text += fmt::format("# force: at velocity {}\ngap,resistance,impulse,force\n",
                       plain(fit.reference_velocity));
   for (const double gap : lubrication::spread_gaps(fit.gap_interval))

@@ -58,9 +58,8 @@ ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
   auto result = run_process(command.arguments, command.environment, {}, command.folder,
                             time_limit.value_or(freefem.row_limit), freefem.stop);
   if (!result.started || result.exit_status == 127)
-    throw Error(ErrorKind::kExternalProgram,
-                fmt::format("{} cannot be run ({}); {}", freefem.executable, result.output,
-                            freefem::kHowToInstall));
+    throw Error(ErrorKind::kExternalProgram, "{} cannot be run ({}); {}", freefem.executable,
+                result.output, freefem::kHowToInstall);
   return result;
 }
 
@@ -95,14 +94,12 @@ std::string line_after(const std::string& output, std::string_view prefix) {
 std::string freefem_version(const FreeFem& freefem) {
   const auto result = run_freefem(freefem, "version.edp", {}, freefem.version_limit);
   if (result.timed_out)
-    throw Error(ErrorKind::kExternalProgram,
-                fmt::format("{} does not say which version it is: {}", freefem.executable,
-                            timed_out_in_words(freefem.version_limit)));
+    throw Error(ErrorKind::kExternalProgram, "{} does not say which version it is: {}",
+                freefem.executable, timed_out_in_words(freefem.version_limit));
   std::string version = line_after(result.output, "viscontact-version");
   if (result.exit_status != 0 || version.empty())
-    throw Error(ErrorKind::kExternalProgram,
-                fmt::format("{} does not answer as FreeFEM does (exit status {})",
-                            freefem.executable, result.exit_status));
+    throw Error(ErrorKind::kExternalProgram, "{} does not answer as FreeFEM does (exit status {})",
+                freefem.executable, result.exit_status);
   const auto package = freefem::package_of(freefem.executable, freefem.stop);
   if (!package) return version;
   return fmt::format("{} (Debian package {}; FreeFEM says {})", package->version, package->name,

@@ -16,11 +16,9 @@
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <cstring>
 #include <sstream>
 
-#include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locks.hpp"
 #include "viscontact/common/hash/sha256.hpp"

@@ -7,8 +7,6 @@
 // journal (the file of finished rows) and the progress report.
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
 
-#include <fmt/format.h>
-
 #include <atomic>
 #include <chrono>
 #include <mutex>

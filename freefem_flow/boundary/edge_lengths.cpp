@@ -7,10 +7,7 @@
 // fluid.edges_per_particle.
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 
-#include <fmt/format.h>
-
 #include <limits>
-#include <numbers>
 
 #include "viscontact/common/error.hpp"
 
@@ -51,13 +48,11 @@ double size_of(const particles::Domain& domain) {
 void check_edge_length(double edge, double length) {
   constexpr double kShortest = 1e-7;      // FreeFEM takes nearer points for one
   if (edge > kShortest * length) return;  // false for NaN
-  throw Error(
-      ErrorKind::kNotConverged,
-      fmt::format("the mesh of the fluid needs an edge of {:.3g} of the length of a curve, but "
-                  "resolves no less than {:.0e} of it: particles, or a particle and a wall, "
-                  "overlap or have too narrow a gap; use a larger fluid.threshold_gap or a "
-                  "shorter time_step",
-                  edge / length, kShortest));
+  throw Error(ErrorKind::kNotConverged,
+              "the mesh of the fluid needs an edge of {:.3g} of the length of a curve, but "
+              "resolves no less than {:.0e} of it: particles, or a particle and a wall, overlap or "
+              "have too narrow a gap; use a larger fluid.threshold_gap or a shorter time_step",
+              edge / length, kShortest);
 }
 
 EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain& domain,

@@ -4,7 +4,6 @@
 // mesh_boundary.cpp uses it. A change must keep that each edge that is not on a wall has a partner.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 

@@ -7,8 +7,6 @@
 // labels, which scripts/membranes.edp repeats.
 #include "viscontact/freefem_flow/membranes/membrane_boundary.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -88,9 +86,9 @@ class WantedEdges {
 void check_places(const particles::Domain& domain, const InnerCurves& curves, double unit) {
   const auto fail = [&](const char* what, const Point& x) {
     throw Error(ErrorKind::kNotConverged,
-                fmt::format("{} at ({:.6g}, {:.6g}); use a shorter time_step, or more room between "
-                            "membranes, particles and walls",
-                            what, x[0] * unit, x[1] * unit));
+                "{} at ({:.6g}, {:.6g}); use a shorter time_step, or more room between membranes, "
+                "particles and walls",
+                what, x[0] * unit, x[1] * unit);
   };
   for (const auto& own : curves.membranes)
     for (const auto& node : own.rowwise()) {

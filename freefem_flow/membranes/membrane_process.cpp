@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -129,9 +128,8 @@ MembraneProcess::MembraneProcess(const particles::Fluid& fluid, const particles:
       radii_(radii.begin(), radii.end()),
       dissipation_alone_(dissipation_alone(fluid, domain)) {
   if (membranes_.size() > kMostMembranes)
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("the case has {} membranes; at most {} are allowed", membranes_.size(),
-                            kMostMembranes));
+    throw Error(ErrorKind::kBadInput, "the case has {} membranes; at most {} are allowed",
+                membranes_.size(), kMostMembranes);
   // With fewer edges than two thirds of the beads, the forces on nodes that a force on one bead
   // gives would not be smooth along the edges.
   for (const auto& membrane : membranes_) edges_ = std::max(edges_, (2 * membrane.count() + 2) / 3);

@@ -215,9 +215,8 @@ std::string FlowProcess::saved_flow() {
   solver_->expect("saved");
   auto text = read_file(file);
   if (!text.ends_with("complete\n"))
-    throw Error(
-        ErrorKind::kExternalProgram,
-        fmt::format("the fluid solver could not write {}; is the disk full?", file.string()));
+    throw Error(ErrorKind::kExternalProgram,
+                "the fluid solver could not write {}; is the disk full?", file.string());
   return text;
 }
 

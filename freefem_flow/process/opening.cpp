@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <map>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/number.hpp"
@@ -100,17 +99,15 @@ void check_domain(const particles::Fluid& fluid, const particles::Domain& domain
   const bool on_axis = std::holds_alternative<CylinderDomain>(domain);
   if (std::holds_alternative<std::monostate>(domain))
     throw Error(ErrorKind::kBadInput,
-                "the fluid has no domain; it must be a disc, a box or a "
-                "cylinder");
+                "the fluid has no domain; it must be a disc, a box or a cylinder");
   if (on_axis != (dimension == 1))
     throw Error(ErrorKind::kBadInput,
-                "the domain of the fluid must be a cylinder if the particles "
-                "are on an axis, and a disc or a box in the plane");
+                "the domain of the fluid must be a cylinder if the particles are on an axis, and a "
+                "disc or a box in the plane");
   if (std::holds_alternative<particles::SideVelocities>(fluid.boundary) &&
       !std::holds_alternative<BoxDomain>(domain))
     throw Error(ErrorKind::kBadInput,
-                "velocities of single sides of the domain are given; the "
-                "domain must be a box");
+                "velocities of single sides of the domain are given; the domain must be a box");
 }
 
 }  // namespace

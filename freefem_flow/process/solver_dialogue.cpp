@@ -64,8 +64,8 @@ SolverDialogue::SolverDialogue(const SolverCommand& command, std::chrono::millis
     process_.emplace(ProcessCommand{command.arguments, command.environment, command.folder}, stop);
   } catch (const Error& error) {
     const auto& remedy = command.remedy_if_missing;
-    throw Error(error.kind(), fmt::format("the fluid solver {}{}{}", error.what(),
-                                          remedy.empty() ? "" : "; ", remedy));
+    throw Error(error.kind(), "the fluid solver {}{}{}", error.what(), remedy.empty() ? "" : "; ",
+                remedy);
   }
 }
 
@@ -78,7 +78,7 @@ SolverDialogue::~SolverDialogue() {
 void SolverDialogue::ask(std::string_view name, std::string_view text) {
   if (!process_)
     throw Error(ErrorKind::kExternalProgram,
-                fmt::format("the fluid solver ({}) has ended after an earlier error", name_));
+                "the fluid solver ({}) has ended after an earlier error", name_);
   // A solver may write before the first request; expect("ready") skips these lines.
   if (requests_ > 0 && process_->has_unread_output())
     fail("it wrote more than the answer", kGraceOfFailed);
@@ -195,19 +195,17 @@ void SolverDialogue::fail(const std::string& reason, std::chrono::milliseconds g
   constexpr std::size_t kLongestLine = 200;  // bytes; a free choice
   for (const auto& line : process_->last_lines()) lines.push_back(shortened(line, kLongestLine));
   process_.reset();
-  throw Error(
-      ErrorKind::kExternalProgram,
-      fmt::format("the fluid solver ({}) failed at {}: {}; it {}; {}", name_, asked, reason, end,
-                  lines.empty() ? "it wrote nothing else"
-                                : fmt::format("its last lines: {}", fmt::join(lines, " | "))));
+  throw Error(ErrorKind::kExternalProgram, "the fluid solver ({}) failed at {}: {}; it {}; {}",
+              name_, asked, reason, end,
+              lines.empty() ? "it wrote nothing else"
+                            : fmt::format("its last lines: {}", fmt::join(lines, " | ")));
 }
 
 void append(std::string& text, std::span<const double> values, const char* what) {
   for (const double value : values) {
     if (!std::isfinite(value))
       throw Error(ErrorKind::kNotConverged,
-                  fmt::format("{} of the particles in the fluid left the range of a double ({})",
-                              what, value));
+                  "{} of the particles in the fluid left the range of a double ({})", what, value);
     text += ' ';
     text += format_number(value);
   }

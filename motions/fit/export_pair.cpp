@@ -10,8 +10,6 @@
 
 #include "viscontact/common/named.hpp"
 #include "viscontact/fitting/export/code_text.hpp"
-#include "viscontact/fitting/export/export_fit.hpp"
-#include "viscontact/lubrication/fit.hpp"
 
 namespace viscontact::motions {
 namespace {
@@ -50,15 +48,9 @@ std::vector<std::string> facts_of_pair(const PairFit& fit, std::string_view sour
   return fitting::on_lines_of_comments(std::move(lines));
 }
 
-std::string commented_facts(const PairFit& fit, std::string_view source, std::string_view mark) {
-  std::string text;
-  for (const auto& line : facts_of_pair(fit, source)) text += fmt::format("{} {}\n", mark, line);
-  return text;
-}
-
 std::string pair_in_c(const PairFit& fit, std::string_view source) {
   std::string text =
-      commented_facts(fit, source, "//") +
+      fitting::commented(facts_of_pair(fit, source), "//") +
       fmt::format(
           "// C99 or C++11. Outside the interval the answer is NaN.\n"
           "#ifndef VISCONTACT_PAIR_H\n#define VISCONTACT_PAIR_H\n\n#include <math.h>\n\n"
@@ -78,7 +70,7 @@ std::string pair_in_c(const PairFit& fit, std::string_view source) {
 }
 
 std::string pair_in_fortran(const PairFit& fit, std::string_view source) {
-  std::string text = commented_facts(fit, source, "!") +
+  std::string text = fitting::commented(facts_of_pair(fit, source), "!") +
                      fmt::format(
                          "! Outside the interval the answer is NaN.\n"
                          "module viscontact_pair\n"
@@ -107,7 +99,7 @@ std::string pair_in_fortran(const PairFit& fit, std::string_view source) {
 
 std::string pair_in_python(const PairFit& fit, std::string_view source) {
   std::string text =
-      commented_facts(fit, source, "#") +
+      fitting::commented(facts_of_pair(fit, source), "#") +
       "# A gap is a number or an array of NumPy, and so is the answer.\n" +
       fmt::format("import math\n\nSMALLEST_GAP, LARGEST_GAP = {}, {}\n\n\n",
                   fitting::plain(fit.gap_interval[0]), fitting::plain(fit.gap_interval[1])) +
@@ -128,7 +120,7 @@ std::string pair_in_matlab(const PairFit& fit, std::string_view source) {
   const auto smallest = fitting::plain(fit.gap_interval[0]);
   const auto largest = fitting::plain(fit.gap_interval[1]);
   std::string text =
-      commented_facts(fit, source, "%") +
+      fitting::commented(facts_of_pair(fit, source), "%") +
       fmt::format(
           "% MATLAB or Octave, in a file viscontact_pair.m: f = viscontact_pair(); f.slide(gap). "
           "A\n"
@@ -172,7 +164,7 @@ std::string pair_in_json(const PairFit& fit, std::string_view source) {
 }
 
 std::string pair_in_csv(const PairFit& fit, std::string_view source) {
-  std::string text = commented_facts(fit, source, "#") + "gap";
+  std::string text = fitting::commented(facts_of_pair(fit, source), "#") + "gap";
   for (const auto& [entry, one] : fit.entries) text += "," + std::string(named(entry).name);
   text += "\n";
   for (const double gap : lubrication::spread_gaps(fit.gap_interval)) {

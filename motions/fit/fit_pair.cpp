@@ -7,8 +7,6 @@
 // both tables.
 #include "viscontact/motions/fit/fit_pair.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,17 +35,15 @@ const MotionTable& first_of_pair(const PairTables& tables) {
   const auto require_same = [](bool is_same, const char* what, const auto& one, const auto& other) {
     if (!is_same)
       throw Error(ErrorKind::kBadInput,
-                  fmt::format("the tables are of different pairs: the {} is {} in one and {} in "
-                              "another one",
-                              what, one, other));
+                  "the tables are of different pairs: the {} is {} in one and {} in another one",
+                  what, one, other);
   };
   const auto& first = tables.begin()->second;
   for (const auto& [motion, table] : tables) {
     if (table.neighbour_moves)
-      throw Error(
-          ErrorKind::kBadInput,
-          "the neighbour has a velocity of its own; resistances need tables in which it is at "
-          "rest (velocity_ratio = 0, rotation_ratio = 0)");
+      throw Error(ErrorKind::kBadInput,
+                  "the neighbour has a velocity of its own; resistances need tables in which it is "
+                  "at rest (velocity_ratio = 0, rotation_ratio = 0)");
     require_same(equal_up_to_rounding(table.viscosity, first.viscosity), "viscosity",
                  first.viscosity, table.viscosity);
     require_same(equal_up_to_rounding(table.radius, first.radius), "radius", first.radius,
@@ -133,10 +129,9 @@ void check_symmetry(double gap, const Coupling& slide, const Coupling& roll) {
   if (difference > allowed)
     throw Error(
         ErrorKind::kBadInput,
-        fmt::format("at gap {} the matrix is not symmetric: slide_roll is {} by the torque of "
-                    "sliding and {} by the force of rolling; their error estimates allow a "
-                    "difference of {:.2g}",
-                    gap, slide.value, roll.value, allowed));
+        "at gap {} the matrix is not symmetric: slide_roll is {} by the torque of sliding and {} "
+        "by the force of rolling; their error estimates allow a difference of {:.2g}",
+        gap, slide.value, roll.value, allowed);
 }
 
 /// The table of slide_roll, from the tables of sliding and rolling (the mean of both values) or
@@ -157,10 +152,8 @@ EntryTable coupling_entry(const MotionTable& pair, const PairTables& tables) {
     const auto& others = roll->second.rows;
     const auto match = std::ranges::find(others, row.gap, &MotionRow::gap);
     if (match == others.end())
-      throw Error(
-          ErrorKind::kBadInput,
-          fmt::format("the table of rolling has no row at gap {}, which that of sliding has",
-                      row.gap));
+      throw Error(ErrorKind::kBadInput,
+                  "the table of rolling has no row at gap {}, which that of sliding has", row.gap);
     const auto other = coupling_of(pair, roll->second, *match);
     check_symmetry(row.gap, one, other);
     const double scale = std::sqrt(one.diagonal * other.diagonal);
@@ -181,11 +174,9 @@ EntryFit fit_entry(PairEntry which, const EntryTable& entry, const PairFitSettin
   one.loss = settings.loss;
   one.row_scales = entry.scales;
   one.shape = named.shape;
-  try {
-    return {fitting::fit_force_table(entry.table, one, stop), entry.theory};
-  } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}: {}", named.name, error.what()));
-  }
+  return with_place(std::string(named.name), [&] {
+    return EntryFit{fitting::fit_force_table(entry.table, one, stop), entry.theory};
+  });
 }
 
 }  // namespace

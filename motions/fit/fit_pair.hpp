@@ -6,7 +6,6 @@
 
 #include <map>
 #include <string>
-#include <string_view>
 
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/lubrication/motion_table.hpp"

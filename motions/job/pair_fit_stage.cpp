@@ -58,13 +58,12 @@ std::string reason_and_remedy(const fs::path& folder, const fs::path& file,
   const auto rerun = fmt::format("viscontact rerun {}", shell_word(file.string()));
   if (is_where_made(file))
     return fmt::format(
-        "because the tabulation of {} that made {} has not ended, or its table was "
-        "removed; '{}' completes it",
+        "because the tabulation of {} that made {} has not ended, or its table was removed; '{}' "
+        "completes it",
         motions, name, rerun);
   return fmt::format(
-      "although the tabulation that made {} was one of {}; {} was copied from "
-      "another folder, from which the rest can be copied, too, or "
-      "'{} -o {}' computes it",
+      "although the tabulation that made {} was one of {}; {} was copied from another folder, from "
+      "which the rest can be copied, too, or '{} -o {}' computes it",
       name, motions, name, rerun, shell_word(folder.string()));
 }
 
@@ -80,11 +79,10 @@ void check_complete(const fs::path& folder, const std::vector<fs::path>& files) 
       if (const auto table = table_of(folder, motion); !fs::exists(table))
         missing.push_back(table.filename().string());
     if (!missing.empty())
-      throw_bad_input(
-          {folder.string()},
-          fmt::format("lacks {}, {}, and tables that are named one by one are fitted as they are",
+      throw_bad_input({folder.string()},
+                      "lacks {}, {}, and tables that are named one by one are fitted as they are",
                       fmt::join(missing, ", "),
-                      reason_and_remedy(folder, file, comments["motions"])));
+                      reason_and_remedy(folder, file, comments["motions"]));
   }
 }
 
@@ -102,9 +100,8 @@ std::vector<fs::path> pair_table_files(const std::vector<std::string>& paths) {
       if (const auto file = table_of(path, motion.kind); fs::exists(file)) tables.push_back(file);
     if (tables.empty())
       throw Error(ErrorKind::kBadInput,
-                  fmt::format("{}: has none of the tables approach.csv, slide.csv, roll.csv and "
-                              "spin.csv",
-                              path));
+                  "{}: has none of the tables approach.csv, slide.csv, roll.csv and spin.csv",
+                  path);
     check_complete(path, tables);
     files.insert(files.end(), tables.begin(), tables.end());
   }
@@ -123,9 +120,8 @@ PairTables read_pair_tables(const std::vector<fs::path>& files) {
   for (const auto& file : files) {
     auto table = lubrication::read_motion_table(file);
     if (!tables.try_emplace(table.motion, table).second)
-      throw Error(
-          ErrorKind::kBadInput,
-          fmt::format("{}: is the second table of its motion; give one of each", file.string()));
+      throw Error(ErrorKind::kBadInput, "{}: is the second table of its motion; give one of each",
+                  file.string());
   }
   return tables;
 }
@@ -139,16 +135,16 @@ void fit_pair_stage(const std::vector<fs::path>& files, const fs::path& fit_path
   fit.versions = results::library_versions();
   for (const auto& [which, one] : fit.entries)
     for (const auto& warning : one.fit.diagnostics->warnings)
-      terminal::warn(fmt::format("fit: warning: {}: {}",
-                                 pair_entries()[static_cast<std::size_t>(which)].name, warning));
+      terminal::warn("fit: warning: {}: {}", pair_entries()[static_cast<std::size_t>(which)].name,
+                     warning);
   const std::string text = write_pair_fit(fit);
   if (results::has_content(fit_path, text)) {
-    terminal::say(fmt::format("fit: {} is up to date", fit_path.string()));
+    terminal::say("fit: {} is up to date", fit_path.string());
     return;
   }
   results::write_output(fit_path, TextKind::kJson, text, provenance);
-  terminal::say(fmt::format("fit: {} entries at gaps from {:.6g} to {:.6g}", fit.entries.size(),
-                            fit.gap_interval[0], fit.gap_interval[1]));
+  terminal::say("fit: {} entries at gaps from {:.6g} to {:.6g}", fit.entries.size(),
+                fit.gap_interval[0], fit.gap_interval[1]);
   for (const auto& [which, one] : fit.entries)
     terminal::say(words_of(pair_entries()[static_cast<std::size_t>(which)], one));
 }

@@ -12,15 +12,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <numeric>
 #include <optional>
 #include <variant>
-#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/splitmix.hpp"
-#include "viscontact/particles/domain/domain.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -356,15 +353,13 @@ std::vector<double> arrange(const Arrangement& asked, const Domain& domain,
   const auto* box = std::get_if<BoxDomain>(&domain);
   const int dimension = box == nullptr ? 2 : static_cast<int>(box->dimension());
   const auto refuse = [&](const std::string& why) {
-    throw Error(
-        ErrorKind::kBadInput,
-        fmt::format("{} {} of {} with gaps of at least {} do not fit ({}); they take {:.4g} of the "
-                    "{} of the domain; use fewer or smaller ones, or a smaller gap",
-                    radii.size(), dimension == 2 ? "discs" : "spheres",
-                    are_equal ? fmt::format("radius {}", largest)
-                              : fmt::format("radii {:.6g} to {:.6g}", smallest, largest),
-                    gap, why, size_of(asked, dimension) / size,
-                    dimension == 2 ? "area" : "volume"));
+    throw Error(ErrorKind::kBadInput,
+                "{} {} of {} with gaps of at least {} do not fit ({}); they take {:.4g} of the {} "
+                "of the domain; use fewer or smaller ones, or a smaller gap",
+                radii.size(), dimension == 2 ? "discs" : "spheres",
+                are_equal ? fmt::format("radius {}", largest)
+                          : fmt::format("radii {:.6g} to {:.6g}", smallest, largest),
+                gap, why, size_of(asked, dimension) / size, dimension == 2 ? "area" : "volume");
   };
   // The largest particles are placed first. Particles of equal radius keep their order.
   std::vector<std::size_t> order(radii.size());

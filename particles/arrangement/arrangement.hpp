@@ -4,7 +4,6 @@
 // for bit, because users repeat runs by their seeds.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

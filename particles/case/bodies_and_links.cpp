@@ -26,10 +26,10 @@ void check_members(const case_file::TomlSection& section, const std::vector<std:
     section.require(std::find(members.begin(), member, *member) == member, "particles",
                     "contains particle {} a second time", id);
     const auto body = c.particles.bodies.body_of(*member);
-    section.require(body < 0, "particles",
-                    "contains particle {}, which belongs to body {}; a particle can belong to one "
-                    "body only",
-                    id, body);
+    section.require(
+        body < 0, "particles",
+        "contains particle {}, which belongs to body {}; a particle can belong to one body only",
+        id, body);
     section.require(
         std::ranges::none_of(c.setting.links.membranes,
                              [&](const Membrane& membrane) { return membrane.has(*member); }),
@@ -42,20 +42,20 @@ void check_members(const case_file::TomlSection& section, const std::vector<std:
   // In a periodic domain the images that make the body must not depend on the order of the members.
   if (const auto ambiguous = ambiguous_images(c.particles, members))
     section.fail("particles",
-                 fmt::format("do not determine which of their images make the body: along {} the "
-                             "largest distance between neighbouring centres, {:.6g}, occurs more "
-                             "than once; it must occur once, because the body ends there",
-                             kAxes[ambiguous->axis], ambiguous->distance));
+                 "do not determine which of their images make the body: along {} the largest "
+                 "distance between neighbouring centres, {:.6g}, occurs more than once; it must "
+                 "occur once, because the body ends there",
+                 kAxes[ambiguous->axis], ambiguous->distance);
 }
 
 /// Throws if a body is so large that it could touch its own periodic image.
 void check_fits(const case_file::TomlSection& section, const ParticlesCase& c) {
   const double diameter = particles::diameter(c.particles.bodies.bodies.back(), c.particles);
   for (const double period : c.particles.cell.lengths)
-    section.require(!(period > 0) || diameter < period, "particles",
-                    "make a body of diameter {:.6g}; it must be smaller than the period of the "
-                    "domain, {:.6g}",
-                    diameter, period);
+    section.require(
+        !(period > 0) || diameter < period, "particles",
+        "make a body of diameter {:.6g}; it must be smaller than the period of the domain, {:.6g}",
+        diameter, period);
 }
 
 void body_keys(case_file::Keys& keys, RigidBodyRequest& body, const ParticlesCase& c,
@@ -71,10 +71,9 @@ void body_keys(case_file::Keys& keys, RigidBodyRequest& body, const ParticlesCas
                 {"the centre of mass is that of the particles, the mean of their centres if they "
                  "have no mass",
                  "sum of the masses of the particles", words});
-  keys.require(
-      c.particles.dimension != 3 || !keys.has("moment_of_inertia"), "moment_of_inertia",
-      "must be left out, because the moments of inertia of a body in space follow from its "
-      "particles");
+  keys.require(c.particles.dimension != 3 || !keys.has("moment_of_inertia"), "moment_of_inertia",
+               "must be left out, because the moments of inertia of a body in space follow from "
+               "its particles");
   keys.optional(
       "moment_of_inertia", case_file::number(body.moment_of_inertia, positive),
       {"about the centre of mass, in 2D only",
@@ -130,10 +129,10 @@ void hinge_keys(case_file::Keys& keys, HingeTable& hinge, const ParticlesCase& c
   for (const auto* key : {"lowest_angle", "highest_angle"})
     keys.require(c.particles.dimension != 3 || !keys.has(key), key,
                  "must be left out, because stops are for discs");
-  keys.optional("lowest_angle", case_file::number(hinge.lowest, kModerate),
-                {"in 2D: a [stop](particles.md#rigid-bodies-and-links), below which the angle does "
-                 "not fall",
-                 "none"});
+  keys.optional(
+      "lowest_angle", case_file::number(hinge.lowest, kModerate),
+      {"in 2D: a [stop](particles.md#rigid-bodies-and-links), below which the angle does not fall",
+       "none"});
   keys.optional("highest_angle", case_file::number(hinge.highest, kModerate),
                 {"in 2D: a stop, above which the angle does not rise", "none"});
   keys.require(!hinge.lowest || !hinge.highest || *hinge.lowest < *hinge.highest, "lowest_angle",
@@ -192,10 +191,10 @@ void read_ends(const case_file::TomlSection& section, std::string_view key,
   section.require(ends.size() == 2 && ends[0] != ends[1], key,
                   "is {}; it must contain the ids of two different particles", section.shown(key));
   const auto id = [&](std::int32_t k) { return c.particles.id(index_of(k)); };
-  section.require(!c.particles.bodies.are_one(ends[0], ends[1]), key,
-                  "names particles {} and {}, which both belong to body {} and keep their distance "
-                  "anyway",
-                  id(ends[0]), id(ends[1]), c.particles.bodies.body_of(ends[0]));
+  section.require(
+      !c.particles.bodies.are_one(ends[0], ends[1]), key,
+      "names particles {} and {}, which both belong to body {} and keep their distance anyway",
+      id(ends[0]), id(ends[1]), c.particles.bodies.body_of(ends[0]));
   section.require(
       !c.setting.given_motions.contains(ends[0]) || !c.setting.given_motions.contains(ends[1]), key,
       "names two particles whose motions are given; at least one must be free");
@@ -238,11 +237,11 @@ void pieces_of_length_keys(case_file::Keys& keys, PiecewiseLinearLength& pieces)
   keys.required("pieces",
                 case_file::custom("`[ [time, length], ... ]`", read_points_of_length, pieces),
                 {"linear between times that rise from 0, and constant after the last one"});
-  const bool has_period = keys.optional(
-      "period", case_file::number(pieces.period, kModeratelyPositive),
-      {"at least the last time of `pieces`: they repeat, and from the last time to the end of a "
-       "period the length goes linearly back to the first one",
-       "none"});
+  const bool has_period =
+      keys.optional("period", case_file::number(pieces.period, kModeratelyPositive),
+                    {"at least the last time of `pieces`: they repeat, and from the last time to "
+                     "the end of a period the length goes linearly back to the first one",
+                     "none"});
   if (!has_period) return;
   const auto last = pieces.points.back();
   keys.require(last[0] <= pieces.period, "period",
@@ -285,16 +284,16 @@ void read_length_of_arm(const case_file::TomlSection& section, std::string_view 
 void arm_of_particles_keys(case_file::Keys& keys, Arm& arm, const ParticlesCase& c,
                            const ParticleIds& ids) {
   std::array<std::int32_t, 2> ends{};
-  keys.required("between", case_file::custom("ids of two particles", read_ends, ends, c, ids),
-                {"whose centres the arm keeps at a distance; not of one body, and one arm for each "
-                 "pair"});
+  keys.required(
+      "between", case_file::custom("ids of two particles", read_ends, ends, c, ids),
+      {"whose centres the arm keeps at a distance; not of one body, and one arm for each pair"});
   arm.first = ends[0];
   arm.second = ends[1];
   keys.required(
       "length",
-      case_file::custom("a number, `{ pieces, period }` or `{ mean, amplitude, angular_frequency, "
-                        "phase }`",
-                        read_length_of_arm, arm.length),
+      case_file::custom(
+          "a number, `{ pieces, period }` or `{ mean, amplitude, angular_frequency, phase }`",
+          read_length_of_arm, arm.length),
       {"the distance, which at time 0 is that of the particles"});
 }
 
@@ -348,8 +347,7 @@ void check_triangle(std::span<const case_file::TomlSection> sections, const Part
     const auto length = [&](std::size_t side) { return length_at(of[side]->length, time); };
     sections[sides[0]].require(length(0) <= (1 + kRounding) * (length(1) + length(2)), "length",
                                "is {:.9g} at time {:.9g}, more than the sum {:.9g} of the arms {} "
-                               "and {}; these three arms "
-                               "cannot meet in a triangle",
+                               "and {}; these three arms cannot meet in a triangle",
                                length(0), time, length(1) + length(2), arm_in_words(c, *of[1]),
                                arm_in_words(c, *of[2]));
   }
@@ -385,10 +383,9 @@ void check_arms(std::span<const case_file::TomlSection> sections, const Particle
 void read_bodies(const case_file::TomlSection& root, ParticlesCase& c) {
   if (!root.has("body")) return;
   if (c.particles.dimension == 1)
-    root.sections("body").front().fail(
-        "particles",
-        "belong to a body on an axis; spheres on an axis are held together by an "
-        "[[arm]] of constant length");
+    root.sections("body").front().fail("particles",
+                                       "belong to a body on an axis; spheres on an axis are held "
+                                       "together by an [[arm]] of constant length");
   c.particles.cell = cell_of(c.setting);
   const ParticleIds ids(c);
   for (const auto& section : root.sections("body")) {
@@ -405,9 +402,8 @@ void read_links(const case_file::TomlSection& root, ParticlesCase& c) {
   auto& links = c.setting.links;
   if (root.has("hinge")) {
     if (c.particles.dimension == 1)
-      root.sections("hinge").front().fail("at",
-                                          "belongs to a hinge on an axis, where nothing "
-                                          "turns; fixed = true holds a sphere");
+      root.sections("hinge").front().fail(
+          "at", "belongs to a hinge on an axis, where nothing turns; fixed = true holds a sphere");
     if (!c.setting.fluid) add_rotation(c.particles);
     for (const auto& section : root.sections("hinge"))
       links.hinges.push_back(read_hinge(section, c, ids));

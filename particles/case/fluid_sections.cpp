@@ -65,13 +65,11 @@ void domain_keys(case_file::Keys& keys, Domain& domain, int dimension) {
   keys.optional(
       "disc", case_file::custom("`{ centre, radius }`", read_shape<DiscDomain, disc_keys>, domain),
       {"the inside of a circle, for discs. Its wall has the number -1"});
-  keys.optional(
-      "box", case_file::custom("`{ from, to, periodic }`", read_box, domain, dimension),
-      {"a rectangle between two corners, for discs, or a cuboid, for spheres. Its walls have the "
-       "numbers -1, -2, ... in the order left, right (across x), bottom, top (across y), for "
-       "spheres "
-       "left, right, front, back (across y), bottom, top (across z); periodic sides have no "
-       "number"});
+  keys.optional("box", case_file::custom("`{ from, to, periodic }`", read_box, domain, dimension),
+                {"a rectangle between two corners, for discs, or a cuboid, for spheres. Its walls "
+                 "have the numbers -1, -2, ... in the order left, right (across x), bottom, top "
+                 "(across y), for spheres left, right, front, back (across y), bottom, top (across "
+                 "z); periodic sides have no number"});
   keys.optional(
       "cylinder",
       case_file::custom("`{ radius, height }`", read_shape<CylinderDomain, cylinder_keys>, domain),
@@ -89,9 +87,8 @@ void check_shape(const case_file::TomlSection& section, int dimension) {
   for (const auto& shape : kShapes) {
     if (!section.has(shape.first)) continue;
     if (given != nullptr)
-      section.fail(shape.first, fmt::format("must be left out, because {} is given; a case has one "
-                                            "domain",
-                                            given->first));
+      section.fail(shape.first, "must be left out, because {} is given; a case has one domain",
+                   given->first);
     given = &shape;
   }
   section.finish();
@@ -134,10 +131,9 @@ void side_keys(case_file::Keys& keys, WallVelocity& wall) {
       {"velocity of the whole side", "one of both is required", "`[u, v]`, or pieces"});
   keys.require(is_parabola != is_constant, "parabolic",
                "and constant exclude each other; a table of a side must have one of them");
-  keys.optional(
-      "period", case_file::number(wall.period, kModeratelyPositiveOr0),
-      {"if it is > 0, the velocity is multiplied by 1 + `amplitude` sin(2 pi t/`period`); "
-       "needs `density`"});
+  keys.optional("period", case_file::number(wall.period, kModeratelyPositiveOr0),
+                {"if it is > 0, the velocity is multiplied by 1 + `amplitude` sin(2 pi "
+                 "t/`period`); needs `density`"});
   keys.optional("amplitude", case_file::number(wall.amplitude, kModerate), {"see `period`"});
   keys.require(wall.period > 0 || !keys.has("amplitude"), "amplitude",
                "has no effect without a period > 0");
@@ -161,9 +157,10 @@ void read_side(const case_file::TomlSection& section, std::string_view side, Wal
     read_vector(section, side, velocity, 2);
     wall.value = {velocity[0], velocity[1]};
   } else {
-    section.fail(side, fmt::format("is {}; it must be a velocity [u, v], \"open\", or a table {{ "
-                                   "parabolic = SPEED }} or {{ constant = VELOCITY }}",
-                                   section.shown(side)));
+    section.fail(side,
+                 "is {}; it must be a velocity [u, v], \"open\", or a table {{ parabolic = SPEED "
+                 "}} or {{ constant = VELOCITY }}",
+                 section.shown(side));
   }
 }
 
@@ -252,12 +249,12 @@ void check_periods(const case_file::TomlSection& section, const char* key, bool 
   const auto* box = std::get_if<BoxDomain>(&domain);
   if (box == nullptr || box->periodic[0] == box->periodic[1]) return;
   if (is_shear && box->periodic[0]) return;
-  section.fail(
-      key, fmt::format("does not fit a box that is periodic along {} only, because the velocity "
-                       "{} of its walls is not the same on both sides of the period; {}",
-                       box->periodic[0] ? "x" : "y", is_shear ? "(s y, 0)" : "(s x, -s y)",
-                       is_shear ? "the box may be periodic along x, both ways or not at all"
-                                : "the box may be periodic both ways or not at all"));
+  section.fail(key,
+               "does not fit a box that is periodic along {} only, because the velocity {} of its "
+               "walls is not the same on both sides of the period; {}",
+               box->periodic[0] ? "x" : "y", is_shear ? "(s y, 0)" : "(s x, -s y)",
+               is_shear ? "the box may be periodic along x, both ways or not at all"
+                        : "the box may be periodic both ways or not at all");
 }
 
 void read_velocity(const case_file::TomlSection& fluid, std::string_view key, const Domain& domain,
@@ -315,13 +312,13 @@ void inertia_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
       "advection",
       case_file::one_of(fluid.advection, {{"semi_implicit", Advection::kSemiImplicit},
                                           {"characteristics", Advection::kCharacteristics}}),
-      {"how the fluid carries its velocity along: in the linear problem, with the "
-       "velocity extrapolated from the steps before, or by the lecture's characteristics"});
+      {"how the fluid carries its velocity along: in the linear problem, with the velocity "
+       "extrapolated from the steps before, or by the lecture's characteristics"});
   keys.optional(
       "start",
       case_file::one_of(fluid.start, {{"rest", FlowStart::kRest}, {"stokes", FlowStart::kStokes}}),
-      {"the flow at time 0: at rest, or the Stokes flow around particles that move "
-       "without inertia, and therefore must have no `velocity`"});
+      {"the flow at time 0: at rest, or the Stokes flow around particles that move without "
+       "inertia, and therefore must have no `velocity`"});
   const bool has_gradient =
       keys.optional("pressure_gradient",
                     case_file::custom("`[NUMBER, NUMBER]`, or `{ value, period, amplitude }`",
@@ -374,12 +371,12 @@ void fluid_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
   keys.optional(
       "mesh",
       case_file::one_of(fluid.mesh, {{"fitted", FluidMesh::kFitted}, {"fixed", FluidMesh::kFixed}}),
-      {"whether the mesh follows the particles, with curved edges, or does not know them "
-       "(not with `constraint = \"rigid\"`)"});
-  keys.require(
-      fluid.mesh != FluidMesh::kFixed || fluid.constraint != RigidConstraint::kRigid, "mesh",
-      "is 'fixed'; it must be \"fitted\" with constraint = \"rigid\", because the velocity "
-      "of a rigid body can be set only at nodes on its surface");
+      {"whether the mesh follows the particles, with curved edges, or does not know them (not with "
+       "`constraint = \"rigid\"`)"});
+  keys.require(fluid.mesh != FluidMesh::kFixed || fluid.constraint != RigidConstraint::kRigid,
+               "mesh",
+               "is 'fixed'; it must be \"fitted\" with constraint = \"rigid\", because the "
+               "velocity of a rigid body can be set only at nodes on its surface");
   keys.optional("edges_per_particle", case_file::count(fluid.edges_per_particle, 6, 400),
                 {"edges of the mesh on the circumference of the smallest particle"});
   keys.optional("coupling",
@@ -387,19 +384,18 @@ void fluid_keys(case_file::Keys& keys, Fluid& fluid, const Domain& domain) {
                                                    {"splitting", Coupling::kSplitting}}),
                 {"contact forces act in the problem of the fluid, or the velocities that the fluid "
                  "gives are projected (masses must be > 0)"});
-  keys.optional(
-      "threshold_gap", case_file::number(fluid.threshold_gap, kGap),
-      {"gap at which contact is made. Rough solids touch at the gap 2 `roughness`: a "
-       "smaller value is an error, and the default is at least this gap",
-       "0.05 of the smallest radius or semi-axis, or half of the smallest gap at the start "
-       "if this is smaller"});
+  keys.optional("threshold_gap", case_file::number(fluid.threshold_gap, kGap),
+                {"gap at which contact is made. Rough solids touch at the gap 2 `roughness`: a "
+                 "smaller value is an error, and the default is at least this gap",
+                 "0.05 of the smallest radius or semi-axis, or half of the smallest gap at the "
+                 "start if this is smaller"});
   keys.optional("solver", case_file::texts(fluid.solver),
                 {"command of a [fluid solver of your own](fluid-solver.md) in place of FreeFEM. A "
                  "text with the name of a file is relative to the case file; a first text without "
                  "a slash is a program on PATH"});
-  keys.require(fluid.solver.empty() || !fluid.solver.front().empty(), "solver",
-               "begins with an empty text; it must be a list with the name of a program and its "
-               "arguments");
+  keys.require(
+      fluid.solver.empty() || !fluid.solver.front().empty(), "solver",
+      "begins with an empty text; it must be a list with the name of a program and its arguments");
   keys.optional("velocity", case_file::custom("a table, see below", read_velocity, domain, fluid),
                 {"velocity of the walls", "at rest"});
   check_inertia(keys, fluid, domain);
@@ -434,9 +430,9 @@ void probe_keys(case_file::Keys& keys, Probe& probe, const Domain& domain) {
                "name", "is '{}'; it must consist of letters, digits, _ and -", probe.name);
   Vector from{}, to{};
   keys.required("from", vector(from, 2), {"a point on a wall of the box"});
-  keys.required("to", vector(to, 2),
-                {"a point on another wall. A flow to the right of the way from `from` to `to` is "
-                 "positive"});
+  keys.required(
+      "to", vector(to, 2),
+      {"a point on another wall. A flow to the right of the way from `from` to `to` is positive"});
   probe.from = {from[0], from[1]};
   probe.to = {to[0], to[1]};
   if (!keys.reads()) return;
@@ -460,9 +456,9 @@ void probe_keys(case_file::Keys& keys, Probe& probe, const Domain& domain) {
                from[0], from[1]);
   keys.require(second >= 0, "to", "is ({}, {}), which is on no wall of the box; it must be on one",
                to[0], to[1]);
-  keys.require(first != second, "to",
-               "is on the same wall as from; the line must go across the channel, from one wall to "
-               "another");
+  keys.require(
+      first != second, "to",
+      "is on the same wall as from; the line must go across the channel, from one wall to another");
 }
 
 }  // namespace
@@ -477,9 +473,9 @@ void read_probes(const case_file::TomlSection& root, const Domain& domain,
                     "belongs to a channel; the domain must be a box");
     section.require(fluid->solver.empty(), "name",
                     "needs FreeFEM; fluid.solver must be left out in a case with probes");
-    section.require(!root.has("membrane"), "name",
-                    "must be left out, because the case has membranes, beside which nothing is "
-                    "probed");
+    section.require(
+        !root.has("membrane"), "name",
+        "must be left out, because the case has membranes, beside which nothing is probed");
     Probe probe;
     case_file::read_keys(section, probe_keys, probe, domain);
     for (const auto& other : fluid->probes)

@@ -58,8 +58,8 @@ bool may_overlap(const ParticlesCase& c, std::size_t k, std::size_t other) {
 bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size_t k,
                    std::size_t other) {
   const auto fail = [&](std::string_view why) {
-    throw_bad_input(names.at(k), fmt::format("{} and {} of one body overlap so that {}",
-                                             names(other), names(k), why));
+    throw_bad_input(names.at(k), "{} and {} of one body overlap so that {}", names(other), names(k),
+                    why);
   };
   if (!chord_of(c.particles, k, other))
     fail("one of them is inside the other one, where it must be left out");
@@ -71,11 +71,10 @@ bool check_overlap(const ParticlesCase& c, const ParticleNames& names, std::size
     const double turn = i + 1 < chords.size() ? 0 : 2 * std::numbers::pi;
     const double arc = after.middle - after.half + turn - before.middle - before.half;
     if (arc < 0)
-      fail(
-          fmt::format("{} has a part in common with both {} and {}, and each two of the three "
-                      "circles meet outside the third one, which the mesh does not join; move one "
-                      "of them or leave it out",
-                      names(k), names(before.other), names(after.other)));
+      fail(fmt::format(
+          "{} has a part in common with both {} and {}, and each two of the three circles meet "
+          "outside the third one, which the mesh does not join; move one of them or leave it out",
+          names(k), names(before.other), names(after.other)));
     if (arc < kLeastArc)
       fail(
           fmt::format("less than one degree of the circle of {} is between two of the others; the "
@@ -102,8 +101,7 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
       !(p.bodies.empty() && c.setting.links.empty()))
     root.section("fluid").fail(
         "coupling",
-        "is 'splitting', which does not know rigid bodies and links; it must "
-        "be \"constrained\"");
+        "is 'splitting', which does not know rigid bodies and links; it must be \"constrained\"");
   for (std::size_t b = 0; b < p.bodies.count(); ++b) {
     const auto& body = p.bodies.bodies[b];
     const auto masses = member_masses(body, p);
@@ -122,36 +120,34 @@ void check_bodies(const case_file::TomlSection& root, const ParticlesCase& c,
                                           outline_of(*c.setting.fluid, p, p.angles, other, shift));
         if (gap < 0 && norm(shift) > 0)
           throw_bad_input(names.at(k),
-                          fmt::format("{} and {} of one body overlap across a side of the period, "
-                                      "where the mesh does not join them; another origin of the "
-                                      "period avoids this",
-                                      names(other), names(k)));
+                          "{} and {} of one body overlap across a side of the period, where the "
+                          "mesh does not join them; another origin of the period avoids this",
+                          names(other), names(k));
         const double needed = kLeastGapOfMesh * std::min(p.radii[k], p.radii[other]);
         if (gap < 0 && may_overlap(c, k, other)) {
           check_overlap(c, names, other, k);
           if (!check_overlap(c, names, k, other)) continue;
           if (union_of[m] == union_of[n])
-            throw_bad_input(names.at(k), fmt::format("{} closes a ring of particles that overlap, "
-                                                     "in which fluid would be enclosed",
-                                                     names(k)));
+            throw_bad_input(
+                names.at(k),
+                "{} closes a ring of particles that overlap, in which fluid would be enclosed",
+                names(k));
           std::ranges::replace(union_of, std::size_t(union_of[m]), std::size_t(union_of[n]));
           continue;
         }
         if (gap < needed)
           throw_bad_input(names.at(k),
-                          fmt::format("{} and {} have a gap of {:.3g}; in a fluid the particles of "
-                                      "a body must keep a gap of at least a thousandth of the "
-                                      "smaller radius, {:.3g}, because the mesh has fluid between "
-                                      "them; with fluid.constraint = \"rigid\" and the fitted mesh "
-                                      "discs may also overlap",
-                                      names(other), names(k), gap, needed));
+                          "{} and {} have a gap of {:.3g}; in a fluid the particles of a body must "
+                          "keep a gap of at least a thousandth of the smaller radius, {:.3g}, "
+                          "because the mesh has fluid between them; with fluid.constraint = "
+                          "\"rigid\" and the fitted mesh discs may also overlap",
+                          names(other), names(k), gap, needed);
       }
     }
-    root.sections("body")[b].require(
-        body.inertia[8] >= least, "moment_of_inertia",
-        "is {}; in a fluid it must be at least that of the masses of the body's particles at their "
-        "centres, {:.6g}",
-        body.inertia[8], least);
+    root.sections("body")[b].require(body.inertia[8] >= least, "moment_of_inertia",
+                                     "is {}; in a fluid it must be at least that of the masses of "
+                                     "the body's particles at their centres, {:.6g}",
+                                     body.inertia[8], least);
   }
   for (std::size_t a = 0; a < c.setting.links.arms.size(); ++a) {
     const auto& arm = c.setting.links.arms[a];
@@ -170,31 +166,28 @@ void check_masses(const case_file::TomlSection& root, const ParticlesCase& c,
   for (std::size_t k = 0; k < c.particles.count(); ++k)
     if (c.setting.laws.restitution.is_on() && c.particles.masses[k] == 0 &&
         !is_driven(c, static_cast<std::int32_t>(k)))
-      throw_bad_input(names.at(k),
-                      fmt::format("{} has no mass, and the case has viscous_contact.restitution: "
-                                  "without a mass nothing rebounds; it must have a density (or "
-                                  "mass) > 0, or the restitution must be left out",
-                                  names(k)));
+      throw_bad_input(
+          names.at(k),
+          "{} has no mass, and the case has viscous_contact.restitution: without a mass nothing "
+          "rebounds; it must have a density (or mass) > 0, or the restitution must be left out",
+          names(k));
   if (c.setting.fluid->coupling != Coupling::kSplitting) return;
   for (std::size_t k = 0; k < c.particles.count(); ++k)
     if (c.particles.masses[k] == 0 && !is_driven(c, static_cast<std::int32_t>(k)))
-      root.section("fluid").fail(
-          "coupling",
-          fmt::format("is 'splitting', which needs masses > 0, because the velocities are "
-                      "projected in the norm of the masses, but the mass of {} is 0; it must be "
-                      "\"constrained\", or the particle must have a mass",
-                      names(k)));
+      root.section("fluid").fail("coupling",
+                                 "is 'splitting', which needs masses > 0, because the velocities "
+                                 "are projected in the norm of the masses, but the mass of {} is "
+                                 "0; it must be \"constrained\", or the particle must have a mass",
+                                 names(k));
   // With Coupling::kSplitting the turn of a particle by friction is computed from its moment of
   // inertia, without the fluid.
   for (std::size_t k = 0; k < c.particles.count() && c.setting.laws.friction; ++k)
     if (c.particles.inertias[k] == 0 && !is_driven(c, static_cast<std::int32_t>(k)))
       root.section("fluid").fail(
           "coupling",
-          fmt::format(
-              "is 'splitting', with which friction turns particles by their moments of "
-              "inertia alone, but that of {} is 0; it must be \"constrained\", or the moment "
-              "of inertia must be > 0",
-              names(k)));
+          "is 'splitting', with which friction turns particles by their moments of inertia alone, "
+          "but that of {} is 0; it must be \"constrained\", or the moment of inertia must be > 0",
+          names(k));
 }
 
 /// Throws if ellipses, plates or overlapping discs are in a case with a fluid solver of the user's
@@ -206,20 +199,18 @@ void check_ellipses(const case_file::TomlSection& root, const ParticlesCase& c,
                                 "is a program of the user's own, which knows discs only; it must "
                                 "be left out, because discs of a body overlap");
   for (std::size_t k = 0; k < fluid.semi_axes.size(); ++k) {
-    root.section("fluid").require(
-        fluid.solver.empty() || !fluid.is_plate(k), "solver",
-        "is a program of the user's own, which knows discs only; it must be left out, because {} "
-        "is a plate",
-        names(k));
+    root.section("fluid").require(fluid.solver.empty() || !fluid.is_plate(k), "solver",
+                                  "is a program of the user's own, which knows discs only; it must "
+                                  "be left out, because {} is a plate",
+                                  names(k));
     if (!fluid.is_ellipse(k)) continue;
     if (!c.particles.bodies.empty() || !c.setting.links.empty())
-      throw_bad_input(names.at(k), fmt::format("{} is an ellipse; the particles of a case with "
-                                               "bodies or links must be discs",
-                                               names(k)));
+      throw_bad_input(
+          names.at(k),
+          "{} is an ellipse; the particles of a case with bodies or links must be discs", names(k));
     root.section("fluid").require(fluid.solver.empty(), "solver",
                                   "is a program of the user's own, which knows discs only; it must "
-                                  "be left out, because {} is "
-                                  "an ellipse",
+                                  "be left out, because {} is an ellipse",
                                   names(k));
   }
 }
@@ -238,26 +229,23 @@ void check_inertia(const case_file::TomlSection& root, const ParticlesCase& c,
     if (!(p.masses[k] > 0))
       throw_bad_input(
           names.at(k),
-          fmt::format("{} has no mass; in a fluid with a density it must have a density "
-                      "(or mass) > 0",
-                      names(k)));
+          "{} has no mass; in a fluid with a density it must have a density (or mass) > 0",
+          names(k));
     const bool turns = !p.angular_velocities.empty() && p.angular_velocities[k] != 0;
     if (fluid.start == FlowStart::kStokes && (norm(p.velocity(k)) > 0 || turns))
       throw_bad_input(names.at(k),
-                      fmt::format("{} has a velocity at time 0, which has no effect with "
-                                  "fluid.start = \"stokes\": the Stokes flow of the first instant "
-                                  "gives the particle its velocity; the velocity must be left out, "
-                                  "or fluid.start be \"rest\"",
-                                  names(k)));
+                      "{} has a velocity at time 0, which has no effect with fluid.start = "
+                      "\"stokes\": the Stokes flow of the first instant gives the particle its "
+                      "velocity; the velocity must be left out, or fluid.start be \"rest\"",
+                      names(k));
     if (fluid.constraint == RigidConstraint::kRigid || p.inertias.empty()) continue;
     const double uniform = fluid.homogeneous_inertia_of(k, p.masses[k], p.radii[k]);
     if (std::abs(p.inertias[k] - uniform) > kRounding * uniform)
       throw_bad_input(
           names.at(k),
-          fmt::format("{} has the moment of inertia {}; in a fluid with a density and "
-                      "constraint = \"penalty\" it must be that of a uniform particle, {}, "
-                      "or the constraint \"rigid\"",
-                      names(k), p.inertias[k], uniform));
+          "{} has the moment of inertia {}; in a fluid with a density and constraint = \"penalty\" "
+          "it must be that of a uniform particle, {}, or the constraint \"rigid\"",
+          names(k), p.inertias[k], uniform);
   }
   if (fluid.constraint == RigidConstraint::kRigid) return;
   for (std::size_t b = 0; b < p.bodies.count(); ++b) {
@@ -286,10 +274,9 @@ void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) 
     const double radius = c.particles.radii[k], gap = cylinder->radius - radius;
     if (gap < kLeastGapOfMesh * radius)
       throw_bad_input(names.at(k),
-                      fmt::format("{} has a gap of {:.3g} to the side of the cylinder, which the "
-                                  "mesh does not resolve; it must be at least a thousandth of the "
-                                  "radius, {:.3g}",
-                                  names(k), gap, kLeastGapOfMesh * radius));
+                      "{} has a gap of {:.3g} to the side of the cylinder, which the mesh does not "
+                      "resolve; it must be at least a thousandth of the radius, {:.3g}",
+                      names(k), gap, kLeastGapOfMesh * radius);
   }
 }
 
@@ -327,14 +314,14 @@ void check_arrangement(const case_file::TomlSection& root, const ParticlesCase& 
                   "smallest_gap",
                   "is {}; it must be at least fluid.threshold_gap, {}, at which contact is made",
                   gap, fluid.threshold_gap);
-  section.require(gap >= gap_of_solids(c), "smallest_gap",
-                  "is {}; it must be at least twice viscous_contact.roughness, {}, at which the "
-                  "solids touch",
-                  gap, gap_of_solids(c));
-  section.require(fluid.mesh != FluidMesh::kFitted || gap >= least, "smallest_gap",
-                  "is {}; it must be at least a thousandth of the radius, {:.3g}, which the mesh "
-                  "resolves",
-                  gap, least);
+  section.require(
+      gap >= gap_of_solids(c), "smallest_gap",
+      "is {}; it must be at least twice viscous_contact.roughness, {}, at which the solids touch",
+      gap, gap_of_solids(c));
+  section.require(
+      fluid.mesh != FluidMesh::kFitted || gap >= least, "smallest_gap",
+      "is {}; it must be at least a thousandth of the radius, {:.3g}, which the mesh resolves", gap,
+      least);
 }
 
 void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGap& at) {
@@ -347,21 +334,19 @@ void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGa
                              : obstacle_name(c, static_cast<std::size_t>(-1 - at.first));
   const bool is_plane = !is_pair && other.starts_with("plane");
   if (fluid.mesh == FluidMesh::kFitted && !is_plane && at.gap < kLeastGapOfMesh * radius)
-    throw_bad_input(
-        names.at(j),
-        fmt::format("{} and {} have a gap of {:.3g} at the start, which the mesh does not resolve; "
+    throw_bad_input(names.at(j),
+                    "{} and {} have a gap of {:.3g} at the start, which the mesh does not resolve; "
                     "it must be at least a thousandth of the smaller radius, {:.3g}",
-                    other, names(j), at.gap, kLeastGapOfMesh * radius));
+                    other, names(j), at.gap, kLeastGapOfMesh * radius);
   const double allowed = c.setting.solver.tolerance * mean_radius(p);
   if (at.gap < fluid.threshold_gap - allowed &&
       !(is_driven(c, at.first) && is_driven(c, at.second)))
-    throw_bad_input(
-        names.at(j),
-        fmt::format("{} and {} have a gap of {:.3g} at the start, less than fluid.threshold_gap, "
+    throw_bad_input(names.at(j),
+                    "{} and {} have a gap of {:.3g} at the start, less than fluid.threshold_gap, "
                     "{:.3g}, at which contact is made; the gap must be larger or {} smaller",
                     other, names(j), at.gap, fluid.threshold_gap,
                     fluid.threshold_gap > gap_of_solids(c) ? "fluid.threshold_gap"
-                                                           : "viscous_contact.roughness"));
+                                                           : "viscous_contact.roughness");
 }
 
 /// The largest limit up to `asked` [L] that gaps_at_start() accepts.
@@ -388,10 +373,10 @@ void check_penalty(const case_file::TomlSection& root, const ParticlesCase& c) {
     return;
   root.section("fluid").fail(
       "penalty",
-      fmt::format("is {}; in a case with bodies or links it must be at least {}, because "
-                  "the forces that hold them follow from velocities with rounding errors "
-                  "of 1e-15/penalty. constraint = \"rigid\" has no penalty",
-                  fluid.penalty, kLeast));
+      "is {}; in a case with bodies or links it must be at least {}, because the forces that hold "
+      "them follow from velocities with rounding errors of 1e-15/penalty. constraint = \"rigid\" "
+      "has no penalty",
+      fluid.penalty, kLeast);
 }
 
 }  // namespace
@@ -420,11 +405,10 @@ void check_fluid_start(const case_file::TomlSection& root, const ParticlesCase& 
         "makes each side open that is not periodic, so that nothing balances the forces on the "
         "particles; at least one side must be a wall, or the motion of a particle must be given");
   check_mean_flow(root, c);
-  root.section("fluid").require(
-      c.setting.fluid->threshold_gap >= gap_of_solids(c), "threshold_gap",
-      "is {}; it must be at least twice viscous_contact.roughness, {}, because the solids touch at "
-      "that gap",
-      c.setting.fluid->threshold_gap, gap_of_solids(c));
+  root.section("fluid").require(c.setting.fluid->threshold_gap >= gap_of_solids(c), "threshold_gap",
+                                "is {}; it must be at least twice viscous_contact.roughness, {}, "
+                                "because the solids touch at that gap",
+                                c.setting.fluid->threshold_gap, gap_of_solids(c));
   check_arrangement(root, c);
   check_penalty(root, c);
   check_bodies(root, c, names);

@@ -91,8 +91,7 @@ void read_mass(case_file::Keys& keys, ParticleTable& p, int dimension, bool in_f
   double density = 0;
   const bool has_density = keys.optional(
       "density", case_file::number(density, kModeratelyPositiveOr0),
-      {"in place of `mass`: mass of the disc over its area, or of the sphere over its "
-       "volume",
+      {"in place of `mass`: mass of the disc over its area, or of the sphere over its volume",
        "from `mass`"});
   keys.require(!has_density || density > 0 || in_fluid, "density",
                "is 0; a particle without a fluid must have a mass");
@@ -127,19 +126,19 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
     p.is_fixed = section.truth(key);
   };
   if (keys.reads()) check_keys(keys.section(), dimension, in_fluid);
-  keys.optional("fixed", case_file::custom("`true` or `false`", read_fixed),
-                {"[in a fluid](#particles-in-a-fluid): whether the particle is at rest, whatever "
-                 "acts on it",
-                 "`false`"});
+  keys.optional(
+      "fixed", case_file::custom("`true` or `false`", read_fixed),
+      {"[in a fluid](#particles-in-a-fluid): whether the particle is at rest, whatever acts on it",
+       "`false`"});
   keys.optional("velocity_given",
                 case_file::custom("`{ value, angular_velocity }`", read_given_motion, p, c),
                 {"[in a fluid](#particles-in-a-fluid): how the particle is driven"});
   if (p.is_fixed) p.given.emplace();
   for (const auto* key : {"force", "torque", "velocity", "angular_velocity"})
-    keys.require(!p.given || !keys.has(key), key,
-                 "has no effect, because {} gives the motion of this particle; one of them must be "
-                 "left out",
-                 p.is_fixed ? "fixed" : "velocity_given");
+    keys.require(
+        !p.given || !keys.has(key), key,
+        "has no effect, because {} gives the motion of this particle; one of them must be left out",
+        p.is_fixed ? "fixed" : "velocity_given");
   keys.optional("force", pieces(p.force, dimension, c.end_time), {"is added to gravity", "0"});
   keys.optional("torque", pieces_of_turn(p.torque, dimension, c.end_time),
                 {"in 2D counter-clockwise", "0"});
@@ -156,11 +155,10 @@ void particle_keys(case_file::Keys& keys, ParticleTable& p, const ParticlesCase&
   keys.required_if(
       !is_ellipse, "radius", case_file::number(p.radius, kModeratelyPositive),
       {"radius of the disc or sphere, or of the ends of a plate", "required without `semi_axes`"});
-  keys.optional(
-      "length", case_file::number(p.length, kModeratelyPositive),
-      {"[in a fluid](#particles-in-a-fluid) in the plane: the particle is a plate of this "
-       "length along `angle`, with round ends of the `radius`",
-       "none"});
+  keys.optional("length", case_file::number(p.length, kModeratelyPositive),
+                {"[in a fluid](#particles-in-a-fluid) in the plane: the particle is a plate of "
+                 "this length along `angle`, with round ends of the `radius`",
+                 "none"});
   if (p.length) {
     // Meshes were tested up to the first ratio. Plates below the second one are nearly discs; it is
     // a free choice.
@@ -360,13 +358,13 @@ std::int32_t ParticleIds::number(const case_file::TomlSection& section, std::str
   section.require(case_.particles.count() > 0, key, "{} {}, but the case has no particles", verb,
                   id);
   if (found == places_.end() && case_.particles.ids.empty())
-    section.fail(key, fmt::format("{} {}, which is not the number of a particle; the particles are "
-                                  "numbered from 0 to {}",
-                                  verb, id, case_.particles.count() - 1));
+    section.fail(
+        key,
+        "{} {}, which is not the number of a particle; the particles are numbered from 0 to {}",
+        verb, id, case_.particles.count() - 1);
   section.require(found != places_.end(), key,
-                  "{} {}, which is not the id of a particle; {} gives "
-                  "the ids",
-                  verb, id, case_.particles_file.string());
+                  "{} {}, which is not the id of a particle; {} gives the ids", verb, id,
+                  case_.particles_file.string());
   return found->second;
 }
 

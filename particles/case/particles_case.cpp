@@ -41,8 +41,8 @@ void space_keys(case_file::Keys& keys, ParticlesCase& c) {
   keys.required(
       "dimension",
       case_file::custom("2, 3 or `\"axisymmetric\"`", read_dimension, c.particles.dimension),
-      {"discs; spheres, without a fluid; or [spheres on the axis](#spheres-on-an-axis) of "
-       "a cylinder with fluid"});
+      {"discs; spheres, without a fluid; or [spheres on the axis](#spheres-on-an-axis) of a "
+       "cylinder with fluid"});
   keys.optional("gravity", vector(c.setting.gravity, c.particles.dimension),
                 {"acceleration of all particles", "0"});
 }
@@ -72,8 +72,7 @@ void film_keys(case_file::Keys& keys, FilmLaw& law, const std::optional<Fluid>& 
 
 constexpr const char* kNoSolidContact =
     "has no effect, because smooth particles never touch; viscous_contact must have gamma_min (0: "
-    "no "
-    "film), or viscosity and roughness";
+    "no film), or viscosity and roughness";
 
 void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
   auto& laws = c.setting.laws;
@@ -103,11 +102,10 @@ void contact_keys(case_file::Keys& keys, ParticlesCase& c) {
       case_file::one_of(c.setting.scheme,
                         {{"euler", Scheme::kEuler}, {"leapfrog", Scheme::kLeapfrog}}),
       {"without a fluid; with `\"leapfrog\"` positions are of [second "
-       "order](physics.md#5-many-particles-particles) away from impacts and of contacts "
-       "that last while their normal turns, where they are of first order. "
-       "`final_particles.csv` then has the velocities at the end (of particles without "
-       "contacts and links), the frames and tables those half a step before. Steps near a "
-       "jump of a force are shorter"});
+       "order](physics.md#5-many-particles-particles) away from impacts and of contacts that last "
+       "while their normal turns, where they are of first order. `final_particles.csv` then has "
+       "the velocities at the end (of particles without contacts and links), the frames and tables "
+       "those half a step before. Steps near a jump of a force are shorter"});
   keys.require(c.setting.scheme == Scheme::kEuler || !c.setting.fluid, "scheme",
                "is 'leapfrog', which is for particles without a fluid; in a fluid the steps are of "
                "second order without it, and the key must be left out");
@@ -139,15 +137,13 @@ void read_friction(const case_file::TomlSection& section, int dimension, Setting
 /// Throws if a case with friction in a fluid has restitution or membranes, too.
 void check_friction_in_fluid(const case_file::TomlSection& section, const Setting& setting) {
   if (!setting.fluid) return;
-  section.require(
-      !setting.laws.restitution.is_on(), "coefficient",
-      "must not be there, because the case has a fluid and "
-      "viscous_contact.restitution > 0; in a fluid solids either rub or rebound, and the "
-      "section [friction] or the key restitution must be left out");
-  section.require(
-      setting.fluid->membranes.empty(), "coefficient",
-      "must not be there, because the case has membranes in a fluid, whose contacts have no "
-      "friction; the section [friction] must be left out");
+  section.require(!setting.laws.restitution.is_on(), "coefficient",
+                  "must not be there, because the case has a fluid and viscous_contact.restitution "
+                  "> 0; in a fluid solids either rub or rebound, and the section [friction] or the "
+                  "key restitution must be left out");
+  section.require(setting.fluid->membranes.empty(), "coefficient",
+                  "must not be there, because the case has membranes in a fluid, whose contacts "
+                  "have no friction; the section [friction] must be left out");
 }
 
 /// Reads the key `method`. Earlier versions offered three methods that solve the same problem. A
@@ -181,12 +177,11 @@ void output_keys(case_file::Keys& keys, ParticlesCase& c) {
                 {"time at which the means over time in run.json and in sweeps begin"});
   keys.require(c.average_from < c.end_time, "average_from",
                "is {}; it must be earlier than end_time, {}", c.average_from, c.end_time);
-  keys.optional(
-      "tables", case_file::texts(c.tables),
-      {"tables with rows for each frame: `\"motion\"`, `\"contacts\"`, `\"walls\"`, "
-       "`\"stress\"` ([file-formats.md](file-formats.md#tables-over-time)); in a fluid the "
-       "first two are always written",
-       "none", "a list of names"});
+  keys.optional("tables", case_file::texts(c.tables),
+                {"tables with rows for each frame: `\"motion\"`, `\"contacts\"`, `\"walls\"`, "
+                 "`\"stress\"` ([file-formats.md](file-formats.md#tables-over-time)); in a fluid "
+                 "the first two are always written",
+                 "none", "a list of names"});
   for (const auto& name : c.tables) {
     keys.require(std::ranges::find(kAskedTables, name) != kAskedTables.end(), "tables",
                  "has '{}'; the tables are {}", name, fmt::join(kAskedTables, ", "));
@@ -213,10 +208,10 @@ void plane_keys(case_file::Keys& keys, Plane& plane, const ParticlesCase& c) {
   keys.require(turns || !keys.has("pivot"), "pivot",
                "must be left out, because this plane has no angular_velocity");
   plane.pivot = plane.start.point;
-  keys.optional("pivot", vector(plane.pivot, dimension),
-                {"only with `angular_velocity`: the centre of rotation, which moves with the "
-                 "velocity",
-                 "`point`"});
+  keys.optional(
+      "pivot", vector(plane.pivot, dimension),
+      {"only with `angular_velocity`: the centre of rotation, which moves with the velocity",
+       "`point`"});
 }
 
 /// Throws for a plane that is not parallel to the periods of the domain, because it would bound the
@@ -228,8 +223,8 @@ void check_periods_of_plane(const case_file::TomlSection& section, const Plane& 
     section.require(
         periods[d] == 0 || (plane.start.normal[d] == 0 && norm(plane.angular_velocity) == 0),
         "normal",
-        "belongs to a plane that turns or is not parallel to the period of the domain "
-        "along {}; a plane in a periodic domain must be parallel to its periods",
+        "belongs to a plane that turns or is not parallel to the period of the domain along {}; a "
+        "plane in a periodic domain must be parallel to its periods",
         kAxes[d]);
 }
 
@@ -245,10 +240,9 @@ void read_domain_and_fluid(const case_file::TomlSection& root, ParticlesCase& c)
   const int dimension = c.particles.dimension;
   if (root.has("domain")) c.setting.domain = read_domain(root.section("domain"), dimension);
   if (!root.has("fluid")) {
-    root.section("space").require(
-        dimension != 1, "dimension",
-        "is \"axisymmetric\", which is for spheres in a fluid; the case must have sections [fluid] "
-        "and [domain]");
+    root.section("space").require(dimension != 1, "dimension",
+                                  "is \"axisymmetric\", which is for spheres in a fluid; the case "
+                                  "must have sections [fluid] and [domain]");
     return;
   }
   const auto section = root.section("fluid");
@@ -265,11 +259,10 @@ void read_domain_and_fluid(const case_file::TomlSection& root, ParticlesCase& c)
   command = with_absolute_files(std::move(command), fs::absolute(c.path).parent_path());
 }
 
-/// Reads the whole case from the root table `root` of its TOML and checks it. `text` and `path` are
-/// those of the file.
-ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string text,
-                                const fs::path& path) {
-  auto c = case_file::titled_case<ParticlesCase>(root, std::move(text), path, true);
+}  // namespace
+
+void read_root(const case_file::TomlSection& root, ParticlesCase& c) {
+  case_file::read_title_and_units(root, c, true);
   case_file::read_keys(root.section("space"), space_keys, c);
   read_domain_and_fluid(root, c);
   read_probes(root, c.setting.domain, c.setting.fluid);
@@ -297,13 +290,12 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
   read_links(root, c);
   if (root.has("friction")) check_friction_in_fluid(root.section("friction"), c.setting);
   root.section("viscous_contact")
-      .require(
-          !c.setting.laws.restitution.is_on() || !c.setting.fluid ||
-              (c.particles.bodies.empty() && c.setting.links.springs.empty() &&
-               c.setting.links.arms.empty()),
-          "restitution",
-          "must be left out, because the case has a fluid and also bodies, springs or arms; in a "
-          "fluid only single particles, also on hinges, may rebound");
+      .require(!c.setting.laws.restitution.is_on() || !c.setting.fluid ||
+                   (c.particles.bodies.empty() && c.setting.links.springs.empty() &&
+                    c.setting.links.arms.empty()),
+               "restitution",
+               "must be left out, because the case has a fluid and also bodies, springs or arms; "
+               "in a fluid only single particles, also on hinges, may rebound");
   root.section("viscous_contact")
       .require(!c.setting.laws.restitution.is_on() || !c.setting.fluid ||
                    !c.setting.fluid->has_inertia() ||
@@ -325,10 +317,7 @@ ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string 
     if (!root.section("fluid").has("threshold_gap")) set_default_threshold_gap(c);
     check_fluid_start(root, c, lines);
   }
-  return c;
 }
-
-}  // namespace
 
 ParticlesCase read_particles_case(const fs::path& path) {
   return case_file::read_case_file<ParticlesCase>(path);
@@ -368,13 +357,3 @@ std::string text_for_any_folder(const case_file::TomlSection& root, const fs::pa
 }
 
 }  // namespace viscontact::particles
-
-namespace viscontact::case_file {
-
-template <>
-particles::ParticlesCase case_of_root(const TomlSection& root, std::string text,
-                                      const std::filesystem::path& path) {
-  return particles::particles_case_of(root, std::move(text), path);
-}
-
-}  // namespace viscontact::case_file

@@ -4,7 +4,6 @@
 // accepting the cases that users have written.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,8 +12,7 @@
 #include "viscontact/case_file/case_template.hpp"
 #include "viscontact/case_file/keys.hpp"
 #include "viscontact/particles/arrangement/arrangement.hpp"
-#include "viscontact/particles/arrangement/species.hpp"
-#include "viscontact/particles/simulation.hpp"
+#include "viscontact/particles/setting.hpp"
 
 namespace viscontact::particles {
 
@@ -50,6 +48,10 @@ struct ParticlesCase {
 /// a fluid has further conditions (check_fluid_start() in particles_sections.hpp).
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
+/// Reads a case from the root table of its file (case_file/case_template.hpp). Throws as
+/// read_particles_case().
+void read_root(const case_file::TomlSection& root, ParticlesCase& c);
+
 /// What docs/case-file.md says about the keys of each section.
 std::vector<case_file::KeyTable> tables_of_particles_case();
 
@@ -61,13 +63,3 @@ std::string text_for_any_folder(const case_file::TomlSection& root,
                                 const std::filesystem::path& path);
 
 }  // namespace viscontact::particles
-
-namespace viscontact::case_file {
-
-/// The case of many particles whose root table is `root` (case_template.hpp). Throws as
-/// read_particles_case().
-template <>
-particles::ParticlesCase case_of_root(const TomlSection& root, std::string text,
-                                      const std::filesystem::path& path);
-
-}  // namespace viscontact::case_file

@@ -26,13 +26,13 @@ namespace {
 /// Throws Error(kWrongUsage) for keys that a sweep cannot vary.
 void check_varied_keys(const sweep::Points& points) {
   if (points.draws > 0 && points.is_varied(sweep::kDrawKey))
-    throw Error(ErrorKind::kWrongUsage,
-                fmt::format("{} cannot be varied beside draws, which vary it", sweep::kDrawKey));
+    throw Error(ErrorKind::kWrongUsage, "{} cannot be varied beside draws, which vary it",
+                sweep::kDrawKey);
   sweep::check_keys(points, [](const std::string& key) {
     const auto section = key.substr(0, key.find('.'));
     if (section == "sweep" || section == "output")
       throw Error(ErrorKind::kWrongUsage,
-                  fmt::format("{} cannot be varied, because it changes no motion of a run", key));
+                  "{} cannot be varied, because it changes no motion of a run", key);
   });
 }
 
@@ -103,22 +103,20 @@ ParticlesSweep::ParticlesSweep(const std::filesystem::path& case_path, sweep::Po
   // product of points and draws could exceed 64 bits.
   constexpr std::uint64_t kMostRows = 1000000000000;
   if (points_.draws > kMostRows / points_.count())
-    throw Error(ErrorKind::kWrongUsage, fmt::format("{} points with {} draws are more than {} rows",
-                                                    points_.count(), points_.draws, kMostRows));
+    throw Error(ErrorKind::kWrongUsage, "{} points with {} draws are more than {} rows",
+                points_.count(), points_.draws, kMostRows);
   const auto base = cases_.with({});
   particles_file_ = base.particles_file;
   if (base.arrangement) points_.first_draw = base.arrangement->seed;
   if (points_.draws > 0 && !base.arrangement)
-    throw Error(
-        ErrorKind::kWrongUsage,
-        fmt::format("{} has no section [arrangement], which draws need", case_path.string()));
+    throw Error(ErrorKind::kWrongUsage, "{} has no section [arrangement], which draws need",
+                case_path.string());
   const auto last_seed = points_.first_draw + points_.draws;
   if (constexpr auto kMost = std::numeric_limits<int>::max();
       points_.draws > 0 && last_seed - 1 > static_cast<std::uint64_t>(kMost))
-    throw Error(
-        ErrorKind::kWrongUsage,
-        fmt::format("there are {} draws, but arrangement.seed begins at {} and is at most {}",
-                    points_.draws, points_.first_draw, kMost));
+    throw Error(ErrorKind::kWrongUsage,
+                "there are {} draws, but arrangement.seed begins at {} and is at most {}",
+                points_.draws, points_.first_draw, kMost);
   result_columns_ = columns_of(base);
   sweep::check_ends(points_, [&](const auto& numbers) { (void)cases_.with(numbers); });
 }
@@ -170,7 +168,7 @@ std::string table_of_means(const ParticlesSweep& sweep, const std::filesystem::p
     const auto fields = csv_fields(line);
     if (fields.size() != keys + columns.size() + 1 ||
         !line.starts_with(points.key_fields(row) + ","))
-      throw_bad_input({path.string()}, fmt::format("row {} is not that of the sweep", row + 1));
+      throw_bad_input({path.string()}, "row {} is not that of the sweep", row + 1);
     if (row % draws_of_a_point == 0) {
       draws = {};
       for (std::size_t i = 0; i < varied; ++i) draws.keys += fields[i] + ",";
@@ -183,8 +181,7 @@ std::string table_of_means(const ParticlesSweep& sweep, const std::filesystem::p
     if (++row % draws_of_a_point == 0) text += row_of(draws);
   }
   if (row < points.rows())
-    throw_bad_input({path.string()},
-                    fmt::format("has {} rows; the sweep has {}", row, points.rows()));
+    throw_bad_input({path.string()}, "has {} rows; the sweep has {}", row, points.rows());
   return text;
 }
 

@@ -76,11 +76,10 @@ void check_region(const case_file::TomlSection& section, const Source& source,
     for (const auto& place : obstacles) is_free = is_free && gap(place, x, 0) >= 0;
     for (std::size_t d = 0; box != nullptr && d < box->dimension(); ++d)
       is_free = is_free && box->from[d] <= x[d] && x[d] <= box->to[d];
-    section.require(
-        is_free, "region",
-        "has the corner ({}), which is outside the domain or behind a plane; the region "
-        "must be inside",
-        fmt::join(x.begin(), x.begin() + c.particles.dimension, ", "));
+    section.require(is_free, "region",
+                    "has the corner ({}), which is outside the domain or behind a plane; the "
+                    "region must be inside",
+                    fmt::join(x.begin(), x.begin() + c.particles.dimension, ", "));
   }
 }
 
@@ -172,12 +171,11 @@ void check_radii(const case_file::TomlSection& section, const Source& source,
   const double smallest = c.particles.count() == 0
                               ? radii.smallest
                               : std::min(radii.smallest, std::ranges::min(c.particles.radii));
-  section.require(
-      tolerance * mean_radii[1] <= kToleranceOfRadius * smallest, key,
-      "gives particles radii from {:.6g} to {:.6g}, for which solver.tolerance, {}, is too "
-      "large: the tolerance times the mean radius of all particles, {:.3g}, must be at "
-      "most a hundredth of each radius; the smallest one is {:.6g}",
-      radii.smallest, radii.largest, tolerance, tolerance * mean_radii[1], smallest);
+  section.require(tolerance * mean_radii[1] <= kToleranceOfRadius * smallest, key,
+                  "gives particles radii from {:.6g} to {:.6g}, for which solver.tolerance, {}, is "
+                  "too large: the tolerance times the mean radius of all particles, {:.3g}, must "
+                  "be at most a hundredth of each radius; the smallest one is {:.6g}",
+                  radii.smallest, radii.largest, tolerance, tolerance * mean_radii[1], smallest);
   const double farthest = largest_resolved_distance(tolerance, mean_radii[0]);
   for (const auto& corner : {source.from, source.to})
     for (const double x : corner)

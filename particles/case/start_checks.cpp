@@ -93,19 +93,17 @@ void check_radii_and_distances(const ParticlesCase& c, const ParticleNames& name
       static_cast<std::size_t>(std::ranges::min_element(p.radii) - p.radii.begin());
   if (allowed > kToleranceOfRadius * p.radii[smallest])
     throw_bad_input(names.at(smallest),
-                    fmt::format("{} is too small for solver.tolerance, {}: the tolerance times "
-                                "the mean radius is {:.3g}; it must be at most a hundredth of each "
-                                "radius",
-                                names(smallest), tolerance, allowed));
+                    "{} is too small for solver.tolerance, {}: the tolerance times the mean radius "
+                    "is {:.3g}; it must be at most a hundredth of each radius",
+                    names(smallest), tolerance, allowed);
   const double farthest = largest_resolved_distance(tolerance, mean_radius(p));
   for (std::size_t k = 0; k < p.count(); ++k)
     for (const double x : p.position(k))
       if (std::abs(x) > farthest)
         throw_bad_input(names.at(k),
-                        fmt::format("{} is too far from the origin for its gaps to be known to "
-                                    "solver.tolerance; each coordinate must be at most {:.3g} in "
-                                    "magnitude",
-                                    names(k), farthest));
+                        "{} is too far from the origin for its gaps to be known to "
+                        "solver.tolerance; each coordinate must be at most {:.3g} in magnitude",
+                        names(k), farthest);
 }
 
 /// Says what is wrong with the place of a particle with the centre x and this radius [L] in a
@@ -145,16 +143,15 @@ void check_domain(const ParticlesCase& c, const ParticleNames& names) {
   for (std::size_t k = 0; k < p.count(); ++k) {
     const auto wrong = std::visit(PlaceInDomain{p.position(k), p.radii[k]}, c.setting.domain);
     if (!wrong.empty())
-      throw_bad_input(names.at(k), fmt::format("{} is outside the domain; {}", names(k), wrong));
+      throw_bad_input(names.at(k), "{} is outside the domain; {}", names(k), wrong);
     const double least = std::max(kLeastGapToImage * p.radii[k],
                                   c.setting.fluid ? c.setting.fluid->threshold_gap : 0.0);
     for (const double period : periods)
       if (period > 0 && !(2 * p.radii[k] + least <= period))
-        throw_bad_input(
-            names.at(k),
-            fmt::format("{} is too large for the period of the domain, {}: it would touch its own "
+        throw_bad_input(names.at(k),
+                        "{} is too large for the period of the domain, {}: it would touch its own "
                         "image; its radius must be at most {:.6g}",
-                        names(k), period, (period - least) / 2));
+                        names(k), period, (period - least) / 2);
   }
 }
 
@@ -170,16 +167,14 @@ void check_start(const ParticlesCase& c, const ParticleLines& lines) {
     if (!(gap < -allowed)) continue;
     const auto j = index_of(second);
     if (first >= 0)
-      throw_bad_input(
-          names.at(j),
-          fmt::format("{} and {} overlap by {:.3g} at the start; at most {:.3g} is allowed",
-                      names(index_of(first)), names(j), -gap, allowed));
+      throw_bad_input(names.at(j),
+                      "{} and {} overlap by {:.3g} at the start; at most {:.3g} is allowed",
+                      names(index_of(first)), names(j), -gap, allowed);
     const auto obstacle = obstacle_name(c, static_cast<std::size_t>(-1 - first));
-    throw_bad_input(
-        names.at(j),
-        fmt::format("{} is {:.3g} into {} at the start, or behind it; {}", names(j), -gap, obstacle,
+    throw_bad_input(names.at(j), "{} is {:.3g} into {} at the start, or behind it; {}", names(j),
+                    -gap, obstacle,
                     obstacle.starts_with("plane") ? "a plane's normal must point into the free side"
-                                                  : "it must be inside the domain"));
+                                                  : "it must be inside the domain");
   }
 }
 

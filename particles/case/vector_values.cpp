@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
 #include "viscontact/particles/case/particles_sections.hpp"
 
@@ -51,8 +50,7 @@ void read_pieces(const case_file::TomlSection& section, std::string_view key,
                  PiecewiseConstant& place, int dimension, double end_time) {
   section.require(
       dimension == 1 || !section.has(key) || section.is_array(key), key,
-      "is not a list; it must be a list of numbers, or a list of pieces {{ until, value "
-      "}}");
+      "is not a list; it must be a list of numbers, or a list of pieces {{ until, value }}");
   read_constant_or_pieces(section, key, place, dimension, end_time, read_vector);
 }
 

@@ -4,7 +4,6 @@
 // must leave the state as it was. In a fluid with inertia accept() also throws the errors of
 // FluidSolver::keep_flow(), before it changes the state. A change must also keep that a continued
 // run gives the same bits as one without a break.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
@@ -25,9 +24,9 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
   const double longest = h * fastest(motion.moved, layout_);
   if (!(longest < largest))
     throw Error(ErrorKind::kNotConverged,
-                fmt::format("a particle moves by {} in the step to time {}, too far for the "
-                            "precision of a double; check the forces and the time step",
-                            longest, report.time));
+                "a particle moves by {} in the step to time {}, too far for the precision of a "
+                "double; check the forces and the time step",
+                longest, report.time);
   const auto& blow = motion.blow;
   // The displacements of a step with a blow are not those by the impulses of `contact`: only its
   // gaps are examined.

@@ -7,8 +7,6 @@
 // of contacts and restart files have.
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
-#include <fmt/format.h>
-
 #include <iterator>
 #include <limits>
 #include <map>
@@ -312,13 +310,12 @@ void check_plates_apart(const StepContacts& step, const Particles& p, const Flui
     if (!fluid.is_plate(index_of(pair.first)) || !fluid.is_plate(index_of(pair.second))) continue;
     const double least = std::min(fluid.threshold_gap, gap_at(p, pair)) - allowed;
     if (const double left = gap_at(after, pair); left < least)
-      throw Error(
-          ErrorKind::kNotConverged,
-          fmt::format("the plates {} and {} would have a gap of {:.3g} after the step, less "
-                      "than fluid.threshold_gap, {:.3g}, at a place that is no contact when the "
-                      "step begins; a shorter time step helps",
-                      p.id(index_of(pair.first)), p.id(index_of(pair.second)), left,
-                      fluid.threshold_gap));
+      throw Error(ErrorKind::kNotConverged,
+                  "the plates {} and {} would have a gap of {:.3g} after the step, less than "
+                  "fluid.threshold_gap, {:.3g}, at a place that is no contact when the step "
+                  "begins; a shorter time step helps",
+                  p.id(index_of(pair.first)), p.id(index_of(pair.second)), left,
+                  fluid.threshold_gap);
   }
 }
 
@@ -365,10 +362,6 @@ bool moves(const Contact<2>& contact, const Mobility& mobility,
   add_contact_force(contact, 1, forces, conditions.layout);
   return opening(contact, mobility(forces).data(), conditions.layout) > conditions.least_w;
 }
-
-}  // namespace
-
-namespace {
 
 /// A mobility that remembers the velocities for the forces of single contacts, because problems
 /// with friction ask for them repeatedly.

@@ -10,7 +10,6 @@
 // what they say. A change must keep that the film carries no friction.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

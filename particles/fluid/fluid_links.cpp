@@ -6,7 +6,6 @@
 // held_rows.hpp have the shapes. hold_after_step() throws Error(kNotConverged) if a length or place
 // would be off by more than a mean radius, hold_with_contacts() what solve_contacts() throws. A
 // change must keep that a continued run gives the same bits as one without a break.
-#include <fmt/format.h>
 
 #include <cmath>
 
@@ -15,7 +14,6 @@
 #include "viscontact/particles/fluid/fluid_motion.hpp"
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
 #include "viscontact/particles/fluid/held_rows.hpp"
-#include "viscontact/particles/fluid/held_solver.hpp"
 #include "viscontact/particles/fluid/step_equation.hpp"
 
 namespace viscontact::particles {
@@ -59,12 +57,11 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
   }
   holds = off <= allowed;
   if (!(off <= mean_radius_))
-    throw Error(
-        ErrorKind::kNotConverged,
-        fmt::format("the links do not hold in the step to time {}: a length or place would be "
-                    "off by {:.3g} mean radii; is the time step too long for the velocities, "
-                    "or do lengths, places and given motions contradict each other?",
-                    state_.time + h, off / mean_radius_));
+    throw Error(ErrorKind::kNotConverged,
+                "the links do not hold in the step to time {}: a length or place would be off by "
+                "{:.3g} mean radii; is the time step too long for the velocities, or do lengths, "
+                "places and given motions contradict each other?",
+                state_.time + h, off / mean_radius_);
   for (std::size_t r = 0; r < forces.size(); ++r) forces[r] -= of_flow[r];
   return forces;
 }

@@ -15,8 +15,6 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <optional>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/domain/domain.hpp"
@@ -67,10 +65,9 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
   wrap_into_cell(state_);
   if (setting_.fluid->has_inertia() && state_.steps > 0) {
     if (state_.flow.empty())
-      throw Error(
-          ErrorKind::kBadInput,
-          "the restart file has no flow, because its run had a fluid without inertia; a case "
-          "with fluid.density > 0 can continue runs of such cases only");
+      throw Error(ErrorKind::kBadInput,
+                  "the restart file has no flow, because its run had a fluid without inertia; a "
+                  "case with fluid.density > 0 can continue runs of such cases only");
     solver_->load_flow(std::string(state_.flow.begin(), state_.flow.end()));
     has_flow_ = true;
   }
@@ -433,10 +430,10 @@ void FluidSimulation::check_ellipses() const {
   const auto check = [&](std::size_t k, double gap, const std::string& other) {
     if (gap < least)
       throw Error(ErrorKind::kNotConverged,
-                  fmt::format("particle {}, an ellipse, has a gap of {:.3g} to {} at time {}, less "
-                              "than fluid.threshold_gap, {:.3g}; contacts of ellipses are not "
-                              "computed, and the run must end before",
-                              p.id(k), gap, other, state_.time, fluid.threshold_gap));
+                  "particle {}, an ellipse, has a gap of {:.3g} to {} at time {}, less than "
+                  "fluid.threshold_gap, {:.3g}; contacts of ellipses are not computed, and the run "
+                  "must end before",
+                  p.id(k), gap, other, state_.time, fluid.threshold_gap);
   };
   const auto places = positions_of(obstacles_, state_.time);
   for (std::size_t k = 0; k < p.count(); ++k) {

@@ -8,8 +8,6 @@
 // beside stiff ones.
 #include "viscontact/particles/fluid/held_solver.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -189,9 +187,9 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
   }
   if (!names.empty())
     throw Error(ErrorKind::kNotConverged,
-                fmt::format("the constraints of a step contradict each other: no motion satisfies "
-                            "{}; change their lengths or places, or leave one out",
-                            names));
+                "the constraints of a step contradict each other: no motion satisfies {}; change "
+                "their lengths or places, or leave one out",
+                names);
 }
 
 std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool driving) {

@@ -7,11 +7,9 @@
 #include "viscontact/particles/impacts/impacts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <utility>
 
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/particles.hpp"

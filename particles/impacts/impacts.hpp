@@ -15,7 +15,6 @@
 #include <optional>
 #include <queue>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "viscontact/particles/bodies/rigid_bodies.hpp"

@@ -12,7 +12,6 @@
 
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/link_file.hpp"
-#include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::particles {
 

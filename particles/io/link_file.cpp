@@ -6,10 +6,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/vtk/appended_data.hpp"
@@ -191,29 +189,26 @@ void add_line(DrawnCells& drawn, const Particles& p, Kind kind, std::size_t id, 
 std::string write_links(const Setting& setting, const State& state) {
   const auto& p = state.particles;
   const auto& links = setting.links;
-  const auto force = [&](std::size_t place) {
-    return state.link_forces.empty() ? 0 : state.link_forces[place];
-  };
   DrawnCells drawn;
   for (std::size_t k = 0; k < links.hinges.size(); ++k) {
     drawn.cells.add_vertex(drawn.add_point(links.hinges[k].at));
     Vector on_body{};
     for (std::size_t d = 0; d < static_cast<std::size_t>(p.dimension); ++d)
-      on_body[d] = force(k * Links::forces_of_hinge(p.dimension) + d);
+      on_body[d] = force_of(state, k * Links::forces_of_hinge(p.dimension) + d);
     drawn.add_cell(Kind::kHinge, k, on_body);
   }
   for (std::size_t k = 0; k < links.springs.size(); ++k)
     add_line(drawn, p, Kind::kSpring, k, links.springs[k].first, links.springs[k].second,
-             force(links.place_of_spring(k, p.dimension)));
+             force_of(state, links.place_of_spring(k, p.dimension)));
   for (std::size_t k = 0; k < links.arms.size(); ++k)
     add_line(drawn, p, Kind::kArm, k, links.arms[k].first, links.arms[k].second,
-             force(links.place_of_arm(k, p.dimension)));
+             force_of(state, links.place_of_arm(k, p.dimension)));
   for (std::size_t m = 0; m < links.membranes.size(); ++m) {
     const auto& membrane = links.membranes[m];
     const auto first = links.place_of_membrane(m, p.dimension);
     for (std::int32_t k = 0; k < membrane.count(); ++k)
       add_line(drawn, p, Kind::kMembrane, m, membrane.bead(k), membrane.bead(k + 1),
-               force(first + static_cast<std::size_t>(k)));
+               force_of(state, first + static_cast<std::size_t>(k)));
   }
   AppendedData data;
   auto text = AppendedData::opening("PolyData");

@@ -77,14 +77,14 @@ double allowed(const Row& row, const Names& names, std::size_t column, Sign sign
   // Squares and cubes of numbers up to this one and of their inverses are finite and not 0.
   constexpr double kLargest = 1e100;
   if (sign == Sign::kNotNegative && !(value == 0 || value >= 1 / kLargest))
-    throw_bad_input({file, row.line},
-                    fmt::format("{} is {}; it must be 0 or at least 1e-100", names[column], value));
+    throw_bad_input({file, row.line}, "{} is {}; it must be 0 or at least 1e-100", names[column],
+                    value);
   if (sign == Sign::kPositive && !(value >= 1 / kLargest))
-    throw_bad_input({file, row.line},
-                    fmt::format("{} is {}; it must be > 0, at least 1e-100", names[column], value));
+    throw_bad_input({file, row.line}, "{} is {}; it must be > 0, at least 1e-100", names[column],
+                    value);
   if (!(std::abs(value) <= kLargest))
-    throw_bad_input({file, row.line}, fmt::format("{} is {}; it must be at most {} in magnitude",
-                                                  names[column], value, kLargest));
+    throw_bad_input({file, row.line}, "{} is {}; it must be at most {} in magnitude", names[column],
+                    value, kLargest);
   return value;
 }
 
@@ -101,29 +101,29 @@ void check_header(const std::string& text, const std::string& file, const Names&
   std::vector<std::string> velocities;
   for (const auto& name : header.names) {
     if (name.starts_with("semi_axis_"))
-      throw_bad_input(here, fmt::format("has a column '{}' of ellipses or plates; the particles of "
-                                        "a file must be discs or spheres, and each ellipse or "
-                                        "plate a table [[particle]] with semi_axes or length",
-                                        name));
+      throw_bad_input(
+          here,
+          "has a column '{}' of ellipses or plates; the particles of a file must be discs or "
+          "spheres, and each ellipse or plate a table [[particle]] with semi_axes or length",
+          name);
     if (std::ranges::find(known, name) == known.end() &&
         std::ranges::find(of_fluid, name) == of_fluid.end())
       throw_bad_input(
           here,
-          fmt::format("has a column '{}', which is not known{}; the known columns are id, x, y, z, "
-                      "vx, vy, vz, radius, mass{}{}",
-                      shortened(name),
-                      name.empty() ? " (pandas writes its index so; to_csv(..., index=False) does "
-                                     "not)"
-                                   : "",
-                      of_fluid.empty() ? "" : ", ", fmt::join(of_fluid, ", ")));
+          "has a column '{}', which is not known{}; the known columns are id, x, y, z, vx, vy, vz, "
+          "radius, mass{}{}",
+          shortened(name),
+          name.empty() ? " (pandas writes its index so; to_csv(..., index=False) does not)" : "",
+          of_fluid.empty() ? "" : ", ", fmt::join(of_fluid, ", "));
     if (name.starts_with('v')) velocities.push_back(name);
   }
   const auto d = static_cast<std::size_t>(dimension);
   for (const auto& name : std::span(names).subspan(d + 2, d))
     if (!velocities.empty() && std::ranges::find(velocities, name) == velocities.end())
-      throw_bad_input(here, fmt::format("has the column {} of the velocity, but not {}; it must "
-                                        "have all components of the velocity or none",
-                                        velocities.front(), name));
+      throw_bad_input(here,
+                      "has the column {} of the velocity, but not {}; it must have all components "
+                      "of the velocity or none",
+                      velocities.front(), name);
 }
 
 /// The ids of the rows. Empty if the file has no column `id`, if all fields of this column are
@@ -137,16 +137,15 @@ std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::stri
   for (const auto& row : rows) {
     const double id = required_field(row, kDiscs, kId, file);
     if (!(id >= 0 && id <= kLargest && id == std::floor(id)))
-      throw_bad_input(
-          {file, row.line},
-          fmt::format("id is {}; it must be a whole number from 0 to {}", id, kLargest));
+      throw_bad_input({file, row.line}, "id is {}; it must be a whole number from 0 to {}", id,
+                      kLargest);
     ids.push_back(static_cast<std::int32_t>(id));
     const auto [other, is_new] = line_of.emplace(ids.back(), row.line);
     if (!is_new)
       throw_bad_input({file, row.line},
-                      fmt::format("id is {}, which is the id of the particle in line {}; each "
-                                  "particle must have an id of its own",
-                                  ids.back(), other->second));
+                      "id is {}, which is the id of the particle in line {}; each particle must "
+                      "have an id of its own",
+                      ids.back(), other->second);
   }
   const auto is_place = [place = 0](std::int32_t id) mutable { return id == place++; };
   if (std::ranges::all_of(ids, is_place)) ids.clear();
@@ -172,8 +171,8 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension, bo
   const bool rotate = dimension == 2 && (in_fluid || any_turns);
   const bool spin = dimension == 3 && any_turns;
   if (rows.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-    throw_bad_input({file}, fmt::format("has {} particles; at most {} are allowed", rows.size(),
-                                        std::numeric_limits<std::int32_t>::max()));
+    throw_bad_input({file}, "has {} particles; at most {} are allowed", rows.size(),
+                    std::numeric_limits<std::int32_t>::max());
   ParticleFile result;
   auto& p = result.particles;
   p.dimension = dimension;
@@ -183,11 +182,12 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension, bo
     };
     for (std::size_t i = 2 * d + 2; i < kId; ++i)
       if (row.fields[i])
-        throw_bad_input({file, row.line},
-                        dimension == 2 ? "has a value in a column of the third dimension (z or "
-                                         "vz); space.dimension is 2"
-                                       : "has a value in a column of another dimension (x, y, vx "
-                                         "or vy); space.dimension is \"axisymmetric\"");
+        throw_bad_input(
+            {file, row.line},
+            dimension == 2
+                ? "has a value in a column of the third dimension (z or vz); space.dimension is 2"
+                : "has a value in a column of another dimension (x, y, vx or vy); space.dimension "
+                  "is \"axisymmetric\"");
     for (std::size_t i = 0; i < d; ++i)
       p.positions.push_back(allowed(row, names, i, Sign::kAny, file));
     p.radii.push_back(allowed(row, names, d, Sign::kPositive, file));

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/particles/current_contacts.hpp"
-#include "viscontact/particles/impacts/rebound.hpp"
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 

@@ -1,12 +1,11 @@
 // Writes and reads the binary restart file (restart.hpp). Numbers are in the units of the case;
 // state.hpp has their dimensions. A file that cannot be read, is damaged, or has another version or
 // byte order is an Error(kBadInput); writing throws nothing. The texts kWhat and kHash must not
-// change. Files of versions 1 to 12 must stay readable; a change of the fields of State or Pair
+// change. Files of versions 6 to 12 must stay readable; a change of the fields of State or Pair
 // (state.hpp) needs a new version. Used by run/.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -22,18 +21,18 @@
 namespace viscontact::particles {
 namespace {
 
-// The largest version. A file has the lowest version that holds its state. Version 7 adds the
+// The versions that can be read. A file has the lowest one that holds its state. Version 7 adds the
 // memories of contact laws that have no array in version 6; 8 the flow of a fluid with inertia; 9
 // the positions before the last step, for membranes; 10 Pair::place; 11 State::sources; and 12
 // State::blows.
-constexpr int kVersion = 12;
+constexpr int kFirstVersion = 6, kLastVersion = 12;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
     std::endian::native == std::endian::little ? "little-endian" : "big-endian";
 
-/// A pair as versions from 2 on store it. The images (from version 3 on), the impulses of friction
-/// (4) and the parts of the impulses that the solids carried (5) are stored in arrays of their own.
+/// A pair as files store it. Images, impulses of friction, and the parts of the impulses that the
+/// solids carried are stored in arrays of their own.
 struct StoredPair {
   std::int32_t first, second;
   double gamma, impulse, gamma_error;
@@ -45,7 +44,7 @@ struct StoredArrays {
   std::vector<std::int32_t> places;  ///< of state.pairs, then of state.walls; empty if all are 0
   std::vector<Vector> frictions;     ///< of pairs and walls; empty if all are 0
   std::vector<double> carried;       ///< Remembered::kCarried, as `frictions`
-  std::vector<BodyMotion> bodies;    ///< from version 5 on
+  std::vector<BodyMotion> bodies;
   /// The other memories (kMemoryFields), if not all of their numbers are 0: `names` has the name of
   /// each with a line break, `memories` for each name one number for each pair and wall.
   std::vector<char> names;
@@ -74,7 +73,6 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   field(state.walls);
   field(state.positions_at_listing);
   field(state.skins);
-  if (version < 3) return;
   field(arrays.images);
   field(p.angles);
   field(p.angular_velocities);
@@ -82,15 +80,12 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   field(state.earlier_velocities);
   field(state.earlier_forces);
   field(state.earlier_step);
-  if (version < 4) return;
   field(p.orientations);
   field(arrays.frictions);
   field(state.velocity_lag);
-  if (version < 5) return;
   field(arrays.carried);
   field(arrays.bodies);
   field(state.link_forces);
-  if (version < 6) return;
   field(state.arm_powers);
   if (version < 7) return;
   field(arrays.names);
@@ -209,8 +204,7 @@ class Writer {
 
 class Reader {
  public:
-  Reader(std::string_view bytes, std::string file, int version)
-      : bytes_(bytes), file_(std::move(file)), version_(version) {}
+  Reader(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
 
   template <class T>
   void operator()(T& value) {
@@ -226,23 +220,10 @@ class Reader {
     if (count > 0) std::memcpy(values.data(), take(count * sizeof(T)), count * sizeof(T));
   }
   void operator()(std::vector<Pair>& pairs) {
-    pairs.clear();
-    if (version_ > 1) {
-      std::vector<StoredPair> stored;
-      operator()<StoredPair>(stored);
-      for (const auto& pair : stored)
-        pairs.push_back({pair.first, pair.second, pair.gamma, pair.impulse, pair.gamma_error});
-      return;
-    }
-    // Version 1 did not record the error of gamma.
-    struct PairOfVersion1 {
-      std::int32_t first, second;
-      double gamma, impulse;
-    };
-    std::vector<PairOfVersion1> old;
-    operator()<PairOfVersion1>(old);
-    for (const auto& pair : old)
-      pairs.push_back({pair.first, pair.second, pair.gamma, pair.impulse, 0});
+    std::vector<StoredPair> stored;
+    operator()<StoredPair>(stored);
+    for (const auto& pair : stored)
+      pairs.push_back({pair.first, pair.second, pair.gamma, pair.impulse, pair.gamma_error});
   }
   bool at_end() const { return bytes_.empty(); }
   [[noreturn]] void throw_damaged() const {
@@ -258,7 +239,6 @@ class Reader {
   }
   std::string_view bytes_;
   std::string file_;
-  int version_;
 };
 
 /// Removes the first line of `rest`, which must begin with `begin`, and returns what follows
@@ -279,14 +259,15 @@ int read_version(std::string_view& rest, const std::string& file) {
   int version = 0;
   const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), version);
   const auto rest_of_line = line.substr(static_cast<std::size_t>(end - line.data()));
-  if (error != std::errc{} || version < 1 || version > kVersion || !rest_of_line.starts_with(", "))
-    throw_bad_input({file}, "is a restart file of a version that is not known (" +
-                                std::string(line.substr(0, 20)) + "); versions 1 to " +
-                                std::to_string(kVersion) + " can be read");
+  if (error != std::errc{} || version < kFirstVersion || version > kLastVersion ||
+      !rest_of_line.starts_with(", "))
+    throw_bad_input(
+        {file},
+        "is a restart file of a version that is not known ({}); versions {} to {} can be read",
+        line.substr(0, 20), kFirstVersion, kLastVersion);
   if (const auto order = rest_of_line.substr(2); order != kOrder)
-    throw_bad_input({file}, "was written by a machine with another byte order (" +
-                                std::string(order.substr(0, 20)) + "; it must be " +
-                                std::string(kOrder) + ")");
+    throw_bad_input({file}, "was written by a machine with another byte order ({}; it must be {})",
+                    order.substr(0, 20), kOrder);
   return version;
 }
 
@@ -356,7 +337,7 @@ std::string write_restart(const State& state) {
                       : !state.earlier_positions.empty() ? 9
                       : !state.flow.empty()              ? 8
                       : !arrays.names.empty()            ? 7
-                                                         : 6;
+                                                         : kFirstVersion;
   for_fields(state, arrays, version, Writer{bytes});
   std::string text;
   text.append(kWhat).append(std::to_string(version)).append(", ").append(kOrder).append("\n");
@@ -373,7 +354,7 @@ State read_restart(const std::filesystem::path& path) {
     rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
   const int version = read_version(rest, file);
   const auto hash = line_of(rest, kHash, file);
-  Reader reader(rest, file, version);
+  Reader reader(rest, file);
   if (hash != sha256(rest)) reader.throw_damaged();
   State state;
   StoredArrays arrays;

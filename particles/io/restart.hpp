@@ -1,6 +1,6 @@
 // Writes and reads the state of a simulation, bit for bit, so that a run can be continued. Numbers
 // are stored without conversion, in the units of the case; write_restart() throws nothing. run/
-// uses it. A change must keep files of all earlier versions readable, and a continued run equal to
+// uses it. A change must keep files of versions 6 to 12 readable, and a continued run equal to
 // an uninterrupted one, bit for bit.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace viscontact::particles {
 /// the particles, and which particles form rigid bodies, are not stored, because the case has them.
 std::string write_restart(const State& state);
 
-/// Reads a restart file of version 1 to 12, also one that begins with lines of provenance. Of rigid
+/// Reads a restart file of version 6 to 12, also one that begins with lines of provenance. Of rigid
 /// bodies only the motion is set. Throws Error(kBadInput), which names the file, if the file cannot
 /// be read, is not a restart file, has another version, is damaged, or was written with another
 /// byte order. Whether it fits a case is not checked here but in run/particles_earlier_run.hpp.

@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
-#include <vector>
 
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/vtk/appended_data.hpp"

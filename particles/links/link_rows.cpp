@@ -13,7 +13,6 @@
 
 #include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/membranes/necklace.hpp"
-#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -66,11 +64,10 @@ void check_shapes(std::span<const Membrane> membranes, const Particles& particle
       continue;
     throw Error(
         ErrorKind::kBadInput,
-        fmt::format("membrane {} of the restart file has the perimeter {:.7g} and the area "
-                    "{:.7g}, that of the case {:.7g} and {:.7g}; both must be the same, but for an "
-                    "area that is not kept, and without a fluid the distances of "
-                    "neighbours must be the same, too",
-                    m, found.perimeter, found.area, asked.perimeter, asked.area));
+        "membrane {} of the restart file has the perimeter {:.7g} and the area {:.7g}, that of the "
+        "case {:.7g} and {:.7g}; both must be the same, but for an area that is not kept, and "
+        "without a fluid the distances of neighbours must be the same, too",
+        m, found.perimeter, found.area, asked.perimeter, asked.area);
   }
 }
 

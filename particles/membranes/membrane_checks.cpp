@@ -3,7 +3,6 @@
 // them. Lengths are in the unit of the case file; membrane.hpp has the dimensions and ranges. Every
 // fault throws Error(kBadInput) with its line. A change must not refuse what users' cases may
 // contain now.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,15 +31,15 @@ void check_case_in_fluid(const case_file::TomlSection& root, const case_file::To
   for (const auto* key : {"body", "hinge", "spring", "arm", "plane"})
     if (root.has(key))
       throw_bad_input(at,
-                      fmt::format("section [[membrane]] stands beside {}; a case with membranes in "
-                                  "a fluid must have no planes, bodies and links",
-                                  key));
+                      "section [[membrane]] stands beside {}; a case with membranes in a fluid "
+                      "must have no planes, bodies and links",
+                      key);
   const auto& fluid = *c.setting.fluid;
   const auto section = root.section("fluid");
-  section.require(!fluid.has_inertia(), "density",
-                  "is {}; it must be 0 or left out in a case with membranes, which move in Stokes "
-                  "flow",
-                  fluid.density);
+  section.require(
+      !fluid.has_inertia(), "density",
+      "is {}; it must be 0 or left out in a case with membranes, which move in Stokes flow",
+      fluid.density);
   section.require(fluid.solver.empty(), "solver",
                   "is a program of your own, which does not know membranes; it must be left out");
   section.require(
@@ -100,15 +99,13 @@ void check_in_fluid(const case_file::TomlSection& section, const ParticlesCase& 
   constexpr std::int32_t kBeadsOfStiff = 32;
   const double scale = c.setting.fluid->viscosity * rate_of_deformation(c) *
                        std::pow(membrane.area / std::numbers::pi, 1.5);
-  section.require(
-      membrane.count() >= kBeadsOfStiff || membrane.bending_rigidity <= kStiff * scale ||
-          scale == 0,
-      section.has("particles") ? "particles" : "beads",
-      "makes {} beads, too few for so stiff a membrane: the bending rigidity is {:.3g} times "
-      "viscosity, rate of deformation and R0^3, R0^2 = area/pi; from 100 on a membrane must have "
-      "at "
-      "least {} beads",
-      membrane.count(), membrane.bending_rigidity / scale, kBeadsOfStiff);
+  section.require(membrane.count() >= kBeadsOfStiff ||
+                      membrane.bending_rigidity <= kStiff * scale || scale == 0,
+                  section.has("particles") ? "particles" : "beads",
+                  "makes {} beads, too few for so stiff a membrane: the bending rigidity is {:.3g} "
+                  "times viscosity, rate of deformation and R0^3, R0^2 = area/pi; from 100 on a "
+                  "membrane must have at least {} beads",
+                  membrane.count(), membrane.bending_rigidity / scale, kBeadsOfStiff);
 }
 
 void check_case_of_membranes(const case_file::TomlSection& root,
@@ -180,10 +177,10 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
                       p.id(a), p.id(b));
     }
   // The bounds are those of the key reduced_area (membrane_keys.cpp) with room for rounding errors.
-  section.require(!c.setting.fluid || (reduced_area > 0.2999 && reduced_area < 0.99901), shape,
-                  "makes a membrane of the reduced area {:.6g}; in a fluid it must be from 0.3 to "
-                  "0.999",
-                  reduced_area);
+  section.require(
+      !c.setting.fluid || (reduced_area > 0.2999 && reduced_area < 0.99901), shape,
+      "makes a membrane of the reduced area {:.6g}; in a fluid it must be from 0.3 to 0.999",
+      reduced_area);
   // A membrane with the largest area that its distances allow can only move rigidly: the gradient
   // of the area is then a linear combination of those of the distances, and the equations are
   // singular. In a test, a membrane with 0.993 of the largest area still kept area and distances
@@ -191,12 +188,11 @@ void check_place(const case_file::TomlSection& section, const ParticlesCase& c) 
   constexpr double kOfLargestArea = 0.993;
   if (!c.setting.fluid && membrane.keeps_area) {
     const double largest = largest_area(membrane.lengths);
-    section.require(
-        membrane.area <= kOfLargestArea * largest, shape,
-        "makes a membrane of the area {:.6g}, and the largest one that its beads can "
-        "enclose is {:.6g}; it must be at most {} of this one, with which it can change "
-        "its shape, or inner_area must be \"free\"",
-        membrane.area, largest, kOfLargestArea);
+    section.require(membrane.area <= kOfLargestArea * largest, shape,
+                    "makes a membrane of the area {:.6g}, and the largest one that its beads can "
+                    "enclose is {:.6g}; it must be at most {} of this one, with which it can "
+                    "change its shape, or inner_area must be \"free\"",
+                    membrane.area, largest, kOfLargestArea);
   }
   for (std::size_t d = 0; d < 2; ++d) {
     double from = own[d], to = own[d];
@@ -238,10 +234,10 @@ void check_others(const case_file::TomlSection& first, const ParticlesCase& c) {
   for (std::size_t k = 0; k < p.count(); ++k) {
     if (is_bead[k] != 0) continue;
     const auto refuse = [&](const char* what) {
-      throw_bad_input(at, fmt::format("section [[membrane]] stands beside particle {}, which {}; "
-                                      "beside membranes particles must be discs without mass and "
-                                      "torque",
-                                      p.id(k), what));
+      throw_bad_input(at,
+                      "section [[membrane]] stands beside particle {}, which {}; beside membranes "
+                      "particles must be discs without mass and torque",
+                      p.id(k), what);
     };
     if (p.masses[k] > 0) refuse("has a mass");
     if (!c.setting.fluid->is_disc(k)) refuse("is an ellipse or a plate");
@@ -258,9 +254,10 @@ void check_others(const case_file::TomlSection& first, const ParticlesCase& c) {
         const Vector side = b - a;
         const double along = std::clamp(dot(x - a, side) / dot(side, side), 0.0, 1.0);
         if (!(norm(nearest_image(p.cell, x - a - along * side)) > p.radii[k]))
-          throw_bad_input(at, fmt::format("section [[membrane]] stands beside particle {}, which "
-                                          "crosses a membrane; it must be inside or outside",
-                                          p.id(k)));
+          throw_bad_input(at,
+                          "section [[membrane]] stands beside particle {}, which crosses a "
+                          "membrane; it must be inside or outside",
+                          p.id(k));
       }
     }
   }

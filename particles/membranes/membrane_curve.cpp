@@ -8,7 +8,6 @@
 #include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace viscontact::particles {
 namespace {

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/common/error.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
 #include "viscontact/particles/membranes/membrane.hpp"
 

@@ -19,7 +19,6 @@
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 #include "viscontact/particles/membranes/membrane_motion.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
-#include "viscontact/particles/steps/step_report.hpp"
 #include "viscontact/particles/steps/step_times.hpp"
 
 namespace viscontact::particles {
@@ -48,9 +47,9 @@ class MembraneSimulation::Implementation {
                          const Eigen::VectorXd* near = nullptr) const;
   Eigen::VectorXd from_particles(std::span<const double> numbers) const;
   void to_particles(const Eigen::VectorXd& all, std::vector<double>& numbers) const;
-  void move_to(const Eigen::VectorXd& places, Particles& particles) const;
+  void to_particles(const Eigen::VectorXd& all, std::vector<double>& of_centres,
+                    std::vector<double>& of_turns) const;
   Eigen::VectorXd applied_forces(double from, double to) const;
-  void set_velocities(const Eigen::VectorXd& velocities);
   void place(const Eigen::VectorXd& places, double from, double to);
   FluidAnswer ask(const Eigen::VectorXd& places, double from, double to);
   FluidAnswer answer_to_beads(const FluidAnswer& answer, const Eigen::VectorXd& loads) const;
@@ -108,7 +107,8 @@ MembraneSimulation::Implementation::Implementation(Setting setting, State state,
   auto motion = membranes_.motion_at(at.head(bead_components()), of_beads);
   motion.forces += loads.head(bead_components());
   motion.flow_forces = motion.forces;
-  set_velocities(velocities_of_all(answer, motion, loads));
+  to_particles(velocities_of_all(answer, motion, loads), state_.particles.velocities,
+               state_.particles.angular_velocities);
   Eigen::VectorXd forces = loads;
   forces.head(bead_components()) = motion.forces;
   state_.earlier_forces.assign(kComponents * p.count(), 0);
@@ -160,25 +160,15 @@ void MembraneSimulation::Implementation::to_particles(const Eigen::VectorXd& all
       numbers[kComponents * index_of(disc) + d] = all(i++);
 }
 
-void MembraneSimulation::Implementation::move_to(const Eigen::VectorXd& places,
-                                                 Particles& particles) const {
-  membranes_.to_particles(places.head(bead_components()), 2, particles.positions);
+void MembraneSimulation::Implementation::to_particles(const Eigen::VectorXd& all,
+                                                      std::vector<double>& of_centres,
+                                                      std::vector<double>& of_turns) const {
+  membranes_.to_particles(all.head(bead_components()), 2, of_centres);
   auto i = bead_components();
   for (const auto disc : discs_) {
-    particles.positions[2 * index_of(disc)] = places(i++);
-    particles.positions[2 * index_of(disc) + 1] = places(i++);
-    particles.angles[index_of(disc)] = places(i++);
-  }
-}
-
-void MembraneSimulation::Implementation::set_velocities(const Eigen::VectorXd& velocities) {
-  auto& p = state_.particles;
-  membranes_.to_particles(velocities.head(bead_components()), 2, p.velocities);
-  auto i = bead_components();
-  for (const auto disc : discs_) {
-    p.velocities[2 * index_of(disc)] = velocities(i++);
-    p.velocities[2 * index_of(disc) + 1] = velocities(i++);
-    p.angular_velocities[index_of(disc)] = velocities(i++);
+    of_centres[2 * index_of(disc)] = all(i++);
+    of_centres[2 * index_of(disc) + 1] = all(i++);
+    of_turns[index_of(disc)] = all(i++);
   }
 }
 
@@ -198,7 +188,7 @@ Eigen::VectorXd MembraneSimulation::Implementation::applied_forces(double from, 
 void MembraneSimulation::Implementation::place(const Eigen::VectorXd& places, double from,
                                                double to) {
   auto placed = state_.particles;
-  move_to(places, placed);
+  to_particles(places, placed.positions, placed.angles);
   FluidParticles bodies{.particles = &placed, .angles = placed.angles, .driven = {}, .inertia = {}};
   for (const auto& [particle, motion] : setting_.given_motions) {
     const auto at = [&](const PiecewiseConstant& of) {
@@ -417,8 +407,8 @@ StepReport MembraneSimulation::Implementation::step(double end) {
   state_.earlier_positions = state_.particles.positions;
   state_.earlier_forces = std::move(forces);
   state_.earlier_step = h;
-  move_to(reached, state_.particles);
-  set_velocities(velocities);
+  to_particles(reached, state_.particles.positions, state_.particles.angles);
+  to_particles(velocities, state_.particles.velocities, state_.particles.angular_velocities);
   state_.time = interval->end;
   wrap_into_cell(state_);
   StepGrid::count(state_, *interval);

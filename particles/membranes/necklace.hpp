@@ -13,7 +13,6 @@
 
 #include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/membranes/membrane.hpp"
-#include "viscontact/particles/membranes/membrane_curve.hpp"
 #include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {

@@ -5,10 +5,7 @@
 // simulation depend on it.
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <tuple>
@@ -66,10 +63,9 @@ double skin_within_period(const Particles& p, std::size_t k, double half_period,
   const double longest = kLess * (half_period - p.radii[k]) / 2;
   if (!(moved <= longest))
     throw Error(ErrorKind::kNotConverged,
-                fmt::format("particle {} moves by {:.3g} relative to the others in a step, and at "
-                            "most {:.3g} is allowed, because the domain has a period of {:.3g}; "
-                            "make the time step shorter",
-                            p.id(k), moved, std::max(longest, 0.0), 2 * half_period));
+                "particle {} moves by {:.3g} relative to the others in a step, and at most {:.3g} "
+                "is allowed, because the domain has a period of {:.3g}; make the time step shorter",
+                p.id(k), moved, std::max(longest, 0.0), 2 * half_period);
   return std::min(skin, longest);
 }
 

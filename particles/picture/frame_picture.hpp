@@ -5,7 +5,6 @@
 // in particles/picture/page draw the same on a web page, so a change must be made there, too.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <string>
 

@@ -228,8 +228,8 @@ std::string particles_page(const Playback& original, const std::string& title, F
                      fmt::format("\n</head>\n<body>\n<header><h1>{}</h1>\n<p>{}</p></header>\n",
                                  report::escaped(title), words);
   page += fmt::format(
-      "<main>\n<div class=stage><canvas id=stage tabindex=0 role=img aria-label=\"Motion of {} "
-      "The controls below choose the time.\"></canvas><output id=readout></output>"
+      "<main>\n<div class=stage><canvas id=stage tabindex=0 role=img aria-label=\"Motion of {} The "
+      "controls below choose the time.\"></canvas><output id=readout></output>"
       "<noscript>This page plays a motion by a script, which is turned off.</noscript></div>\n"
       "<div class=controls>\n<button type=button id=play>Play</button>\n"
       "<input type=range id=time step=any aria-label=Time>\n<output id=clock for=time></output>\n"
@@ -241,14 +241,13 @@ std::string particles_page(const Playback& original, const std::string& title, F
       "value=force>force</select></label>\n"
       "<button type=button id=whole>Whole view</button>\n"
       "<button type=button id=film>Save film</button>\n</div>\n{}</main>\n"
-      "<p class=hint>The space bar plays and pauses. The keys ← and → go back and forward "
-      "by one frame; Home and End go to the first and the last frame. {} Point at a particle to "
-      "see its values. The address of the page keeps time, view and colours.</p>\n",
+      "<p class=hint>The space bar plays and pauses. The keys ← and → go back and forward by one "
+      "frame; Home and End go to the first and the last frame. {} Point at a particle to see its "
+      "values. The address of the page keeps time, view and colours.</p>\n",
       report::escaped(words), flow.controls, legend(scene, flow),
-      scene.playback.dimension == 2
-          ? "Drag to move the picture; use the wheel or pinch to zoom."
-          : "Drag to turn the picture, or with Shift or two fingers to move it; use the wheel or "
-            "pinch to zoom.");
+      scene.playback.dimension == 2 ? "Drag to move the picture; use the wheel or pinch to zoom."
+                                    : "Drag to turn the picture, or with Shift or two fingers to "
+                                      "move it; use the wheel or pinch to zoom.");
   page += data_of(scene, data, flow);
   page += fmt::format("<script>\n{}</script>\n<script>\n{}</script>\n</body></html>\n",
                       flow_script(), particles_script());

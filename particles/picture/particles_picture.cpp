@@ -165,9 +165,8 @@ std::string half_picture(const FlowFrames& flows, const FlowFrame& frame, const 
       arrows += arrow_head(line.points, static_cast<std::size_t>(line.arrow), view);
   }
   return text + fmt::format(
-                    "<path fill=\"none\" stroke=\"{0}\" stroke-opacity=\".6\" "
-                    "stroke-width=\".7\" d=\"{1}\"/>\n<path fill=\"{0}\" fill-opacity=\".75\" "
-                    "d=\"{2}\"/>\n",
+                    "<path fill=\"none\" stroke=\"{0}\" stroke-opacity=\".6\" stroke-width=\".7\" "
+                    "d=\"{1}\"/>\n<path fill=\"{0}\" fill-opacity=\".75\" d=\"{2}\"/>\n",
                     report::kStreamLineColour, lines, arrows);
 }
 
@@ -215,8 +214,8 @@ std::string gradient(const char* id, const std::array<SceneStyle::Colour, 4>& co
 std::string opening(const std::string& title, double height, bool has_bodies) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
-      "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" fill=\"#1a1a1a\">\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 "
+      "0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" fill=\"#1a1a1a\">\n"
       "<title>{2}</title>\n<defs>{5}{6}</defs>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
       "<text x=\"{3:.0f}\" y=\"29\" font-size=\"{4:.1f}\" text-anchor=\"middle\">{2}</text>\n",

@@ -9,7 +9,6 @@
 
 #ifdef VISCONTACT_HAS_HDF5
 
-#include <fmt/format.h>
 #include <hdf5.h>
 
 #include <array>
@@ -65,8 +64,7 @@ std::string cause_of_error() {
 /// Throws Error(kBadInput) with the name of the file if the C library returned an error.
 template <class Result>
 Result checked(Result result, const fs::path& file) {
-  if (result < 0)
-    throw_bad_input({file.string()}, fmt::format("cannot be written ({})", cause_of_error()));
+  if (result < 0) throw_bad_input({file.string()}, "cannot be written ({})", cause_of_error());
   return result;
 }
 
@@ -288,10 +286,9 @@ void write_hdf5(const ParticlesCase& c, const fs::path& folder,
 namespace viscontact::particles {
 
 void require_hdf5() {
-  throw Error(
-      ErrorKind::kWrongUsage,
-      "--hdf5 needs libhdf5, and this program was built without it; install libhdf5-dev and "
-      "build the program again");
+  throw Error(ErrorKind::kWrongUsage,
+              "--hdf5 needs libhdf5, and this program was built without it; install libhdf5-dev "
+              "and build the program again");
 }
 
 void write_hdf5(const ParticlesCase&, const std::filesystem::path&, const results::Provenance&) {

@@ -12,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
 
 #include "viscontact/common/error.hpp"
@@ -63,11 +62,11 @@ std::string difference(const SourceProgress& before, const Source& now) {
 void check_same_particles(const State& state, const ParticlesCase& c, const fs::path& restart) {
   const auto& p = state.particles;
   const auto differs = [&](const std::string& what) {
-    throw_bad_input({restart.string()},
-                    fmt::format("has other particles than {}: {}; a case that continues a "
-                                "run must have the same particles and sources in the same order, "
-                                "and may have more sources after them",
-                                c.path.string(), what));
+    throw_bad_input(
+        {restart.string()},
+        "has other particles than {}: {}; a case that continues a run must have the same particles "
+        "and sources in the same order, and may have more sources after them",
+        c.path.string(), what);
   };
   if (p.dimension != c.particles.dimension)
     differs(fmt::format("{} dimensions, not {}", p.dimension, c.particles.dimension));
@@ -119,16 +118,15 @@ void take_over_bodies(State& state, const ParticlesCase& c, const fs::path& rest
     state.particles.bodies.of_particle.resize(state.particles.count(), -1);
   auto& bodies = state.particles.bodies.bodies;
   if (moving.size() != bodies.size())
-    throw_bad_input({restart.string()},
-                    fmt::format("has {} rigid bodies, and {} has {}; a case that continues a run "
-                                "must have the same bodies",
-                                moving.size(), c.path.string(), bodies.size()));
+    throw_bad_input(
+        {restart.string()},
+        "has {} rigid bodies, and {} has {}; a case that continues a run must have the same bodies",
+        moving.size(), c.path.string(), bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) bodies[b].BodyMotion::operator=(moving[b]);
   const auto forces = c.setting.links.force_count(c.particles.dimension);
   if (!state.link_forces.empty() && state.link_forces.size() != forces)
-    throw_bad_input(
-        {restart.string()},
-        fmt::format("has the forces of other hinges, springs or arms than {}", c.path.string()));
+    throw_bad_input({restart.string()}, "has the forces of other hinges, springs or arms than {}",
+                    c.path.string());
 }
 
 /// Throws Error(kBadInput) if a hinge of the state is turned beyond its stop. The earlier run then
@@ -141,11 +139,10 @@ void check_stops(const State& state, const ParticlesCase& c, const fs::path& res
   const double allowed = std::max(kBeyond, 10 * c.setting.solver.tolerance);
   for (const auto& stop : stop_equations(c.setting.links, state.particles))
     if (const double left = stop.rows.front().value; left < -allowed)
-      throw_bad_input(
-          {restart.string()},
-          fmt::format("has hinge {} turned beyond its {} in {} by {:.3g} rad", stop.number,
+      throw_bad_input({restart.string()}, "has hinge {} turned beyond its {} in {} by {:.3g} rad",
+                      stop.number,
                       stop.parts().front().direction[2] > 0 ? "lowest_angle" : "highest_angle",
-                      c.path.string(), -left));
+                      c.path.string(), -left);
 }
 
 }  // namespace
@@ -170,10 +167,9 @@ State first_state(const ParticlesCase& c, const std::string& restart) {
   }
   check_stops(state, c, restart);
   if (state.time > c.end_time * (1 - 1e-9))  // 1e-9 and 1e-6 below are above rounding errors
-    throw_bad_input(
-        {restart},
-        fmt::format("is at time {}, but {} ends at {}, so there is no time left to simulate",
-                    state.time, c.path.string(), c.end_time));
+    throw_bad_input({restart},
+                    "is at time {}, but {} ends at {}, so there is no time left to simulate",
+                    state.time, c.path.string(), c.end_time);
   // If the time step is not that of the earlier run, the ends of steps are multiples of the time
   // step after this state (State::grid_time).
   const double on_grid =
@@ -196,9 +192,8 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
     const std::string other =
         before ? difference(*before, provenance) : "does not say what it was made from";
     if (!other.empty()) {
-      terminal::say(
-          fmt::format("particles: the run in {} {}, so it is replaced by a run from the start",
-                      folder.string(), other));
+      terminal::say("particles: the run in {} {}, so it is replaced by a run from the start",
+                    folder.string(), other);
       return {};
     }
     EarlierRun run{read_restart(restart), read_record(head, restart)};
@@ -209,9 +204,9 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
     return run;
   } catch (const Error& error) {
     terminal::say(
-        fmt::format("particles: the run in {} cannot be continued ({}), so it is replaced by a run "
-                    "from the start",
-                    folder.string(), error.what()));
+        "particles: the run in {} cannot be continued ({}), so it is replaced by a run from the "
+        "start",
+        folder.string(), error.what());
     return {};
   }
 }

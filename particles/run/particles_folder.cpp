@@ -13,8 +13,6 @@
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -223,11 +221,10 @@ void check_results(const fs::path& folder) {
 void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs::path& folder) {
   std::error_code none;
   if (!restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(), folder, none))
-    throw_bad_input(
-        {restart.string()},
-        "belongs to the run in the output folder, whose frames and record would be lost; choose "
-        "another folder, or give no restart file: the same command continues an interrupted run in "
-        "its own folder");
+    throw_bad_input({restart.string()},
+                    "belongs to the run in the output folder, whose frames and record would be "
+                    "lost; choose another folder, or give no restart file: the same command "
+                    "continues an interrupted run in its own folder");
   for (const auto& input : {c.path, c.particles_file}) {
     if (input.empty()) continue;
     for (const std::string output : kParticleResults)

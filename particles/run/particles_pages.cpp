@@ -4,13 +4,9 @@
 // Used by app/ and run/.
 #include "viscontact/particles/run/particles_pages.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/domain/domain.hpp"
@@ -18,7 +14,6 @@
 #include "viscontact/particles/io/vtk.hpp"
 #include "viscontact/particles/picture/particles_picture.hpp"
 #include "viscontact/particles/picture/scene.hpp"
-#include "viscontact/particles/run/particles_folder.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
 
@@ -149,7 +144,7 @@ void report_particles(const fs::path& folder) {
   files.push_back(folder / "particles.pvd");
   if (c.setting.fluid) files.push_back(folder / "flow.pvd");
   write_pages(c, folder, results::provenance_of({files, {}}));
-  terminal::say(fmt::format("report: {0}/particles.html, {0}/particles.svg", folder.string()));
+  terminal::say("report: {0}/particles.html, {0}/particles.svg", folder.string());
 }
 
 }  // namespace viscontact::particles

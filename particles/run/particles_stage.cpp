@@ -12,8 +12,6 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <filesystem>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -143,8 +141,8 @@ class Run {
       log_.add_flow(simulation_.flow_at_present());
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kExternalProgram) throw;
-      terminal::warn(fmt::format(
-          "particles: warning: the flow at the end of the run is missing ({})", error.what()));
+      terminal::warn("particles: warning: the flow at the end of the run is missing ({})",
+                     error.what());
     }
   }
 
@@ -211,55 +209,53 @@ class Run {
 /// kStillAResult.
 void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State& state,
                   const fs::path& folder, const StopToken& stop) {
-  terminal::say(fmt::format(
+  terminal::say(
       "particles: {} steps to t = {:.6g}, {:.3g} iterations a step, largest residual {:.2g}, "
       "largest overlap {:.2g} mean radii; {}",
       record.steps, record.last_time,
       static_cast<double>(record.iterations) /
           static_cast<double>(std::max<std::int64_t>(record.steps, 1)),
-      record.largest_residual, record.largest_overlap, (folder / "particles.html").string()));
+      record.largest_residual, record.largest_overlap, (folder / "particles.html").string());
   if (record.unconverged > 0)
-    terminal::warn(fmt::format(
+    terminal::warn(
         "particles: warning: {} of {} steps did not reach the tolerances {} and {}, {}",
         record.unconverged, record.steps, c.setting.solver.tolerance,
         c.setting.solver.impulse_tolerance,
         record.failed > 0
             ? fmt::format("{} of them by more than a factor of {}", record.failed, kStillAResult)
-            : fmt::format("by less than a factor of {} (steps.csv says which)", kStillAResult)));
+            : fmt::format("by less than a factor of {} (steps.csv says which)", kStillAResult));
   if (record.given_loads > 0)
-    terminal::warn(fmt::format(
+    terminal::warn(
         "particles: warning: in {} of {} steps given loads bound the friction, because {} was not "
         "solved (docs/particles.md, \"A step that does not converge\")",
         record.given_loads, record.steps,
         c.setting.laws.friction->method == FrictionMethod::kConvex ? "the convex relaxation"
-                                                                   : "Coulomb's law"));
+                                                                   : "Coulomb's law");
   if (record.unresolved > 0)
-    terminal::warn(fmt::format(
+    terminal::warn(
         "particles: warning: {} contacts were computed although their particles move past each "
-        "other by more than half the sum of their radii even in a {}th of the time step "
-        "(steps.csv says when); use a shorter time_step",
-        record.unresolved, 1 << Simulation::kMostHalvings));
+        "other by more than half the sum of their radii even in a {}th of the time step (steps.csv "
+        "says when); use a shorter time_step",
+        record.unresolved, 1 << Simulation::kMostHalvings);
   if (stop.stop_requested())
-    terminal::say(
-        fmt::format("particles: interrupted at t = {:.6g}; the same command continues from there",
-                    record.last_time));
+    terminal::say("particles: interrupted at t = {:.6g}; the same command continues from there",
+                  record.last_time);
   stop.throw_if_stop_requested();
   for (const auto& [source, count, radius] : waiting_particles(c.setting.sources, state))
-    terminal::warn(fmt::format(
+    terminal::warn(
         "particles: warning: {} particles of source[{}] are due and have not come: no place was "
         "free in its region for the next one, of radius {:.6g}; the source must have a lower rate, "
         "smaller particles, or a larger region",
-        count, source, radius));
+        count, source, radius);
   if (record.failed > 0)
     throw Error(ErrorKind::kNotConverged,
-                fmt::format("{}: {} of {} steps did not converge: residuals are up to {:.2g} (of "
-                            "the gaps; solver.tolerance is {}) and {:.2g} (of the impulses; "
-                            "solver.impulse_tolerance is {}). All results are written, and "
-                            "steps.csv says which steps; raise solver.max_iterations ({}) or the "
-                            "tolerances",
-                            c.path.string(), record.failed, record.steps, record.largest_residual,
-                            c.setting.solver.tolerance, record.largest_impulse_residual,
-                            c.setting.solver.impulse_tolerance, c.setting.solver.max_iterations));
+                "{}: {} of {} steps did not converge: residuals are up to {:.2g} (of the gaps; "
+                "solver.tolerance is {}) and {:.2g} (of the impulses; solver.impulse_tolerance is "
+                "{}). All results are written, and steps.csv says which steps; raise "
+                "solver.max_iterations ({}) or the tolerances",
+                c.path.string(), record.failed, record.steps, record.largest_residual,
+                c.setting.solver.tolerance, record.largest_impulse_residual,
+                c.setting.solver.impulse_tolerance, c.setting.solver.max_iterations);
 }
 
 /// For a run that was finished before this call: prints the messages of the call that finished it,
@@ -267,7 +263,7 @@ void warn_or_fail(const ParticlesCase& c, const StepTotals& record, const State&
 void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path& folder, bool json,
                    const StopToken& stop) {
   if (json) fmt::print("{}", results::without_provenance(read_file(folder / "run.json")));
-  terminal::say(fmt::format("particles: {} is up to date", folder.string()));
+  terminal::say("particles: {} is up to date", folder.string());
   warn_or_fail(c, run.record.totals, run.state, folder, stop);
 }
 
@@ -294,8 +290,8 @@ void run_particles(const ParticlesRequest& request) {
     }
     log.resume(earlier->record);
     remove_file(folder / "particles.h5");  // it would lack the frames that are added now
-    terminal::say(fmt::format("particles: the run in {} continues from t = {:.6g}, after step {}",
-                              folder.string(), earlier->state.time, earlier->state.steps));
+    terminal::say("particles: the run in {} continues from t = {:.6g}, after step {}",
+                  folder.string(), earlier->state.time, earlier->state.steps);
     state = earlier->state;
   } else {
     remove_results(folder);

@@ -3,7 +3,6 @@
 // any time, when it is continued, ends with the same files as an uninterrupted one.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "viscontact/common/stop_token.hpp"

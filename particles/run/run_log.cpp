@@ -11,7 +11,6 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/contact_file.hpp"
 #include "viscontact/particles/io/vtk.hpp"

@@ -10,7 +10,6 @@
 #include <map>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "viscontact/common/vtk/flow_vtk.hpp"

@@ -51,10 +51,9 @@ void refuse_deep_overlap(const StepResiduals& residuals, const Particles& partic
   if (residuals.converged || -residuals.smallest_gap <= mean_radius) return;
   throw Error(
       ErrorKind::kNotConverged,
-      fmt::format("no solution of the step to time {} was found: {} would overlap by {:.3g} "
-                  "mean radii; {}",
-                  time, name_of_pair(residuals.deepest_overlap, particles, setting),
-                  -residuals.smallest_gap / mean_radius, reason()));
+      "no solution of the step to time {} was found: {} would overlap by {:.3g} mean radii; {}",
+      time, name_of_pair(residuals.deepest_overlap, particles, setting),
+      -residuals.smallest_gap / mean_radius, reason());
 }
 
 std::string name_of_pair(const Pair& pair, const Particles& particles, const Setting& setting) {

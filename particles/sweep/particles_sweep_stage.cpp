@@ -12,8 +12,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <functional>
-#include <optional>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
@@ -62,8 +60,7 @@ void write_means(const ParticlesSweep& sweep, const std::string& output) {
   if (!results::has_content(path, table))
     results::write_output(path, TextKind::kHashComment, table,
                           results::provenance_of(inputs_of(sweep)));
-  terminal::say(
-      fmt::format("sweep: means over {} draws in {}", sweep.points().draws, path.string()));
+  terminal::say("sweep: means over {} draws in {}", sweep.points().draws, path.string());
 }
 
 void write_tables(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
@@ -84,9 +81,8 @@ void write_tables(const ParticlesSweep& sweep, const ParticlesSweepRequest& requ
                                            failed, failed == 1 ? "" : "s")));
   if (failed == outcome.points)
     throw Error(ErrorKind::kNotConverged,
-                fmt::format("{}: every run failed; the column 'failure' says why, in the first "
-                            "row: {}",
-                            output, outcome.first_failure));
+                "{}: every run failed; the column 'failure' says why, in the first row: {}", output,
+                outcome.first_failure);
 }
 
 /// The numbers of the rows whose run has not ended; with `failed`, also of those that failed.
@@ -145,7 +141,7 @@ void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& re
     if (!runs.compute(share.number + index * share.count, stop).failure.empty()) ++failed;
     return std::string();
   };
-  terminal::say(fmt::format("sweep: {} rows of {}", size, request.output));
+  terminal::say("sweep: {} rows of {}", size, request.output);
   terminal::ProgressTimer timer;
   const auto done = sweep::run_rows(
       size, 0, request.jobs, run,
@@ -154,13 +150,12 @@ void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& re
   terminal::clear_progress();
   if (done < size)
     throw Error(ErrorKind::kInterrupted,
-                fmt::format("interrupted; the runs are kept in {}; the same command continues them",
-                            runs.folder().string()));
+                "interrupted; the runs are kept in {}; the same command continues them",
+                runs.folder().string());
   if (failed == size)
     throw Error(ErrorKind::kNotConverged,
-                fmt::format("{}: every run of this task failed; result.json in the folder of each "
-                            "run says why",
-                            runs.folder().string()));
+                "{}: every run of this task failed; result.json in the folder of each run says why",
+                runs.folder().string());
 }
 
 void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request) {
@@ -168,8 +163,7 @@ void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& requ
   const auto missing = missing_rows(sweep, runs, false);
   if (!missing.empty()) {
     std::string text = fmt::format(
-        "{}: {} of {} rows are missing (the first is row {}); the "
-        "finished ones are kept",
+        "{}: {} of {} rows are missing (the first is row {}); the finished ones are kept",
         request.output, missing.size(), sweep.points().rows(), missing[0] + 1);
     const auto folder = pipeline::slurm_folder(request.output);
     if (fs::exists(folder)) text += fmt::format("; logs are in {}", folder.string());
@@ -181,8 +175,8 @@ void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& requ
   write_tables(sweep, request, [&](std::uint64_t index, const StopToken&) {
     auto results = runs.ended(index);
     if (!results)
-      throw_bad_input({runs.folder().string()},
-                      fmt::format("has lost the run of row {} while it was read", index + 1));
+      throw_bad_input({runs.folder().string()}, "has lost the run of row {} while it was read",
+                      index + 1);
     return *results;
   });
 }

@@ -6,7 +6,6 @@
 // because a later call reads it instead of computing the row again.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,6 @@
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/pipeline/slurm/array_job.hpp"
-#include "viscontact/results/provenance.hpp"
 
 namespace viscontact::particles {
 

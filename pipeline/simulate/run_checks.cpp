@@ -34,16 +34,15 @@ void check_run(const case_file::Case& c, const std::vector<std::string>& models)
       request.settings.basis.terms.size() - (request.settings.fix_leading ? 1 : 0);
   if (different < terms)
     throw_bad_input({c.path.string()},
-                    fmt::format("tabulation.gaps has {} gap(s); the basis {} needs at least {}",
-                                different, request.settings.basis.name, terms));
+                    "tabulation.gaps has {} gap(s); the basis {} needs at least {}", different,
+                    request.settings.basis.name, terms);
   const auto [smallest, largest] = std::ranges::minmax(gaps);
   const auto refuse = [&](const std::string& model, const char* what, double bound,
                           const char* remedy) {
     throw_bad_input({c.path.string()},
-                    fmt::format("motion.initial_gap is {}, which is {} gap of tabulation.gaps, {}; "
-                                "the model {} needs the drag there: tabulate further, or write {} "
-                                "into the section [fit]",
-                                motion.initial_gap, what, bound, model, remedy));
+                    "motion.initial_gap is {}, which is {} gap of tabulation.gaps, {}; the model "
+                    "{} needs the drag there: tabulate further, or write {} into the section [fit]",
+                    motion.initial_gap, what, bound, model, remedy);
   };
   for (const auto& name : models) {
     const auto choice = reduced_model::find_model(name);

@@ -7,8 +7,6 @@
 // simulates again.
 #include "viscontact/pipeline/simulate/run_inputs.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
 
@@ -30,10 +28,9 @@ void check_copy(const results::RunFolder& run, const fs::path& copy, const std::
                 std::string_view kind) {
   if (!fs::is_regular_file(copy) || holds_a_run(run)) return;
   if (results::without_provenance(read_file(copy)) != results::without_provenance(text))
-    throw_bad_input(
-        {copy.string()},
-        fmt::format("is another {}, so it is not replaced; remove it first, or write elsewhere",
-                    kind));
+    throw_bad_input({copy.string()},
+                    "is another {}, so it is not replaced; remove it first, or write elsewhere",
+                    kind);
 }
 
 }  // namespace

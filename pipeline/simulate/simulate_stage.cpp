@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "viscontact/common/equal_up_to_rounding.hpp"
@@ -18,10 +17,8 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/pipeline/simulate/run_checks.hpp"
-#include "viscontact/pipeline/simulate/run_inputs.hpp"
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/reduced_model/trajectory.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
 
@@ -43,8 +40,7 @@ std::string uncertainty_of(const reduced_model::Motion& motion, const lubricatio
         reduced_model::propagate_fit(motion, fit, kTimes, outside));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kInterrupted) throw;
-    terminal::warn(fmt::format("simulate: warning: the fit's uncertainty is not propagated: {}",
-                               error.what()));
+    terminal::warn("simulate: warning: the fit's uncertainty is not propagated: {}", error.what());
     return "";
   }
 }
@@ -92,11 +88,11 @@ lubrication::Fit fit_of_text(const case_file::Case& c, const FitFile& file) {
   auto fit = lubrication::parse_fit(file.text, file.path.string());
   if (!equal_up_to_rounding(fit.viscosity, c.viscosity) ||
       !equal_up_to_rounding(fit.radius, c.radius))
-    terminal::say(fmt::format(
+    terminal::say(
         "simulate: the fit is that of radius {} and viscosity {}{}; it is scaled to radius {} and "
         "viscosity {}",
         fit.radius, fit.viscosity, fit.container.empty() ? "" : ", container: " + fit.container,
-        c.radius, c.viscosity));
+        c.radius, c.viscosity);
   return case_file::fit_for(c, std::move(fit), file.path);
 }
 
@@ -204,9 +200,9 @@ void write_simulated(const results::RunFolder& run, const case_file::Case& c,
     remove_file(run.trajectory(model.model));
     // The error with which the command ends gives the reason of the first model.
     if (&model != &simulated.failed.front())
-      terminal::say(fmt::format("simulate: model {} failed: {}", model.model, model.reason));
+      terminal::say("simulate: model {} failed: {}", model.model, model.reason);
   }
-  terminal::say(fmt::format("simulate: {} models", simulated.trajectories.size()));
+  terminal::say("simulate: {} models", simulated.trajectories.size());
 }
 
 FitFile exact_fit_file(const case_file::Case& c, const results::RunFolder& run,
@@ -227,9 +223,9 @@ void simulate_stage(const case_file::Case& c, const SimulateRequest& request) {
   if (of_folder) path = run.fit();
   if (path.empty() && !exact)
     throw Error(ErrorKind::kWrongUsage,
-                fmt::format("the drag is not given: the section [fit] of the case has neither "
-                            "'file' nor 'exact', and there is no {}; {}",
-                            run.fit().string(), request.remedy));
+                "the drag is not given: the section [fit] of the case has neither 'file' nor "
+                "'exact', and there is no {}; {}",
+                run.fit().string(), request.remedy);
   auto inputs = files_of_motion(c);
   if (!exact) inputs.push_back(path);
   auto provenance = results::provenance_of({inputs, {}});
@@ -237,8 +233,8 @@ void simulate_stage(const case_file::Case& c, const SimulateRequest& request) {
   // command with another output folder, which has none.
   if (of_folder) provenance.command.insert(provenance.command.end(), {"--fit", path.string()});
   if (request.fit.empty())
-    terminal::say(fmt::format("simulate: the drag is {}",
-                              exact ? "the exact one near a plane" : "that of " + path.string()));
+    terminal::say("simulate: the drag is {}",
+                  exact ? "the exact one near a plane" : "that of " + path.string());
   const FitFile fit = exact ? exact_fit_file(c, run, provenance) : FitFile{path, read_file(path)};
   check_case_copies(run, c);
   check_fit_copy(run, fit.text);

@@ -12,7 +12,6 @@
 
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/pipeline/simulate/run_inputs.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 #include "viscontact/results/failed_models.hpp"
 #include "viscontact/results/provenance.hpp"

@@ -50,13 +50,13 @@ std::string ask_slurm(const std::vector<std::string>& command, const std::string
     said += character == '\n' ? " | " : std::string(1, character);
   if (!result.started)
     throw Error(ErrorKind::kExternalProgram,
-                fmt::format("{} cannot be run ({}); submit where Slurm is installed (apt-get "
-                            "install slurm-client), or {} here",
-                            command.front(), said, here));
+                "{} cannot be run ({}); submit where Slurm is installed (apt-get install "
+                "slurm-client), or {} here",
+                command.front(), said, here);
   if (result.exit_status != 0)
     throw Error(ErrorKind::kExternalProgram,
-                fmt::format("{} failed (exit status {}): {}; nothing was submitted",
-                            command.front(), result.exit_status, said));
+                "{} failed (exit status {}): {}; nothing was submitted", command.front(),
+                result.exit_status, said);
   return result.output;
 }
 
@@ -72,12 +72,6 @@ std::string array_of(const std::vector<std::size_t>& tasks) {
   return text;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += " " + shell_word(word);
-  return text;
-}
-
 /// The script of a task. It runs this program on copies of the cases, which are written when the
 /// job is submitted.
 std::string task_script(const ArrayJob& job, const ArrayRequest& request) {
@@ -87,8 +81,8 @@ std::string task_script(const ArrayJob& job, const ArrayRequest& request) {
   return fmt::format(
       "#!/bin/sh\n# One task of the array; made by viscontact.\nexec {} {}{} -o {}{} --jobs {} "
       "--task \"$SLURM_ARRAY_TASK_ID/{}\"\n",
-      shell_word(fs::read_symlink("/proc/self/exe").string()), job.command, joined(copies),
-      shell_word(absolute_output(request.output).string()), joined(job.options),
+      shell_word(fs::read_symlink("/proc/self/exe").string()), job.command, shell_arguments(copies),
+      shell_word(absolute_output(request.output).string()), shell_arguments(job.options),
       request.jobs.value_or(1), job.count);
 }
 
@@ -103,8 +97,8 @@ std::string log_pattern(const fs::path& folder) {
 
 /// The command, for the user, that puts the results together after the job is over.
 std::string gather_command(const ArrayJob& job, const ArrayRequest& request) {
-  return fmt::format("viscontact {}{} -o {}{} --gather", job.command, joined(job.cases),
-                     shell_word(request.output.string()), joined(job.options));
+  return fmt::format("viscontact {}{} -o {}{} --gather", job.command, shell_arguments(job.cases),
+                     shell_word(request.output.string()), shell_arguments(job.options));
 }
 
 }  // namespace
@@ -124,18 +118,18 @@ void refuse_second_job(const ArrayJob& job, const ArrayRequest& request) {
                 job.command, request.stop);
   if (jobs.empty()) return;
   const std::string number = jobs.substr(0, jobs.find('\n'));
-  throw_bad_input({request.output.string()},
-                  fmt::format("{0} by Slurm job {1}; wait until it is over (squeue -j {1}), or end "
-                              "it (scancel {1})",
-                              job.is_running, number));
+  throw_bad_input(
+      {request.output.string()},
+      "{0} by Slurm job {1}; wait until it is over (squeue -j {1}), or end it (scancel {1})",
+      job.is_running, number);
 }
 
 void submit(const ArrayJob& job, const ArrayRequest& request) {
   const auto options = split_words(request.options);
   const std::string gather = gather_command(job, request);
   if (job.tasks.empty()) {
-    terminal::say(fmt::format("{}: no row is missing; this command writes {}: {}", job.command,
-                              job.results, gather));
+    terminal::say("{}: no row is missing; this command writes {}: {}", job.command, job.results,
+                  gather);
     return;
   }
   const auto folder = slurm_folder(request.output);
@@ -156,9 +150,9 @@ void submit(const ArrayJob& job, const ArrayRequest& request) {
   // If there are several clusters, sbatch prints "number;cluster".
   number = number.substr(0, number.find(';'));
   terminal::say(
-      fmt::format("{}: Slurm job {} with {} tasks is submitted; its logs are in {}; when it is "
-                  "over (squeue -j {}), run:\n  {}",
-                  job.command, number, job.tasks.size(), folder.string(), number, gather));
+      "{}: Slurm job {} with {} tasks is submitted; its logs are in {}; when it is over (squeue -j "
+      "{}), run:\n  {}",
+      job.command, number, job.tasks.size(), folder.string(), number, gather);
   fmt::print("{}\n", number);
 }
 

@@ -65,8 +65,8 @@ std::vector<double> gaps_to_picture(const freefem_axi::Tabulation& tabulation,
         *std::ranges::min_element(sorted, {}, [&](double g) { return std::abs(g - gap); });
     if (!(std::abs(nearest - gap) <= kTolerance * nearest))
       throw Error(ErrorKind::kBadInput,
-                  fmt::format("{} is not one of the case's gaps; the nearest of them is {}",
-                              format_number(gap), format_number(nearest)));
+                  "{} is not one of the case's gaps; the nearest of them is {}", format_number(gap),
+                  format_number(nearest));
     gaps.push_back(nearest);
   }
   return gaps;
@@ -102,8 +102,7 @@ void picture_stage(const freefem_axi::Tabulation& tabulation, lubrication::Motio
                                      : report::plot_motion(picture, tabulation, true, stop),
                           provenance);
     terminal::clear_progress();
-    terminal::say(
-        fmt::format("tabulate: {}/gap_{:.7g}_{{mesh,flow,film}}.svg, .vtu", folder.string(), gap));
+    terminal::say("tabulate: {}/gap_{:.7g}_{{mesh,flow,film}}.svg, .vtu", folder.string(), gap);
   }
 }
 

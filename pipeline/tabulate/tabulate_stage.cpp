@@ -12,7 +12,6 @@
 
 #include <algorithm>
 
-#include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
 #include "viscontact/common/text/shell_words.hpp"
@@ -33,9 +32,8 @@ void warn_of_unmet_accuracy(const freefem_axi::TablePlan& plan,
     const auto row = record.finished.find(point);
     if (row == record.finished.end()) continue;
     if (const double estimate = plan.estimate_of(row->second); estimate > plan.relative_accuracy)
-      terminal::warn(
-          fmt::format("viscontact: warning: {}: relative error estimate {:.2g}, {:.2g} was asked",
-                      plan.name_of(point), estimate, plan.relative_accuracy));
+      terminal::warn("viscontact: warning: {}: relative error estimate {:.2g}, {:.2g} was asked",
+                     plan.name_of(point), estimate, plan.relative_accuracy);
   }
 }
 
@@ -43,7 +41,7 @@ void warn_of_unmet_accuracy(const freefem_axi::TablePlan& plan,
 /// that another process wrote after the table was finished are removed.
 bool is_up_to_date(const CaseTable& one) {
   if (!freefem_axi::missing_points(one.plan.read(one.table), one.plan.points).empty()) return false;
-  terminal::say(fmt::format("tabulate: {} is up to date", one.table.string()));
+  terminal::say("tabulate: {} is up to date", one.table.string());
   freefem_axi::remove_journals(one.table, one.plan.hash);
   warn_of_unmet_accuracy(one.plan, freefem_axi::read_row_record(one.table, one.plan));
   return true;
@@ -57,9 +55,8 @@ RowFailure finish_table(const CaseTable& one, const freefem_axi::RowRecord& reco
                         const results::Provenance& provenance, const std::string& remedy) {
   const auto failures = freefem_axi::failures_of(record, one.plan.points);
   const auto why = [&](const std::string& result) {
-    return Error(ErrorKind::kExternalProgram,
-                 fmt::format("{} of {} rows failed, {}:\n{}", failures.size(),
-                             one.plan.points.size(), result, fmt::join(failures, "; ")));
+    return Error(ErrorKind::kExternalProgram, "{} of {} rows failed, {}:\n{}", failures.size(),
+                 one.plan.points.size(), result, fmt::join(failures, "; "));
   };
   if (failures.size() == one.plan.points.size()) throw why("so that there is no table");
   if (!failures.empty() && one.plan.needs_all_rows)
@@ -97,8 +94,7 @@ std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::R
 RowFailure tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
   if (is_up_to_date(one)) return {};
   check_output_file(one.table);
-  terminal::say(
-      fmt::format("tabulate: {} on {} processes", rows_in_words(one, one.plan.points), jobs));
+  terminal::say("tabulate: {} on {} processes", rows_in_words(one, one.plan.points), jobs);
   const auto provenance = results::provenance_of({{one.case_path}, {}});
   freefem_axi::compute_rows({freefem_axi::default_freefem(stop), jobs, ""}, one.plan,
                             one.plan.points, one.table, show_rows);
@@ -123,8 +119,8 @@ RowFailure tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
       fs::exists(submitted) && read_file(submitted) != one.case_text)
     text += fmt::format("; the case was edited since {} was submitted", submitted.string());
   if (reasons.empty()) throw Error(ErrorKind::kNotConverged, text);
-  throw Error(ErrorKind::kExternalProgram,
-              fmt::format("{}:\n{} failed: {}", text, reasons.size(), fmt::join(reasons, "; ")));
+  throw Error(ErrorKind::kExternalProgram, "{}:\n{} failed: {}", text, reasons.size(),
+              fmt::join(reasons, "; "));
 }
 
 RowFailure gather_one(const CaseTable& one, const fs::path& slurm_folder) {
@@ -137,7 +133,7 @@ RowFailure gather_one(const CaseTable& one, const fs::path& slurm_folder) {
     throw_missing(one, record, missing, slurm_folder);
   auto failure = finish_table(one, record, results::provenance_of({{one.case_path}, {}}),
                               "the same command without --gather tries them again");
-  terminal::say(fmt::format("tabulate: {} is gathered", one.table.string()));
+  terminal::say("tabulate: {} is gathered", one.table.string());
   return failure;
 }
 
@@ -181,11 +177,11 @@ RowFailure for_each_table(const std::vector<CaseTable>& tables, const StopToken&
 CaseTable case_table(const case_file::Case& c, const fs::path& table) {
   const auto& tabulation = case_file::required_tabulation(c);
   if (tabulation.motions != std::vector{lubrication::MotionKind::kApproach})
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: tabulation.motion must be \"approach\" or be left out here, "
-                            "because the sphere moves along the axis; `viscontact tabulate` makes "
-                            "tables of the other motions",
-                            c.path.string()));
+    throw Error(
+        ErrorKind::kBadInput,
+        "{}: tabulation.motion must be \"approach\" or be left out here, because the sphere moves "
+        "along the axis; `viscontact tabulate` makes tables of the other motions",
+        c.path.string());
   return case_tables(c.path, c.text, tabulation, [&](auto) { return table; }).front();
 }
 
@@ -231,15 +227,14 @@ void share_stage(const std::vector<CaseTable>& tables, const Share& share, int j
   const auto points = points_of(tables, share);
   const auto failure = for_each_table(tables, stop, [&](std::size_t i) -> RowFailure {
     if (points[i].empty()) return {};
-    terminal::say(fmt::format("tabulate: {} of {}", rows_in_words(tables[i], points[i]),
-                              tables[i].table.string()));
+    terminal::say("tabulate: {} of {}", rows_in_words(tables[i], points[i]),
+                  tables[i].table.string());
     freefem_axi::compute_rows(worker, tables[i].plan, points[i], tables[i].table, show_rows);
     const auto failures = freefem_axi::failures_of(
         freefem_axi::read_row_record(tables[i].table, tables[i].plan), points[i]);
     if (failures.empty()) return {};
-    return Error(ErrorKind::kExternalProgram,
-                 fmt::format("{} of {} rows failed, the others are kept:\n{}", failures.size(),
-                             points[i].size(), fmt::join(failures, "; ")));
+    return Error(ErrorKind::kExternalProgram, "{} of {} rows failed, the others are kept:\n{}",
+                 failures.size(), points[i].size(), fmt::join(failures, "; "));
   });
   if (failure) throw Error(*failure);
 }

@@ -6,13 +6,8 @@
 // which lose no digits by cancellation for short intervals and small arguments.
 #include "viscontact/reduced_model/external_force/external_force.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -61,8 +56,8 @@ ExternalForce::ExternalForce(const std::vector<Piece>& pieces) {
   for (const auto& piece : pieces) {
     if (!(piece.until > from))
       throw Error(ErrorKind::kBadInput,
-                  fmt::format("until is {}; it must be greater than {}, where the piece begins",
-                              piece.until, from));
+                  "until is {}; it must be greater than {}, where the piece begins", piece.until,
+                  from);
     Polynomial polynomial{from, {piece.value}};
     polynomial.coefficients.insert(polynomial.coefficients.end(), piece.higher.begin(),
                                    piece.higher.end());
@@ -74,8 +69,8 @@ ExternalForce::ExternalForce(const std::vector<Piece>& pieces) {
 
 ExternalForce ExternalForce::sinusoidal(const Sinusoid& sinusoid) {
   if (!(sinusoid.angular_frequency > 0))
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("angular_frequency is {}; it must be > 0", sinusoid.angular_frequency));
+    throw Error(ErrorKind::kBadInput, "angular_frequency is {}; it must be > 0",
+                sinusoid.angular_frequency);
   ExternalForce force({{1, 0}});
   force.sinusoids_.push_back(sinusoid);
   return force;
@@ -219,11 +214,10 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
   };
   constexpr double kMostSamples = 1e6;  // each sample costs about 50 ns
   if (fastest * end / (2 * std::numbers::pi) * kSamplesPerPeriod > kMostSamples)
-    throw Error(
-        ErrorKind::kNotConverged,
-        fmt::format("the external force has an angular frequency of {}, which makes more "
-                    "periods until time {} than can be followed; at most {:.0e} are allowed",
-                    fastest, end, kMostSamples / kSamplesPerPeriod));
+    throw Error(ErrorKind::kNotConverged,
+                "the external force has an angular frequency of {}, which makes more periods until "
+                "time {} than can be followed; at most {:.0e} are allowed",
+                fastest, end, kMostSamples / kSamplesPerPeriod);
   for (std::size_t i = 0; i < pieces_.size() && pieces_[i].from < end; ++i) {
     const double from = pieces_[i].from;
     const double to = i + 1 < pieces_.size() ? std::min(end, pieces_[i + 1].from) : end;
@@ -284,16 +278,12 @@ ExternalForce read_external_force(const std::filesystem::path& path, double end)
     const FilePosition here{file, row.line};
     const double time = required_field(row, columns, 0, file);
     const double force = required_field(row, columns, 1, file);
-    if (i == 0 && time != 0)
-      throw_bad_input(here, fmt::format("the first time is {}; it must be 0", time));
-    if (time < from)
-      throw_bad_input(here, fmt::format("time is {} after {}; it must not decrease", time, from));
+    if (i == 0 && time != 0) throw_bad_input(here, "the first time is {}; it must be 0", time);
+    if (time < from) throw_bad_input(here, "time is {} after {}; it must not decrease", time, from);
     if (i > 0 && time == from) {
       if (jumped)
         throw_bad_input(
-            here,
-            fmt::format("time {} stands in more than two rows; two rows of one time make a jump",
-                        time));
+            here, "time {} stands in more than two rows; two rows of one time make a jump", time);
       jumped = true;
     } else if (i > 0) {
       pieces.push_back({time, value, {(force - value) / (time - from)}});
@@ -303,8 +293,7 @@ ExternalForce read_external_force(const std::filesystem::path& path, double end)
     value = force;
   }
   if (csv.rows.empty() || from < end)
-    throw_bad_input({file},
-                    fmt::format("ends at time {}; it must reach motion.end_time, {}", from, end));
+    throw_bad_input({file}, "ends at time {}; it must reach motion.end_time, {}", from, end);
   return ExternalForce(pieces);
 }
 

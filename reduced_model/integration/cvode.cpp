@@ -6,18 +6,15 @@
 #include "viscontact/reduced_model/integration/cvode.hpp"
 
 #include <cvode/cvode.h>
-#include <fmt/format.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_config.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <new>
 #include <sundials/sundials_context.hpp>
-#include <vector>
 
 #include "viscontact/common/error.hpp"
 
@@ -166,9 +163,9 @@ void Cvode::check(int code, const char* call) const {
   if (code >= 0) return;
   const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(code), std::free);
   throw Error(ErrorKind::kNotConverged,
-              fmt::format("CVODE gave up at time {:.6g} ({} returned {}); take another {}, or less "
-                          "extreme mass, velocity or force",
-                          time_, call, name.get(), system_.tolerance_key));
+              "CVODE gave up at time {:.6g} ({} returned {}); take another {}, or less extreme "
+              "mass, velocity or force",
+              time_, call, name.get(), system_.tolerance_key);
 }
 
 int Cvode::keep_error(double time) {

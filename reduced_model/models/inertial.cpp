@@ -8,10 +8,7 @@
 // raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/inertial.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -265,9 +262,8 @@ void check_start_outside_roughness(const Motion& motion) {
   if (!(motion.initial_gap > solid_gap))
     throw Error(
         ErrorKind::kBadInput,
-        fmt::format("motion.initial_gap is {}; it must be greater than the roughness heights "
-                    "together, {}",
-                    motion.initial_gap, solid_gap));
+        "motion.initial_gap is {}; it must be greater than the roughness heights together, {}",
+        motion.initial_gap, solid_gap);
 }
 
 Trajectory simulate_inertial_rough(const Motion& motion,

@@ -14,18 +14,14 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
-#include <string>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
-#include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/reference.hpp"
-#include "viscontact/reduced_model/motion.hpp"
-#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact::reduced_model {
 namespace {
@@ -139,9 +135,8 @@ MomentumEnergyBudget budget_of_drag(const std::vector<TrajectoryRow>& rows, cons
 /// increase.
 void check_finite(const Trajectory& trajectory) {
   const auto refuse = [](double time) {
-    throw Error(
-        ErrorKind::kNotConverged,
-        fmt::format("a number of the motion leaves the range of a double at time {:.6g}", time));
+    throw Error(ErrorKind::kNotConverged,
+                "a number of the motion leaves the range of a double at time {:.6g}", time);
   };
   const auto is_number = [](const OptionalDouble& value) {
     return !value || std::isfinite(*value);

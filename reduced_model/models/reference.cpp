@@ -5,8 +5,6 @@
 // raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/reference.hpp"
 
-#include <fmt/format.h>
-
 #include "viscontact/common/error.hpp"
 
 namespace viscontact::reduced_model {
@@ -29,12 +27,10 @@ Trajectory simulate_reference(const Motion& motion, const lubrication::Lubricati
     trajectory.rows.push_back({t, q, u, -f, f, {}});
     q += (next - t) * u;
     if (n < steps && !(q > 0))
-      throw Error(
-          ErrorKind::kNotConverged,
-          fmt::format(
-              "the step from time {:.6g} goes through the plane (gap {:.3g}); take a smaller "
-              "reference.time_step than {}",
-              t, q, h));
+      throw Error(ErrorKind::kNotConverged,
+                  "the step from time {:.6g} goes through the plane (gap {:.3g}); take a smaller "
+                  "reference.time_step than {}",
+                  t, q, h);
   }
   return trajectory;
 }

@@ -7,7 +7,6 @@
 #include "viscontact/report/flow/flow_grid.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>

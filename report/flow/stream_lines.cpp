@@ -8,7 +8,6 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <unordered_map>
 

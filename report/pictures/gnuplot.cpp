@@ -12,7 +12,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "viscontact/common/error.hpp"
 #include "viscontact/common/system/process.hpp"
 
 namespace viscontact::report {
@@ -48,8 +47,7 @@ std::string plot_of(const std::string& name, const ColourField& field) {
   const double height = (field.top - field.bottom) / static_cast<double>(field.rows);
   return fmt::format(
       "plot ${} matrix using ({:.17g} + $1 * {:.17g}):({:.17g} + $2 * {:.17g}):($3 < {} ? $3 : "
-      "NaN) "
-      "with image notitle",
+      "NaN) with image notitle",
       name, field.left + width / 2, width, field.bottom + height / 2, height, kTransparent);
 }
 
@@ -164,8 +162,8 @@ std::string draw_picture(const results::PictureFormat& format, const std::vector
                        " 2>&1 >&3); status=$?; } 3>&1; printf '%s' \"$errors\"; exit $status"},
                   {"LC_ALL=C"}, script, {}, kLongest, stop);
   if (result.timed_out)
-    throw Error(ErrorKind::kExternalProgram,
-                fmt::format("gnuplot had not ended after {} s and was stopped", kLongest.count()));
+    throw Error(ErrorKind::kExternalProgram, "gnuplot had not ended after {} s and was stopped",
+                kLongest.count());
   constexpr int kCannotBeRun = 126, kNotFound = 127;  // exit codes of the shell
   if (!result.started || result.exit_status == kNotFound || result.exit_status == kCannotBeRun)
     throw GnuplotMissing(
@@ -176,9 +174,8 @@ std::string draw_picture(const results::PictureFormat& format, const std::vector
   const auto start = result.output.find(marks.begin);
   const auto end = result.output.rfind(marks.end);
   if (result.exit_status != 0 || start == std::string::npos || end == std::string::npos)
-    throw Error(ErrorKind::kExternalProgram,
-                fmt::format("gnuplot failed (exit status {}): {}", result.exit_status,
-                            last_part(result.output)));
+    throw Error(ErrorKind::kExternalProgram, "gnuplot failed (exit status {}): {}",
+                result.exit_status, last_part(result.output));
   return result.output.substr(start, end + marks.end.size() - start) +
          (kind == TextKind::kPng ? "" : "\n");
 }

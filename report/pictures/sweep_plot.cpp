@@ -73,8 +73,8 @@ class SweepRows {
   std::size_t index_of(const std::string& name) const {
     const auto found = std::ranges::find(names_, name);
     if (found == names_.end())
-      throw_bad_input({path_.string()}, fmt::format("has no column '{}'; its columns are: {}", name,
-                                                    fmt::join(names_, ", ")));
+      throw_bad_input({path_.string()}, "has no column '{}'; its columns are: {}", name,
+                      fmt::join(names_, ", "));
     return static_cast<std::size_t>(found - names_.begin());
   }
 

@@ -37,8 +37,8 @@ void weight_keys(case_file::Keys& keys, WeightKeys& given, double mass) {
   for (const auto* key : kOneOf)
     if (keys.has(key)) {
       keys.require(first.empty(), key,
-                   "must be left out, because {} is given; only one of force, "
-                   "weight and gravity may be given",
+                   "must be left out, because {} is given; only one of force, weight and gravity "
+                   "may be given",
                    first);
       first = key;
     }
@@ -53,11 +53,11 @@ void weight_keys(case_file::Keys& keys, WeightKeys& given, double mass) {
                  "along the plane and -`weight` cos(`incline`) away from it",
                  "from `force` or `gravity`"});
   double gravity = 0;
-  if (keys.optional("gravity", case_file::number(gravity, kFinite),
-                    {"acceleration, negative towards a plane that is level, in place of `weight`: "
-                     "the [weight less buoyancy](physics.md#4-motion-of-one-sphere-reduced_model) "
-                     "is (4.15)",
-                     "from `force` or `weight`"}))
+  if (keys.optional(
+          "gravity", case_file::number(gravity, kFinite),
+          {"acceleration, negative towards a plane that is level, in place of `weight`: the "
+           "[weight less buoyancy](physics.md#4-motion-of-one-sphere-reduced_model) is (4.15)",
+           "from `force` or `weight`"}))
     given.weight = -mass * gravity;
   keys.optional("incline", case_file::number(given.incline, kAngle), {"angle of the plane"});
   keys.require(!keys.has("force") || given.force.size() == 2, "force",
@@ -148,10 +148,9 @@ void rolling_sphere_keys(case_file::Keys& keys, RollingCase& c) {
 
 void pair_fit_keys(case_file::Keys& keys, RollingCase& c) {
   std::string file;
-  keys.required(
-      "file", case_file::file_name(file),
-      {"fit of a pair (JSON) beside a plane, which is [scaled](physics.md#3-the-fit-fitting) "
-       "to radius and viscosity of the case"});
+  keys.required("file", case_file::file_name(file),
+                {"fit of a pair (JSON) beside a plane, which is "
+                 "[scaled](physics.md#3-the-fit-fitting) to radius and viscosity of the case"});
   c.fit = c.path.parent_path() / file;
 }
 
@@ -160,10 +159,10 @@ void rolling_sweep_keys(case_file::Keys& keys, case_file::SweepRequest& sweep) {
   case_file::points_and_plot_keys(keys, sweep);
 }
 
-/// The case with the root table `root`; see case_of_root().
-RollingCase rolling_case_of(const case_file::TomlSection& root, std::string text,
-                            const std::filesystem::path& path) {
-  auto c = case_file::titled_case<RollingCase>(root, std::move(text), path);
+}  // namespace
+
+void read_root(const case_file::TomlSection& root, RollingCase& c) {
+  case_file::read_title_and_units(root, c);
   for (const auto& model : rolling_models()) c.models.emplace_back(model.name);
   case_file::read_keys(root.section("fluid"), case_file::fluid_keys, c.viscosity, c.fluid_density);
   case_file::read_keys(root.section("sphere"), rolling_sphere_keys, c);
@@ -182,10 +181,7 @@ RollingCase rolling_case_of(const case_file::TomlSection& root, std::string text
   if (root.has("sweep"))
     case_file::read_keys(root.section("sweep"), rolling_sweep_keys, c.sweep.emplace());
   root.finish();
-  return c;
 }
-
-}  // namespace
 
 RollingCase read_rolling_case(const std::filesystem::path& path) {
   return case_file::read_case_file<RollingCase>(path);
@@ -194,9 +190,8 @@ RollingCase read_rolling_case(const std::filesystem::path& path) {
 motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
                          const std::filesystem::path& file) {
   if (!fit.geometry.empty() && fit.geometry != freefem_axi::default_geometry().name)
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: is the fit of a sphere beside: {}; it must be a plane",
-                            file.string(), fit.geometry));
+    throw Error(ErrorKind::kBadInput, "{}: is the fit of a sphere beside: {}; it must be a plane",
+                file.string(), fit.geometry);
   return motions::scaled_to(std::move(fit), c.viscosity, c.radius);
 }
 
@@ -208,13 +203,3 @@ std::vector<case_file::KeyTable> tables_of_rolling_case() {
 }
 
 }  // namespace viscontact::rolling
-
-namespace viscontact::case_file {
-
-template <>
-rolling::RollingCase case_of_root(const TomlSection& root, std::string text,
-                                  const std::filesystem::path& path) {
-  return rolling::rolling_case_of(root, std::move(text), path);
-}
-
-}  // namespace viscontact::case_file

@@ -43,6 +43,10 @@ struct RollingCase {
 /// value and what is allowed.
 RollingCase read_rolling_case(const std::filesystem::path& path);
 
+/// Reads a case from the root table of its file (case_file/case_template.hpp). Throws as
+/// read_rolling_case().
+void read_root(const case_file::TomlSection& root, RollingCase& c);
+
 /// `fit`, scaled to radius and viscosity of the case. Messages name `file`, from which it was read.
 /// Throws Error(kBadInput) if the fit is not that of a sphere above a plane; a fit that names no
 /// neighbour is accepted.
@@ -54,13 +58,3 @@ motions::PairFit fit_for(const RollingCase& c, motions::PairFit fit,
 std::vector<case_file::KeyTable> tables_of_rolling_case();
 
 }  // namespace viscontact::rolling
-
-namespace viscontact::case_file {
-
-/// The case of a rolling sphere whose root table is `root` (case_template.hpp). Throws the errors
-/// of read_rolling_case().
-template <>
-rolling::RollingCase case_of_root(const TomlSection& root, std::string text,
-                                  const std::filesystem::path& path);
-
-}  // namespace viscontact::case_file

@@ -30,19 +30,17 @@ void check_rolling_key(const std::string& key) {
   constexpr std::array kOther = {"fluid.viscosity", "fluid.density",  "sphere.radius",
                                  "sphere.mass",     "sphere.density", "sphere.moment_of_inertia"};
   if (key.starts_with("rolling.") || std::ranges::find(kOther, key) != kOther.end()) return;
-  throw Error(
-      ErrorKind::kWrongUsage,
-      fmt::format("{} cannot be varied with one fit; keys of [rolling], {} can, and `viscontact "
-                  "rolling` makes the fit of another sphere",
-                  key, fmt::join(kOther, ", ")));
+  throw Error(ErrorKind::kWrongUsage,
+              "{} cannot be varied with one fit; keys of [rolling], {} can, and `viscontact "
+              "rolling` makes the fit of another sphere",
+              key, fmt::join(kOther, ", "));
 }
 
 void check_rolling_model(const std::string& model) {
   const auto& all = rolling_models();
   if (find_named(all, model) == nullptr)
-    throw Error(ErrorKind::kWrongUsage,
-                fmt::format("'{}' is no model of a rolling sphere; the models are: {}", model,
-                            names_of(all)));
+    throw Error(ErrorKind::kWrongUsage, "'{}' is no model of a rolling sphere; the models are: {}",
+                model, names_of(all));
 }
 
 /// Throws Error(kWrongUsage) if none of the models depends on a key of the case.
@@ -51,17 +49,17 @@ void refuse_useless(const RollingCase& c, const std::string& key,
   const bool is_of_solids = key == "rolling.roughness" || key == "rolling.friction";
   const bool is_of_integrator = key == "rolling.relative_tolerance";
   if (key == "fluid.density" && !c.has_gravity)
-    throw Error(ErrorKind::kWrongUsage,
-                "fluid.density cannot be varied, because no motion depends on it without "
-                "rolling.gravity");
+    throw Error(
+        ErrorKind::kWrongUsage,
+        "fluid.density cannot be varied, because no motion depends on it without rolling.gravity");
   if (std::ranges::all_of(models, [&](const auto& model) {
         return (is_of_solids && model == "smooth") ||
                (is_of_integrator && model == "viscous_contact");
       }))
     throw Error(ErrorKind::kWrongUsage,
-                fmt::format("{} cannot be varied, because none of the models that are run depends "
-                            "on it ({}); leave it out, or add a model that depends on it",
-                            key, fmt::join(models, ", ")));
+                "{} cannot be varied, because none of the models that are run depends on it ({}); "
+                "leave it out, or add a model that depends on it",
+                key, fmt::join(models, ", "));
 }
 
 void add_rolling_end(const std::string& model, const RollingEnd& end, sweep::RowResults& results) {
@@ -84,11 +82,8 @@ void roll_models(const RollingPlan& plan, RollingCase c, const motions::PairFit&
   c.motion.stop = stop;
   const auto fit_here = fit_for(c, fit, plan.fit_path);
   const auto run = [&](const std::string& name) {
-    try {
-      return find_named(rolling_models(), name)->run(c.motion, fit_here);
-    } catch (const Error& error) {
-      throw Error(error.kind(), fmt::format("model {}: {}", name, error.what()));
-    }
+    return with_place("model " + name,
+                      [&] { return find_named(rolling_models(), name)->run(c.motion, fit_here); });
   };
   for (const auto& name : plan.models)
     sweep::add_part(results,

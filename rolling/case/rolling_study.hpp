@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/motions/pair_fit.hpp"
 #include "viscontact/rolling/case/rolling_case.hpp"
 #include "viscontact/sweep/study.hpp"
 

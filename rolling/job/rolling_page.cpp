@@ -10,14 +10,10 @@
 #include <algorithm>
 #include <array>
 
-#include "viscontact/report/page.hpp"
 #include "viscontact/report/pictures/colours.hpp"
 
 namespace viscontact::rolling {
 namespace {
-
-constexpr auto kRollingPictures =
-    std::to_array<std::string_view>({"gap", "velocity", "rotation", "slip", "friction"});
 
 /// Index of the colour of a model: its place among all models, so that it is the same in all runs.
 std::size_t place_of(const std::string& model) {
@@ -121,20 +117,11 @@ std::vector<std::string> rolling_warnings(const RollingResults& results) {
     // Relative rounding error of the gap of a sphere that rests at the smallest fitted gap.
     constexpr double kRounding = 1e-9;
     if (thinnest < (1 - kRounding) * low)
-      warnings.push_back(
-          fmt::format("Extrapolation: {} gets down to a gap of {:.4g}, below the smallest fitted "
-                      "gap, {:.4g}",
-                      model, thinnest, low));
+      warnings.push_back(fmt::format(
+          "Extrapolation: {} gets down to a gap of {:.4g}, below the smallest fitted gap, {:.4g}",
+          model, thinnest, low));
   }
   return warnings;
-}
-
-void check_rolling_report(const std::filesystem::path& folder) {
-  (void)report::Report(folder, kRollingPictures);
-}
-
-bool rolling_report_is_current(const std::filesystem::path& folder) {
-  return report::page_is_current(folder, kRollingPictures);
 }
 
 void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,

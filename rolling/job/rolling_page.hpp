@@ -3,13 +3,16 @@
 // keep the names of the pictures, so that those of earlier runs are replaced.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/motions/pair_fit.hpp"
+#include "viscontact/report/page.hpp"
 #include "viscontact/results/failed_models.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/rolling/case/rolling_case.hpp"
@@ -29,12 +32,9 @@ struct RollingResults {
 /// the fit is continued although no row of a table supports it. Empty if there is none.
 std::vector<std::string> rolling_warnings(const RollingResults& results);
 
-/// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not
-/// write.
-void check_rolling_report(const std::filesystem::path& folder);
-
-/// True if the report is there and its inputs have not changed (report::page_is_current()).
-bool rolling_report_is_current(const std::filesystem::path& folder);
+/// The names of all pictures of the report (report::Report).
+inline constexpr auto kRollingPictures =
+    std::to_array<std::string_view>({"gap", "velocity", "rotation", "slip", "friction"});
 
 /// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no
 /// still pictures, and a warning says so. Throws Error(kExternalProgram) if gnuplot fails,

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
 #include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
@@ -52,7 +51,7 @@ void check_rolling_files(const RollingFolder& folder) {
   for (const auto& model : rolling_models())
     results::refuse_other_kind(folder.trajectory(model.name), "# viscontact: rolling sphere",
                                "trajectory of a rolling sphere");
-  check_rolling_report(folder.path);
+  (void)report::Report(folder.path, kRollingPictures);  // throws if a file is in its way
 }
 
 /// Computes the tables and fits them, unless the case names a fit. Sets `failure` to the error that
@@ -81,10 +80,10 @@ void tell_of_scaling(const RollingCase& c) {
   if (!c.fit) return;
   const auto fit = motions::read_pair_fit(*c.fit);
   if (!equal_up_to_rounding(fit.radius, c.radius))
-    terminal::say(fmt::format(
+    terminal::say(
         "rolling: the fit is that of radius {} and viscosity {}; it is scaled to radius {} and "
         "viscosity {}",
-        fit.radius, fit.viscosity, c.radius, c.viscosity));
+        fit.radius, fit.viscosity, c.radius, c.viscosity);
 }
 
 /// The columns of a trajectory but the last, `contact`.
@@ -129,8 +128,7 @@ RollingTrajectory read_trajectory(const fs::path& path) {
     for (std::size_t i = 0; i < kColumns.size(); ++i) row.*kColumns[i] = *fields[i];
     const double contact = *fields.back();
     if (contact != 0 && contact != 1 && contact != 2)
-      throw_bad_input({path.string(), line},
-                      fmt::format("contact is {}; it must be 0, 1 or 2", contact));
+      throw_bad_input({path.string(), line}, "contact is {}; it must be 0, 1 or 2", contact);
     row.contact = static_cast<SolidContact>(static_cast<int>(contact));
   }
   if (trajectory.empty()) throw_bad_input({path.string()}, "has no rows");
@@ -191,9 +189,8 @@ bool write_trajectories(const RollingFolder& folder, const RollingResults& resul
 }
 
 void say_end(const std::string& model, const RollingRow& last) {
-  terminal::say(
-      fmt::format("rolling: {} ends at the gap {:.6g}, velocity {:.6g}, angular velocity {:.6g}",
-                  model, last.gap, last.velocity, last.angular_velocity));
+  terminal::say("rolling: {} ends at the gap {:.6g}, velocity {:.6g}, angular velocity {:.6g}",
+                model, last.gap, last.velocity, last.angular_velocity);
 }
 
 }  // namespace
@@ -220,10 +217,10 @@ void run_rolling(const RollingRequest& request) {
     terminal::warn("rolling: warning: " + warning);
   const auto json = rolling_json(results);
   if (results::write_if_changed(folder.results(), TextKind::kJson, json, provenance)) wrote = true;
-  if (wrote || !rolling_report_is_current(folder.path))
+  if (wrote || !report::page_is_current(folder.path, kRollingPictures))
     write_rolling_report(results, folder.path, provenance, request.stop);
   else
-    terminal::say(fmt::format("rolling: {} is up to date", folder.path.string()));
+    terminal::say("rolling: {} is up to date", folder.path.string());
   if (request.json) fmt::print("{}", json);
   pipeline::with_failure(rows_failed, [&] {
     if (!results.failed.empty())

@@ -7,13 +7,11 @@
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
-#include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 namespace viscontact::swimmer {
 namespace {
@@ -39,10 +37,9 @@ struct ArmGrid {
 };
 
 void arm_keys(case_file::Keys& keys, ArmGrid& grid) {
-  keys.required(
-      "from", case_file::number(grid.from, kPositive),
-      {"the shortest arm, greater than the sum of both radii, so that the gap is at least "
-       "1e-6 of the smaller radius"});
+  keys.required("from", case_file::number(grid.from, kPositive),
+                {"the shortest arm, greater than the sum of both radii, so that the gap is at "
+                 "least 1e-6 of the smaller radius"});
   keys.required("to", case_file::number(grid.to, kPositive), {"the longest arm"});
   // At least 3, because fit_resistance() needs three values of each gap.
   keys.required("count", case_file::count(grid.count, 3, 200), {"the number of arms between them"});
@@ -61,11 +58,10 @@ std::vector<double> read_arm_gaps(const case_file::TomlSection& section,
                   from, both_radii, k + 1, k + 2);
   constexpr double kLeastGap = 1e-6;  // of the smaller radius; tests go down to this value
   const double least = kLeastGap * std::min(radii[k], radii[k + 1]);
-  section.require(
-      from - both_radii >= least, "from",
-      "is {}, a gap of {:.3g}; a gap must be at least {} of the smaller radius, so from "
-      "must be at least {}",
-      from, from - both_radii, kLeastGap, both_radii + least);
+  section.require(from - both_radii >= least, "from",
+                  "is {}, a gap of {:.3g}; a gap must be at least {} of the smaller radius, so "
+                  "from must be at least {}",
+                  from, from - both_radii, kLeastGap, both_radii + least);
   section.require(to > from, "to", "is {}; it must be greater than from, {}", to, from);
   constexpr double kLargestArm = 1e4;  // times the sum of both radii
   section.require(to <= kLargestArm * both_radii, "to",
@@ -156,8 +152,8 @@ void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
                 {"radii in the order of the line; the largest is at most 100 times the smallest"});
   keys.optional(
       "table", case_file::custom("a CSV file", read_given_table, c),
-      {"a [table](file-formats.md#resistance-matrices-csv) of spheres with the same "
-       "ratios of radii, in any units and for any viscosity, which is scaled to this case",
+      {"a [table](file-formats.md#resistance-matrices-csv) of spheres with the same ratios of "
+       "radii, in any units and for any viscosity, which is scaled to this case",
        "the table is computed, for `arms`"});
   keys.required_if(!c.table_file, "arms",
                    case_file::custom("`{ from, to, count }`, or a list of these, one for each arm",
@@ -169,8 +165,8 @@ void swimmer_keys(case_file::Keys& keys, SwimmerCase& c) {
   keys.optional(
       "container",
       case_file::custom("`\"unbounded\"`, `{ radius }` or `{ radius, height }`", read_tube, c),
-      {"what is around the line: nothing, a long tube without slip, or a closed cylinder "
-       "with the swimmer in the middle",
+      {"what is around the line: nothing, a long tube without slip, or a closed cylinder with the "
+       "swimmer in the middle",
        "`\"unbounded\"`"});
   if (!c.table_file) return;
   const auto around = surroundings_in_words(c.spheres);
@@ -189,12 +185,12 @@ std::string fault_of_arm(double arm, std::size_t k, const SwimmerCase& c) {
   if (arm >= from * (1 - kRounding) && arm <= to * (1 + kRounding)) return "";
   if (!(arm > both_radii))
     return fmt::format(
-        "makes arm x{} {:.9g}; spheres {} and {} would overlap, as the sum of their "
-        "radii is {:.9g}",
+        "makes arm x{} {:.9g}; spheres {} and {} would overlap, as the sum of their radii is "
+        "{:.9g}",
         k + 1, arm, k + 1, k + 2, both_radii);
   return fmt::format(
-      "makes arm x{} {:.9g}; the table has arms from {:.9g} to {:.9g}, so change "
-      "the stroke or swimmer.arms",
+      "makes arm x{} {:.9g}; the table has arms from {:.9g} to {:.9g}, so change the stroke or "
+      "swimmer.arms",
       k + 1, arm, from, to);
 }
 
@@ -235,9 +231,9 @@ void read_samples(const case_file::TomlSection& section, std::string_view key, d
                   for (std::size_t i = 0; i < columns.size(); ++i)
                     if (!fields[i]) throw_bad_input(here, columns[i] + " is empty");
                   if (!times.empty() && !(*fields[0] > times.back()))
-                    throw_bad_input(here, fmt::format("time is {}; it must be greater than in the "
-                                                      "row above, {}",
-                                                      *fields[0], times.back()));
+                    throw_bad_input(here,
+                                    "time is {}; it must be greater than in the row above, {}",
+                                    *fields[0], times.back());
                   times.push_back(*fields[0]);
                   Eigen::VectorXd arms(static_cast<Eigen::Index>(c.gaps.size()));
                   for (std::size_t k = 0; k < c.gaps.size(); ++k) {
@@ -248,9 +244,9 @@ void read_samples(const case_file::TomlSection& section, std::string_view key, d
                   samples.push_back(arms);
                 });
   if (samples.size() < 3)
-    throw_bad_input({file}, fmt::format("has {} rows; a stroke needs at least 3, of which the last "
-                                        "one closes the loop",
-                                        samples.size()));
+    throw_bad_input({file},
+                    "has {} rows; a stroke needs at least 3, of which the last one closes the loop",
+                    samples.size());
   c.stroke_files.push_back(path);
   c.stroke = with_place(file, [&] { return sampled_stroke(times, samples); });
 }
@@ -300,8 +296,8 @@ void read_phases(const case_file::TomlSection& section, std::string_view key,
 void ellipse_keys(case_file::Keys& keys, Ellipse& ellipse, const SwimmerCase& c) {
   constexpr std::string_view kArms = "a number for each arm, or one number for all";
   keys.required("centre", case_file::custom(kArms, read_arms, ellipse.centre, c, kPositive),
-                {"x1 = `centre[0]` + `semi_axes[0]` cos t, x2 = `centre[1]` + `semi_axes[1]` "
-                 "cos(t + `phase`), with t from 0 to 2 pi in a period"});
+                {"x1 = `centre[0]` + `semi_axes[0]` cos t, x2 = `centre[1]` + `semi_axes[1]` cos(t "
+                 "+ `phase`), with t from 0 to 2 pi in a period"});
   keys.required("semi_axes",
                 case_file::custom(kArms, read_arms, ellipse.semi_axes, c, kNotNegative),
                 {"not all 0"});
@@ -333,11 +329,11 @@ void stroke_keys(case_file::Keys& keys, SwimmerCase& c) {
   double period = 1;
   keys.optional("period", case_file::number(period, kPositive),
                 {"duration of the stroke; not with `file`"});
-  keys.optional(
-      "corners", case_file::custom("at least two shapes `[x1, x2, ...]`", read_corners, period, c),
-      {"straight legs from one shape to the next and back to the first. Each leg takes an "
-       "equal share of the period, at constant velocity",
-       "or `ellipse` or `file`"});
+  keys.optional("corners",
+                case_file::custom("at least two shapes `[x1, x2, ...]`", read_corners, period, c),
+                {"straight legs from one shape to the next and back to the first. Each leg takes "
+                 "an equal share of the period, at constant velocity",
+                 "or `ellipse` or `file`"});
   keys.optional("ellipse",
                 case_file::custom("`{ centre, semi_axes, phase }`", read_ellipse, period, c),
                 {"an ellipse in the space of shapes, see below", "or `corners` or `file`"});
@@ -381,19 +377,16 @@ void optimal_keys(case_file::Keys& keys, SwimmerCase& c) {
                                      kFewestPolynomials, request.polynomials);
 }
 
-/// The case with the root table `root`; see case_of_root().
-SwimmerCase swimmer_case_of(const case_file::TomlSection& root, std::string text,
-                            const std::filesystem::path& path) {
-  auto c = case_file::titled_case<SwimmerCase>(root, std::move(text), path);
+}  // namespace
+
+void read_root(const case_file::TomlSection& root, SwimmerCase& c) {
+  case_file::read_title_and_units(root, c);
   case_file::read_keys(root.section("fluid"), case_file::viscosity_keys, c.spheres.viscosity);
   case_file::read_keys(root.section("swimmer"), swimmer_keys, c);
   if (root.has("stroke")) case_file::read_keys(root.section("stroke"), stroke_keys, c);
   if (root.has("optimal")) case_file::read_keys(root.section("optimal"), optimal_keys, c);
   root.finish();
-  return c;
 }
-
-}  // namespace
 
 std::vector<case_file::KeyTable> tables_of_swimmer_case() {
   return {case_file::describe_keys("[swimmer]", swimmer_keys),
@@ -416,13 +409,3 @@ SwimmerCase read_swimmer_case(const std::filesystem::path& path) {
 }
 
 }  // namespace viscontact::swimmer
-
-namespace viscontact::case_file {
-
-template <>
-swimmer::SwimmerCase case_of_root(const TomlSection& root, std::string text,
-                                  const std::filesystem::path& path) {
-  return swimmer::swimmer_case_of(root, std::move(text), path);
-}
-
-}  // namespace viscontact::case_file

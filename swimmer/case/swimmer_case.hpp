@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "viscontact/case_file/case_template.hpp"
-#include "viscontact/case_file/keys.hpp"
 #include "viscontact/swimmer/optimal_stroke.hpp"
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 #include "viscontact/swimmer/stroke.hpp"
@@ -47,6 +46,10 @@ struct SwimmerCase {
 /// value and what is allowed.
 SwimmerCase read_swimmer_case(const std::filesystem::path& path);
 
+/// Reads a case from the root table of its file (case_file/case_template.hpp). Throws as
+/// read_swimmer_case().
+void read_root(const case_file::TomlSection& root, SwimmerCase& c);
+
 /// The case file and the files of tables and strokes that it names. Throws nothing.
 std::vector<std::filesystem::path> files_of(const SwimmerCase& c);
 
@@ -54,13 +57,3 @@ std::vector<std::filesystem::path> files_of(const SwimmerCase& c);
 std::vector<case_file::KeyTable> tables_of_swimmer_case();
 
 }  // namespace viscontact::swimmer
-
-namespace viscontact::case_file {
-
-/// The case of a swimmer whose root table is `root` (case_template.hpp). Throws the errors of
-/// read_swimmer_case().
-template <>
-swimmer::SwimmerCase case_of_root(const TomlSection& root, std::string text,
-                                  const std::filesystem::path& path);
-
-}  // namespace viscontact::case_file

@@ -7,8 +7,6 @@
 // kept.
 #include "viscontact/swimmer/case/swimmer_study.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 #include "viscontact/common/error.hpp"
@@ -37,10 +35,9 @@ void add_sums(const std::string& prefix, const SwimSums& sums, sweep::RowResults
 void check_swimmer_key(const std::string& key) {
   if (key.starts_with("stroke.") || key.starts_with("optimal.") || key == "fluid.viscosity") return;
   throw Error(ErrorKind::kWrongUsage,
-              fmt::format("{} cannot be varied with one fit, because it changes the table; keys of "
-                          "[stroke], [optimal] and fluid.viscosity can, and `viscontact swimmer` "
-                          "makes another table",
-                          key));
+              "{} cannot be varied with one fit, because it changes the table; keys of [stroke], "
+              "[optimal] and fluid.viscosity can, and `viscontact swimmer` makes another table",
+              key);
 }
 
 sweep::RowResults swim_strokes(const SwimmerCase& c, ResistanceFit fit, const StopToken& stop) {
@@ -73,9 +70,9 @@ sweep::Study swimmer_study(const std::filesystem::path& case_path, sweep::Points
     if (last.spheres.radii != fit.radii && !scaled.container.empty() &&
         !lubrication::same_words(scaled.container, around))
       throw_bad_input({case_path.string()},
-                      fmt::format("the container of the fit is '{}', that of the case is '{}'; "
-                                  "give the fit that `viscontact swimmer` made from this case",
-                                  scaled.container, around));
+                      "the container of the fit is '{}', that of the case is '{}'; give the fit "
+                      "that `viscontact swimmer` made from this case",
+                      scaled.container, around);
   });
   if (!last.stroke && !last.optimal)
     throw Error(ErrorKind::kWrongUsage, "the case has neither [stroke] nor [optimal]");

@@ -7,8 +7,6 @@
 // signs of change_by_estimates(), on which the error estimates depend.
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -17,9 +15,6 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/splitmix.hpp"
-#include "viscontact/common/text/number.hpp"
-#include "viscontact/swimmer/resistance/resistance_fit.hpp"
-#include "viscontact/swimmer/resistance/resistance_table.hpp"
 #include "viscontact/swimmer/resistance/tensor_polynomial.hpp"
 
 namespace viscontact::swimmer {
@@ -36,10 +31,10 @@ std::vector<std::vector<double>> nodes_of(const ResistanceTable& table) {
   auto nodes = gap_grid(table);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     if (nodes[k].size() < kFewestNodes)
-      throw Error(ErrorKind::kBadInput,
-                  fmt::format("the table has {} values of the gap between spheres {} and {}; a fit "
-                              "needs at least {}",
-                              nodes[k].size(), k + 1, k + 2, kFewestNodes));
+      throw Error(
+          ErrorKind::kBadInput,
+          "the table has {} values of the gap between spheres {} and {}; a fit needs at least {}",
+          nodes[k].size(), k + 1, k + 2, kFewestNodes);
   return nodes;
 }
 
@@ -53,9 +48,8 @@ std::vector<ResistanceRow> sorted_rows(const ResistanceTable& table,
   for (const auto& values : nodes) count *= values.size();
   if (rows.size() != count || table.rows.size() != count)
     throw Error(ErrorKind::kBadInput,
-                fmt::format("the table has {} rows; a fit needs each of the {} combinations of its "
-                            "gaps once",
-                            table.rows.size(), count));
+                "the table has {} rows; a fit needs each of the {} combinations of its gaps once",
+                table.rows.size(), count);
   std::vector<ResistanceRow> sorted;
   for (auto& [gaps, row] : rows) sorted.push_back(std::move(row));
   return sorted;

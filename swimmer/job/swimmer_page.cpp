@@ -3,8 +3,8 @@
 // the case; swim.hpp has their dimensions and ranges. Heights and widths of pictures, in pixels,
 // are free choices. A gnuplot that fails is an Error(kExternalProgram), a file in the way or not
 // written an Error(kBadInput), a stop an Error(kInterrupted). Used by swimmer_stage.cpp. A change
-// must list every picture in kPictureNames, which decides which files in plots/ may be replaced or
-// removed.
+// must list every picture in kSwimmerPictures, which decides which files in plots/ may be replaced
+// or removed.
 #include "viscontact/swimmer/job/swimmer_page.hpp"
 
 #include <fmt/format.h>
@@ -16,15 +16,11 @@
 #include <string>
 #include <utility>
 
-#include "viscontact/report/page.hpp"
 #include "viscontact/report/pictures/colours.hpp"
 #include "viscontact/report/pictures/gnuplot.hpp"
 
 namespace viscontact::swimmer {
 namespace {
-
-constexpr auto kPictureNames = std::to_array<std::string_view>(
-    {"loops", "position", "power", "arms", "forces", "convergence"});
 
 using Points = std::vector<std::pair<double, double>>;
 
@@ -307,29 +303,20 @@ std::string files_words(const SwimmerResults& results) {
 /// The section (HTML) with the loops; empty if they are not drawn.
 std::string loops_section(const report::Report& report) {
   const auto loops = report.figures({"loops"});
-  return report::section("Loops in the plane of the arms",
-                         loops.empty()
-                             ? ""
-                             : "<p>The displacement of a stroke is the integral of the coloured "
-                               "quantity over the area in its loop, positive for loops run "
-                               "counter-clockwise.</p>\n" +
-                                   loops);
+  return report::section(
+      "Loops in the plane of the arms",
+      loops.empty() ? ""
+                    : "<p>The displacement of a stroke is the integral of the coloured quantity "
+                      "over the area in its loop, positive for loops run counter-clockwise.</p>\n" +
+                          loops);
 }
 
 }  // namespace
 
-void check_swimmer_report(const std::filesystem::path& folder) {
-  (void)report::Report(folder, kPictureNames);
-}
-
-bool swimmer_report_is_current(const std::filesystem::path& folder) {
-  return report::page_is_current(folder, kPictureNames);
-}
-
 void write_swimmer_report(const SwimmerResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop) {
   const auto& units = results.c.units;
-  report::Report report(folder, kPictureNames);
+  report::Report report(folder, kSwimmerPictures);
   report.draw(swimmer_plots(results), stop);
   if (report.is_drawn() && results.c.gaps.size() == 2)
     report.add_picture("loops", draw_loops(results, stop));

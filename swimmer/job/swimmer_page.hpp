@@ -3,11 +3,14 @@
 // change must keep the names of the pictures, so that those of earlier runs are replaced.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
+#include "viscontact/report/page.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 #include "viscontact/swimmer/optimal_stroke.hpp"
@@ -40,12 +43,9 @@ struct SwimmerResults {
   double energy_per_displacement = 0;
 };
 
-/// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not
-/// write.
-void check_swimmer_report(const std::filesystem::path& folder);
-
-/// True if the report is there and its inputs have not changed (report::page_is_current()).
-bool swimmer_report_is_current(const std::filesystem::path& folder);
+/// The names of all pictures of the report (report::Report).
+inline constexpr auto kSwimmerPictures = std::to_array<std::string_view>(
+    {"loops", "position", "power", "arms", "forces", "convergence"});
 
 /// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no
 /// still pictures, and a warning says so. Throws Error(kExternalProgram) if gnuplot fails,

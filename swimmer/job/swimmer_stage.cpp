@@ -8,9 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <optional>
-#include <set>
 #include <span>
 
 #include "viscontact/common/error.hpp"
@@ -19,7 +17,6 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/json.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_folder.hpp"
@@ -48,7 +45,7 @@ void check_files(const SwimmerFolder& folder) {
   results::refuse_other_kind(folder.results(), "\"swimmer\"", "swimmer.json");
   for (const auto& stroke : {folder.stroke(), folder.optimal()})
     results::refuse_other_kind(stroke, "# viscontact: stroke of a swimmer", "stroke");
-  check_swimmer_report(folder.path);
+  (void)report::Report(folder.path, kSwimmerPictures);  // throws if a file is in its way
 }
 
 /// Fits the table and writes fit.json, unless it is there already.
@@ -58,12 +55,12 @@ ResistanceFit fit_table(const SwimmerFolder& folder, const ResistanceTable& tabl
   fit.table_sha256 = results::content_sha256(read_file(folder.table()));
   fit.versions = results::library_versions();
   if (const auto text = write_resistance_fit(fit); results::has_content(folder.fit(), text))
-    terminal::say(fmt::format("fit: {} is up to date", folder.fit().string()));
+    terminal::say("fit: {} is up to date", folder.fit().string());
   else
     results::write_output(folder.fit(), TextKind::kJson, text, provenance);
-  terminal::say(fmt::format(
+  terminal::say(
       "fit: a row predicted from the others is off by {:.2g} at most (relative), {:.2g} rms",
-      fit.largest_left_one_out_error, fit.rms_left_one_out_error));
+      fit.largest_left_one_out_error, fit.rms_left_one_out_error);
   return fit;
 }
 
@@ -202,10 +199,10 @@ SwimmerResults read_results(const SwimmerFolder& folder, const fs::path& case_fi
 }
 
 void tell(const std::string& name, const StrokeResult& stroke) {
-  terminal::say(fmt::format(
+  terminal::say(
       "{}: displacement {:.9g} (error estimate {:.1g}), energy {:.9g} ({:.1g}), efficiency {:.4g}",
       name, stroke.sums.displacement, stroke.errors.displacement, stroke.sums.energy,
-      stroke.errors.energy, stroke.sums.efficiency));
+      stroke.errors.energy, stroke.sums.efficiency);
 }
 
 }  // namespace
@@ -244,10 +241,10 @@ void run_swimmer(const SwimmerRequest& request) {
   if (results::write_if_changed(folder.results(), TextKind::kJson, json, provenance)) wrote = true;
   if (results.stroke) tell("stroke", *results.stroke);
   if (results.optimal) tell("optimal stroke", *results.optimal);
-  if (wrote || !swimmer_report_is_current(folder.path))
+  if (wrote || !report::page_is_current(folder.path, kSwimmerPictures))
     write_swimmer_report(results, folder.path, provenance, request.stop);
   else
-    terminal::say(fmt::format("swimmer: {} is up to date", folder.path.string()));
+    terminal::say("swimmer: {} is up to date", folder.path.string());
   if (request.json) fmt::print("{}", json);
 }
 

@@ -6,13 +6,8 @@
 // the rest.
 #include "viscontact/swimmer/resistance/resistance_fit.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
 
 #include "viscontact/common/error.hpp"
 
@@ -139,9 +134,8 @@ ResistanceWithSlopes FittedResistance::operator()(std::span<const double> gaps) 
     for (std::size_t k = 0; k < gaps.size(); ++k)
       if (!contains(gaps.first(k + 1)))
         throw Error(ErrorKind::kBadInput,
-                    fmt::format("the gap between spheres {} and {} is {}; the table has gaps from "
-                                "{} to {}",
-                                k + 1, k + 2, gaps[k], intervals_[k][0], intervals_[k][1]));
+                    "the gap between spheres {} and {} is {}; the table has gaps from {} to {}",
+                    k + 1, k + 2, gaps[k], intervals_[k][0], intervals_[k][1]);
   const auto spheres = static_cast<Eigen::Index>(radii_.size());
   std::vector<double> inverse(gaps.size());
   for (std::size_t k = 0; k < gaps.size(); ++k)

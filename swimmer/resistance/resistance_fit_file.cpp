@@ -4,13 +4,10 @@
 // other ratios. The functions are declared in resistance_fit.hpp; swimmer/job and swimmer/case use
 // them. A change must keep earlier files readable, and the text "resistance fit", for which
 // swimmer_stage.cpp searches.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 
-#include "viscontact/common/equal_up_to_rounding.hpp"
-#include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/json_fields.hpp"
 #include "viscontact/lubrication/scaling.hpp"
@@ -24,7 +21,7 @@ using Eigen::Index;
 void check_positive(const JsonFields& json, const std::string& key,
                     const std::vector<double>& numbers) {
   for (const double number : numbers)
-    if (!(number > 0)) json.fail(key, fmt::format("contains {}; each number must be > 0", number));
+    if (!(number > 0)) json.fail(key, "contains {}; each number must be > 0", number);
 }
 
 void check_gaps(const JsonFields& json, const ResistanceFit& fit) {
@@ -34,8 +31,8 @@ void check_gaps(const JsonFields& json, const ResistanceFit& fit) {
       json.fail("gaps", "must have at least two rising numbers for each gap");
   }
   if (fit.gaps.size() + 1 != fit.radii.size())
-    json.fail("gaps", fmt::format("has {} arrays; it must have {}, one less than there are radii",
-                                  fit.gaps.size(), fit.radii.size() - 1));
+    json.fail("gaps", "has {} arrays; it must have {}, one less than there are radii",
+              fit.gaps.size(), fit.radii.size() - 1);
 }
 
 /// Writes or reads the key `logarithms`: of each matrix of ResistanceFit::logarithms the entries on
@@ -52,7 +49,7 @@ void logarithms(JsonFields& json, ResistanceFit& fit) {
   if (!json.reads()) return;
   for (const auto& entries : all) {
     if (entries.size() != entry_count(spheres))
-      json.fail("logarithms", fmt::format("must have arrays of {} numbers", entry_count(spheres)));
+      json.fail("logarithms", "must have arrays of {} numbers", entry_count(spheres));
     auto& matrix = fit.logarithms.emplace_back(spheres, spheres);
     for (std::size_t i = 0; i < spheres; ++i)
       for (std::size_t j = 0; j < spheres; ++j)
@@ -62,9 +59,8 @@ void logarithms(JsonFields& json, ResistanceFit& fit) {
   std::size_t count = 1;
   for (const auto& nodes : fit.gaps) count *= nodes.size();
   if (all.size() != count)
-    json.fail("logarithms", fmt::format("has {} matrices; it must have {}, one for each "
-                                        "combination of gaps",
-                                        all.size(), count));
+    json.fail("logarithms", "has {} matrices; it must have {}, one for each combination of gaps",
+              all.size(), count);
 }
 
 }  // namespace
@@ -76,15 +72,14 @@ void fields_of(JsonFields& json, ResistanceFit& fit) {
   if (json.reads()) {
     check_positive(json, "radii", fit.radii);
     if (fit.radii.size() < kFewestSpheres || fit.radii.size() > kMostSpheres)
-      json.fail("radii", fmt::format("has {} numbers; it must have {} to {}", fit.radii.size(),
-                                     kFewestSpheres, kMostSpheres));
+      json.fail("radii", "has {} numbers; it must have {} to {}", fit.radii.size(), kFewestSpheres,
+                kMostSpheres);
   }
   json("container", fit.container);
   auto terms = static_cast<std::size_t>(fit.lubrication_terms);
   json("lubrication_terms", terms);
   if (json.reads() && terms > static_cast<std::size_t>(kLubricationTerms))
-    json.fail("lubrication_terms",
-              fmt::format("is {}; it must be at most {}", terms, kLubricationTerms));
+    json.fail("lubrication_terms", "is {}; it must be at most {}", terms, kLubricationTerms);
   fit.lubrication_terms = static_cast<int>(terms);
   json("largest_relative_residual", fit.largest_relative_residual, kNotNegative);
   json("largest_left_one_out_error", fit.largest_left_one_out_error, kNotNegative);

@@ -12,7 +12,6 @@
 #include <algorithm>
 
 #include "viscontact/common/equal_up_to_rounding.hpp"
-#include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/scaling.hpp"
 #include "viscontact/lubrication/table_codec.hpp"
 
@@ -80,9 +79,7 @@ void complete(const TableHead& /*head*/, ResistanceRow& row) {
 void check(const TableHead& head, const ResistanceRow& row, const FilePosition& here) {
   const Eigen::LLT<Eigen::MatrixXd> factor(matrix_of(row, head.radii.size()));
   if (factor.info() != Eigen::Success)
-    throw_bad_input(here,
-                    "the matrix R is not positive definite; forces would "
-                    "drive the spheres");
+    throw_bad_input(here, "the matrix R is not positive definite; forces would drive the spheres");
 }
 
 double largest_estimate(const ResistanceRow& row) {
@@ -113,9 +110,9 @@ double ratio_of_radii(const std::vector<double>& radii, const std::vector<double
   });
   if (!has_ratio)
     throw Error(ErrorKind::kBadInput,
-                fmt::format("the radii [{}] of the case are no multiple of those of the {}, [{}]; "
-                            "give a {} of the same ratios",
-                            fmt::join(radii, ", "), what, fmt::join(other, ", "), what));
+                "the radii [{}] of the case are no multiple of those of the {}, [{}]; give a {} of "
+                "the same ratios",
+                fmt::join(radii, ", "), what, fmt::join(other, ", "), what);
   return ratio;
 }
 

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <sstream>
 
@@ -80,10 +79,9 @@ ResistanceRow solve_resistance(const freefem_axi::FreeFem& freefem, const Collin
     std::vector<std::string> words;
     words.reserve(gaps.size());
     for (const double gap : gaps) words.push_back(format_number(gap));
-    throw Error(
-        ErrorKind::kExternalProgram,
-        fmt::format("FreeFEM failed at gaps {} (exit status {}): {}", fmt::join(words, ", "),
-                    result.exit_status, freefem_axi::failure_in_words(result, freefem.row_limit)));
+    throw Error(ErrorKind::kExternalProgram, "FreeFEM failed at gaps {} (exit status {}): {}",
+                fmt::join(words, ", "), result.exit_status,
+                freefem_axi::failure_in_words(result, freefem.row_limit));
   }
   row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return row;

@@ -24,7 +24,6 @@
 #include "viscontact/pipeline/sweep_stage.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/report/pictures/sweep_plot.hpp"
-#include "viscontact/results/picture_kind.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/rolling/rolling_motion.hpp"
 
@@ -98,20 +97,17 @@ void check_columns(const report::SweepPlot& picture, const sweep::Study& study) 
   const auto& points = study.points;
   const auto check = [&](const std::string& name) {
     if (std::ranges::find(columns, name) != columns.end()) return;
-    throw Error(ErrorKind::kWrongUsage,
-                fmt::format("there is no column '{}' to plot; the columns are: {}", name,
-                            fmt::join(columns, ", ")));
+    throw Error(ErrorKind::kWrongUsage, "there is no column '{}' to plot; the columns are: {}",
+                name, fmt::join(columns, ", "));
   };
   for (const auto& axis : {picture.x, picture.y}) {
     if (axis.empty()) continue;
     const auto key = std::ranges::find(points.variations, axis, &sweep::Variation::key);
     if (key == points.variations.end() || (key->count < 2 && points.samples == 0))
-      throw Error(
-          ErrorKind::kWrongUsage,
-          fmt::format(
-              "'{}' cannot be an axis of the plot; an axis must be a key that is varied over at "
-              "least two values",
-              axis));
+      throw Error(ErrorKind::kWrongUsage,
+                  "'{}' cannot be an axis of the plot; an axis must be a key that is varied over "
+                  "at least two values",
+                  axis);
   }
   auto lines = static_cast<double>(picture.columns.size());
   for (const auto& v : points.variations)
@@ -119,9 +115,9 @@ void check_columns(const report::SweepPlot& picture, const sweep::Study& study) 
   constexpr double kMostLines = 14;  // each of the 7 colours twice; more lines are unreadable
   if (picture.y.empty() && lines > kMostLines)
     throw Error(ErrorKind::kWrongUsage,
-                fmt::format("the plot would have {} lines over {}; at most {} are allowed, so draw "
-                            "a map with --y, or fewer columns",
-                            lines, picture.x, kMostLines));
+                "the plot would have {} lines over {}; at most {} are allowed, so draw a map with "
+                "--y, or fewer columns",
+                lines, picture.x, kMostLines);
   for (const auto& column : picture.columns) {
     const auto slash = column.find('/');
     check(column.substr(0, slash));
@@ -180,10 +176,9 @@ void run_sweep(const SweepOptions& o) {
     if (!reduced_model::known_model(model) &&
         find_named(rolling::rolling_models(), model) == nullptr)
       throw Error(ErrorKind::kWrongUsage,
-                  fmt::format("--models: no model is named '{}'; there are: {}; for a rolling "
-                              "sphere: {}",
-                              model, names_of(reduced_model::all_models()),
-                              names_of(rolling::rolling_models())));
+                  "--models: no model is named '{}'; there are: {}; for a rolling sphere: {}",
+                  model, names_of(reduced_model::all_models()),
+                  names_of(rolling::rolling_models()));
   check_outputs(o.plot.path.empty() ? std::vector{o.output} : std::vector{o.output, o.plot.path});
   check_picture(o.plot.path);
   switch (case_file::kind_of_case(o.case_file)) {

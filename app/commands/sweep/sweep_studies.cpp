@@ -90,10 +90,9 @@ CaseStudy study_of_sphere(const SweepOptions& o) {
 
 CaseStudy study_of_swimmer(const SweepOptions& o) {
   if (is_for_particles(o) || !o.models.empty() || !o.reference.empty())
-    throw Error(
-        ErrorKind::kWrongUsage,
-        "--launcher slurm, --gather, --task, --keep-runs, --draws, --models and --reference "
-        "are not for cases of a swimmer; leave them out");
+    throw Error(ErrorKind::kWrongUsage,
+                "--launcher slurm, --gather, --task, --keep-runs, --draws, --models and "
+                "--reference are not for cases of a swimmer; leave them out");
   if (o.fit.empty())
     throw Error(ErrorKind::kWrongUsage,
                 "the resistance matrices are not given; give with --fit the file fit.json that "
@@ -127,8 +126,8 @@ CaseStudy study_of_rolling_sphere(const SweepOptions& o) {
   if (!o.fit.empty()) plan.fit_path = o.fit;
   if (plan.fit_path.empty())
     throw Error(ErrorKind::kWrongUsage,
-                "the resistances are not given; give with --fit the file fit.json that "
-                "`viscontact rolling CASE -o FOLDER` writes");
+                "the resistances are not given; give with --fit the file fit.json that `viscontact "
+                "rolling CASE -o FOLDER` writes");
   CaseStudy s{.files = {o.case_file, plan.fit_path},
               .part = "model",
               .request = c.sweep.value_or(case_file::SweepRequest{})};

@@ -8,7 +8,6 @@
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "viscontact/common/root_finding.hpp"

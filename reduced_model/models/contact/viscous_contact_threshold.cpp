@@ -6,9 +6,6 @@
 // raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <limits>
 
 #include "viscontact/common/error.hpp"
@@ -19,17 +16,16 @@ ContactModel viscous_contact_threshold(const Motion& motion,
                                        const lubrication::LubricationForce& force) {
   const double q_c = motion.parameter(kThresholdGap);
   if (!(motion.initial_gap > q_c))
-    throw Error(
-        ErrorKind::kBadInput,
-        fmt::format(
-            "viscous_contact.threshold_gap is {}; it must be less than motion.initial_gap, {}", q_c,
-            motion.initial_gap));
+    throw Error(ErrorKind::kBadInput,
+                "viscous_contact.threshold_gap is {}; it must be less than motion.initial_gap, {}",
+                q_c, motion.initial_gap);
   const double impulse_at_contact = force.impulse(q_c);
   const double solid_gap = motion.roughness[0] + motion.roughness[1];
   if (!(solid_gap < q_c))
-    throw Error(ErrorKind::kBadInput, fmt::format("viscous_contact.threshold_gap is {}; it must be "
-                                                  "greater than the roughness heights together, {}",
-                                                  q_c, solid_gap));
+    throw Error(ErrorKind::kBadInput,
+                "viscous_contact.threshold_gap is {}; it must be greater than the roughness "
+                "heights together, {}",
+                q_c, solid_gap);
 
   ContactModel model;
   model.contact_gap = q_c;
