@@ -234,27 +234,27 @@ class Iteration {
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return;
     // Proximal steps from a solution that is near keep most of the errors of its slips. Solutions
     // by interior points have other errors each, which bodies that turn pass on to gaps, so that
-    // corrections for finite turns would not vanish. Two or three steps are the rule.
-    constexpr int kMostStepsNear = 10;
-    if (problem_.is_near && take_convex_steps(max_iterations, kMostStepsNear)) return;
+    // corrections for finite turns would not vanish. Two to eight iterations are the rule.
+    constexpr int kMostNear = 20;
+    if (problem_.is_near &&
+        take_convex_steps(std::min(max_iterations, best_.result.iterations + kMostNear)))
+      return;
     // No sweeps are made first. They seldom solve a problem, and the time of interior points does
     // not depend on their start. If rows are redundant, impulses found by sweeps depend on the order
     // of the rows, and those found by interior points do not.
     find_interior_solution(max_iterations);
-    if (!problem_.is_rough) take_convex_steps(max_iterations, max_iterations);
+    if (!problem_.is_rough) take_convex_steps(max_iterations);
   }
 
-  /// Takes at most `most_steps` proximal steps of a convex problem. Returns true if it is solved.
-  bool take_convex_steps(int max_iterations, int most_steps) {
+  /// Takes proximal steps of a convex problem. Returns true if it is solved.
+  bool take_convex_steps(int max_iterations) {
     // Errors of impulses are rounding errors of gaps over epsilon, too large with a smaller one.
     constexpr double kFirstEpsilonOfConvex = 1e-5;
     epsilon_ = kFirstEpsilonOfConvex;
     is_rising_ = true;
     if (!proximal_) proximal_.emplace(problem_, w_, matrix());
     proximal_->set_epsilon(epsilon_);
-    for (int n = 0; residual_ > 1 && n < most_steps && best_.result.iterations < max_iterations &&
-                    !is_stagnant();
-         ++n) {
+    while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant()) {
       take_convex_step(max_iterations);
       note_progress();
     }

@@ -236,7 +236,7 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system,
 
 /// True if a last correction is larger than rounding errors and errors of solutions are.
 template <int D>
-bool ConstraintSystem<D>::have_diverged() const {
+bool ConstraintSystem<D>::has_large_shifts() const {
   constexpr double kPart = 1e-6;  // of the mean radius
   for (std::size_t b = 0; b < shifts_.size(); ++b) {
     const std::size_t contacts = residuals_.size();
@@ -413,8 +413,8 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   make_problem(system, is_rough, roughly_allowed);
   // Each correction multiplies the error by about the turn of the bodies in the step [rad]. With
   // turns of 1 it gains little. Corrections end if this number of them has not halved the largest
-  // one, which a factor of 0.93 would do.
-  constexpr int kMostWithoutGain = 10;
+  // one, which a factor of 0.87 would do.
+  constexpr int kMostWithoutGain = 5;
   ConstraintSolution<D> solution;
   SolverResult result;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -430,7 +430,9 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     // If corrections grow kPatience times in succession, they diverge: the constraints contradict
     // each other, or the step is too long. The number is a free choice.
     constexpr int kPatience = 3;
+    constexpr double kFast = 0.1;
     growing = change < last_change ? 0 : growing + 1;
+    const bool is_fast = change < kFast * last_change;
     last_change = change;
     if (change < gained_change / 2) {
       gained_change = change;
@@ -442,10 +444,10 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
       for (std::size_t c = 0; c < first_loads_.size(); ++c)
         problem_.blocks[c].given_load = first_loads_[c];
     // The loads of a solution bound the friction of the next one. With large friction this may
-    // repeat without end, while corrections would follow the loads instead of vanishing. The first
-    // correction contains most of what turns add to the loads, so that later ones keep them, and
-    // change the problem little.
-    if (n > 0) problem_.keeps_loads = problem_.is_near = true;
+    // repeat without end, while corrections would follow the loads instead of vanishing, so that
+    // later ones keep them.
+    if (n > 0) problem_.keeps_loads = true;
+    problem_.is_near = n > 0 && (is_fast || !has_large_shifts());
     // An unsolved problem is still corrected if its residual is a small part of the correction.
     constexpr double kSmallPart = 1e-3;
     const bool is_unsolved = !(solution.result.residual <= std::max(1.0, kSmallPart * change));
@@ -455,7 +457,7 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
       break;
     if (growing < kPatience && n - gained_at < kMostWithoutGain) continue;
     // Friction may turn bodies so far that corrections do not converge. Given loads limit friction.
-    if (has_given_up_ || !have_diverged()) break;
+    if (has_given_up_ || !has_large_shifts()) break;
     make_problem(system, is_rough, roughly_allowed);
     if (!give_up(true, solution)) break;
     result.iterations += solution.result.iterations;

@@ -125,7 +125,7 @@ class ConstraintSystem {
   UnitMotion motion_of(std::int32_t unit, std::span<const Motion<D>> motions) const;
   void move_particles(const ContactSystem<D>& system, std::span<const Motion<D>> motions);
   double correct(ContactSystem<D>& system, const ConstraintSolution<D>& solution);
-  bool have_diverged() const;
+  bool has_large_shifts() const;
   void make_problem(const ContactSystem<D>& system, bool is_rough, double roughly_allowed);
   bool give_up(bool have_diverged, ConstraintSolution<D>& solution);
   void give_loads_of_step();

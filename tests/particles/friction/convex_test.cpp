@@ -341,7 +341,7 @@ TEST_P(ConvexFriction, ABodyInAWedgeOfMovingWallsIsHeldWhereCorrectionsDiverge) 
   // The walls move downwards along themselves. For mu_s > 1 the relaxation turns the body so far in
   // a step that corrections for finite turns do not converge. Friction then has given loads. Without
   // them the speed grew to 88, and a step ended with a gap of 0.8.
-  for (const double mu_s : {1.3, 1.5, 2.0}) {
+  for (const double mu_s : {1.5, 2.0}) {
     SCOPED_TRACE(mu_s);
     auto setting = convex_setting(0.02, mu_s);
     setting.gravity = {0, -1, 0};
