@@ -1,5 +1,6 @@
-// Starts a Slurm cluster of two nodes on the machine that runs the tests, by the script
-// tests/program/tabulate/slurm_cluster.
+// A Slurm cluster of two nodes on the machine that runs the tests, by the script
+// tests/program/tabulate/slurm_cluster. All tests of a program share it, because it takes seconds to
+// start and to stop.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -17,7 +19,7 @@
 
 namespace viscontact {
 
-/// A running cluster of two nodes with two processors each. The constructor throws
+/// A running cluster of two nodes with four processors each. The constructor throws
 /// std::runtime_error with the logs if Slurm does not start. The destructor stops the cluster.
 class Cluster {
  public:
@@ -57,11 +59,25 @@ class Cluster {
   TemporaryFolder folder_;
 };
 
+/// Starts the cluster before the first test, and stops it after the last one.
+class ClusterEnvironment : public ::testing::Environment {
+ public:
+  void SetUp() override { instance() = std::make_unique<Cluster>(); }
+  void TearDown() override { instance().reset(); }
+  static std::unique_ptr<Cluster>& instance() {
+    static std::unique_ptr<Cluster> cluster;
+    return cluster;
+  }
+};
+
+/// The cluster of this program, of which one source adds a ClusterEnvironment to GoogleTest.
+inline const Cluster& cluster() { return *ClusterEnvironment::instance(); }
+
 /// Waits until is_so() is true. Fails the test after a minute, and shows the jobs of the cluster.
-inline void wait_until(const std::function<bool()>& is_so, const Cluster& cluster) {
+inline void wait_until(const std::function<bool()>& is_so) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!is_so()) {
-    if (std::chrono::steady_clock::now() > end) FAIL() << "after a minute:\n" << cluster.jobs();
+    if (std::chrono::steady_clock::now() > end) FAIL() << "after a minute:\n" << cluster().jobs();
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
 }

@@ -117,7 +117,7 @@ constexpr const char* kUsersUncertainty = "{\"minimal_gap\": {}, \"refused_draws
 constexpr const char* kUsersTrajectory = "time,gap,velocity\n0,1,0\n4,0.5,0\n";
 
 std::string exact_case_text() {
-  return replaced(replaced(quick_case_text(), "terms = \"1/q, 1\"", "exact = \"plane\""),
+  return replaced(replaced(quick_case_text(), "terms = \"1/q\"", "exact = \"plane\""),
                   "weights = \"relative\"", "");
 }
 

@@ -99,8 +99,11 @@ TEST(MotionsOfAPair, AreThoseBesideAFreeSurfaceIfTheFlowIsSymmetric) {
   // The free surface is the plane of symmetry of two spheres, whose gap is twice as large. Mirror
   // images move alike along it, turn against each other about axes in it, and alike about its
   // normal.
-  const auto surface = in_unbounded_fluid("free_surface", {}, kAccuracy);
-  const auto mirrored = in_unbounded_fluid("sphere", {1, 1, -1}, kAccuracy);
+  auto surface = in_unbounded_fluid("free_surface", {}, kAccuracy);
+  auto mirrored = in_unbounded_fluid("sphere", {1, 1, -1}, kAccuracy);
+  auto spinning = in_unbounded_fluid("sphere", {1, 0, 1}, kAccuracy);
+  surface.container = Container{4, 5};  // fewer elements than unbounded fluid
+  mirrored.container = spinning.container = Container{4, 10};
   const auto one = solve_motions(default_freefem(), surface, MotionGroup::kAcross, 0.2);
   const auto pair = solve_motions(default_freefem(), mirrored, MotionGroup::kAcross, 0.4);
   for (std::size_t motion : {0, 1}) {
@@ -112,7 +115,6 @@ TEST(MotionsOfAPair, AreThoseBesideAFreeSurfaceIfTheFlowIsSymmetric) {
     EXPECT_NEAR(both.neighbour->force_factor, both.force_factor, 2 * kAccuracy);
     EXPECT_NEAR(both.neighbour->torque_factor, -both.torque_factor, 2 * kAccuracy);
   }
-  const auto spinning = in_unbounded_fluid("sphere", {1, 0, 1}, kAccuracy);
   EXPECT_NEAR(
       solve_motions(default_freefem(), spinning, MotionGroup::kAround, 0.4).at(0).torque_factor,
       solve_motions(default_freefem(), surface, MotionGroup::kAround, 0.2).at(0).torque_factor,

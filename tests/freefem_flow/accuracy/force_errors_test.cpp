@@ -22,8 +22,6 @@ using particles::FluidMesh;
 using particles::RigidConstraint;
 using std::numbers::pi;
 
-constexpr std::array kConstraints = {RigidConstraint::kPenalty, RigidConstraint::kRigid};
-
 /// The motions of discs as those of driven particles.
 PlacedFlow::Driven driven_with(const std::vector<double>& velocities) {
   PlacedFlow::Driven driven;
@@ -56,19 +54,19 @@ void expect_true(PlacedFlow& flow, const std::vector<double>& exact) {
   EXPECT_EQ(found.of_velocities.best, 0);
 }
 
+// The penalty changes nothing of how errors of the mesh fall.
+constexpr std::array<std::pair<RigidConstraint, int>, 2> kMeshes = {
+    {{RigidConstraint::kPenalty, 12}, {RigidConstraint::kRigid, 24}}};
+
 TEST(ForceErrors, OfDrivenDiscsAreTrue) {
-  for (const auto constraint : kConstraints)
-    for (const int edges : {12, 24}) {
-      // The penalty changes nothing of how errors of the mesh fall.
-      if (constraint == RigidConstraint::kPenalty && edges == 24) continue;
-      for (const auto& [name, container, discs, forces, velocities] : kMobilities) {
-        SCOPED_TRACE(::testing::Message() << name << ", " << edges << " edges");
-        PlacedFlow flow(fluid_with(edges, constraint), DiscDomain{{}, container}, discs,
-                        driven_with(velocities));
-        std::vector<double> exact = forces;
-        for (double& force : exact) force = -force;
-        expect_true(flow, exact);
-      }
+  for (const auto& [constraint, edges] : kMeshes)
+    for (const auto& [name, container, discs, forces, velocities] : kMobilities) {
+      SCOPED_TRACE(::testing::Message() << name << ", " << edges << " edges");
+      PlacedFlow flow(fluid_with(edges, constraint), DiscDomain{{}, container}, discs,
+                      driven_with(velocities));
+      std::vector<double> exact = forces;
+      for (double& force : exact) force = -force;
+      expect_true(flow, exact);
     }
 }
 
@@ -113,34 +111,32 @@ TEST(ForceErrors, OfAnArmAreTrue) {
   // The squeezed discs of kMobilities approach each other with 2 V under forces of 1.
   const auto& squeezed = kMobilities[2];
   constexpr double kStep = 1e-3;
-  for (const auto constraint : kConstraints)
-    for (const int edges : {12, 24}) {
-      if (constraint == RigidConstraint::kPenalty && edges == 24) continue;
-      SCOPED_TRACE(::testing::Message() << edges << " edges");
-      particles::Setting setting;
-      setting.fluid = fluid_with(edges, constraint);
-      setting.domain = DiscDomain{{}, squeezed.container};
-      setting.time_step = kStep;
-      setting.links.arms = {
-          {0, 1,
-           particles::PiecewiseLinearLength{{{0, 2.1}, {1, 2.1 - 2 * squeezed.velocities[0]}}}}};
-      particles::State state;
-      state.particles = particles_of(squeezed.discs, 2);
-      state.particles.masses.assign(2, 0);
-      state.particles.velocities.assign(4, 0);
-      auto solver = start_fluid_solver(*setting.fluid, setting.domain, state.particles.radii, 2);
-      particles::FluidSimulation simulation(setting, state, std::move(solver));
-      simulation.step(kStep);
-      // The arm pulls, and the fluid pushes the first disc back.
-      const double error = std::abs(simulation.state().link_forces[0] + 1);
-      ASSERT_EQ(simulation.force_errors().of_links.size(), 1U);
-      const double estimate = simulation.force_errors().of_links[0];
-      EXPECT_LE(error, 1.1 * estimate);
-      EXPECT_LE(estimate, 3 * error);
-      const double of_fluid = simulation.fluid_forces()[0];
-      EXPECT_LE(std::abs(of_fluid + 1), simulation.force_errors().of_fluid[0]);
-      EXPECT_LE(simulation.force_errors().of_fluid[0], estimate);
-    }
+  for (const auto& [constraint, edges] : kMeshes) {
+    SCOPED_TRACE(::testing::Message() << edges << " edges");
+    particles::Setting setting;
+    setting.fluid = fluid_with(edges, constraint);
+    setting.domain = DiscDomain{{}, squeezed.container};
+    setting.time_step = kStep;
+    setting.links.arms = {
+        {0, 1,
+         particles::PiecewiseLinearLength{{{0, 2.1}, {1, 2.1 - 2 * squeezed.velocities[0]}}}}};
+    particles::State state;
+    state.particles = particles_of(squeezed.discs, 2);
+    state.particles.masses.assign(2, 0);
+    state.particles.velocities.assign(4, 0);
+    auto solver = start_fluid_solver(*setting.fluid, setting.domain, state.particles.radii, 2);
+    particles::FluidSimulation simulation(setting, state, std::move(solver));
+    simulation.step(kStep);
+    // The arm pulls, and the fluid pushes the first disc back.
+    const double error = std::abs(simulation.state().link_forces[0] + 1);
+    ASSERT_EQ(simulation.force_errors().of_links.size(), 1U);
+    const double estimate = simulation.force_errors().of_links[0];
+    EXPECT_LE(error, 1.1 * estimate);
+    EXPECT_LE(estimate, 3 * error);
+    const double of_fluid = simulation.fluid_forces()[0];
+    EXPECT_LE(std::abs(of_fluid + 1), simulation.force_errors().of_fluid[0]);
+    EXPECT_LE(simulation.force_errors().of_fluid[0], estimate);
+  }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// data/reference/discs.csv, computed anew by both methods, and what is known of it in closed form
+// data/reference/discs.csv, a third of it computed anew by both methods, and what is known of it in closed form
 // or was published.
 #include "tests/oracles/discs/reference_discs.hpp"
 
@@ -20,12 +20,13 @@ using std::numbers::pi;
 /// what another compiler rounds to; the file was written by one of the two.
 double bound(const ReferenceDiscs& found) { return 3 * std::pow(10, -found.digits); }
 
+/// Every third case of a domain is solved again. The program discs_reference solves all.
 void expect_both_methods(DiscDomain2d domain, int at_least) {
   int cases = 0;
   for (const auto& found : read_reference_discs(VISCONTACT_SOURCE_FOLDER)) {
     if (found.problem.domain != domain) continue;
-    ++cases;
     EXPECT_GE(found.digits, 10) << found.name;
+    if (cases++ % 3 != 0) continue;
     EXPECT_LT(difference(found.problem, found.answer, solved_by_collocation(found.problem)),
               bound(found))
         << found.name;

@@ -188,7 +188,7 @@ TEST_F(FlowCase, ASteelSphereBouncesInThickOil) {
                                    {"velocity", "-0.62"},
                                    {"edges_per_particle", "12"},
                                    {"time_step", "1e-3"},
-                                   {"end_time", "0.05"},
+                                   {"end_time", "0.04"},
                                    {"every", "0.002"}}));
   const FirstRebound first(column("motion.csv", "z"), column("motion.csv", "vz"), 3e-3);
   EXPECT_GT(first.coefficient, 0.25);

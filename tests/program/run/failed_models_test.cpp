@@ -27,7 +27,9 @@ class FailedModels : public ::testing::Test {
   FailedModels() : fake_(scratch_.path()) { put_text(case_file(), pushed()); }
 
   static std::string pushed() {
-    return replaced(gentle_case_text(), "value = -20.0", "value = -200.0");
+    const auto text = replaced(gentle_case_text(), "[reference]\ntime_step = 1e-2",
+                               "[reference]\ntime_step = 1e-3");
+    return replaced(text, "value = -20.0", "value = -200.0");
   }
   ProgramResult run() const {
     return run_viscontact({"run", case_file(), "-o", folder().string(), "--jobs", "2"},

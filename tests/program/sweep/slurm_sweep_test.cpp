@@ -22,9 +22,8 @@ class SlurmSweep : public SweepCommand {
                                           "--vary",  "arrangement.area_fraction=0.2,0.4",
                                           "--draws", "6"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_viscontact(arguments, {cluster_.variable()});
+    return run_viscontact(arguments, {cluster().variable()});
   }
-  Cluster cluster_;
 };
 
 TEST_F(SlurmSweep, ArrayJobAndGatherGiveTheTablesOfALocalRun) {
@@ -32,7 +31,7 @@ TEST_F(SlurmSweep, ArrayJobAndGatherGiveTheTablesOfALocalRun) {
   const auto submitted = run("rows.csv", {"--launcher", "slurm", "--tasks", "5"});
   expect_done(submitted);
   EXPECT_THAT(submitted.errors, HasSubstr("5 tasks"));
-  wait_until([this] { return cluster_.jobs().empty(); }, cluster_);
+  wait_until([] { return cluster().jobs().empty(); });
   expect_done(run("rows.csv", {"--gather"}));
   expect_done(run("local.csv", {}));
   EXPECT_EQ(rest_of(path("rows.csv")), rest_of(path("local.csv")));

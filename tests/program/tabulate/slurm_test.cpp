@@ -20,6 +20,9 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
+[[maybe_unused]] const auto* const environment =
+    ::testing::AddGlobalTestEnvironment(new ClusterEnvironment);  // GoogleTest deletes it
+
 /// Two cases of six gaps at two velocities: 24 rows.
 class Slurm : public ::testing::Test {
  protected:
@@ -37,16 +40,18 @@ class Slurm : public ::testing::Test {
     arguments.insert(arguments.end(), cases_.begin(), cases_.end());
     arguments.insert(arguments.end(), {"-o", path(output)});
     arguments.insert(arguments.end(), options.begin(), options.end());
-    return run_viscontact(arguments, {cluster_.variable(), "VISCONTACT_FREEFEM=" + freefem});
+    return run_viscontact(arguments, {cluster().variable(), "VISCONTACT_FREEFEM=" + freefem});
   }
-  void wait_for_the_job() const {
-    wait_until([this] { return cluster_.jobs().empty(); }, cluster_);
+  static void wait_for_the_jobs() {
+    wait_until([] { return cluster().jobs().empty(); });
   }
-  /// Expects the tables of the folder "out" to be those of a run here.
-  void expect_tables_of_a_local_run(const std::string& freefem) const {
+  /// Expects the tables of these folders to be those of a run here.
+  void expect_tables_of_a_local_run(const std::string& freefem,
+                                    const std::vector<std::string>& folders = {"out"}) const {
     expect_done(tabulate("local", {}, freefem));
-    for (const std::string name : {"thin.csv", "thick.csv"})
-      EXPECT_EQ(without_seconds(path("out/" + name)), without_seconds(path("local/" + name)));
+    for (const auto& folder : folders)
+      for (const std::string name : {"/thin.csv", "/thick.csv"})
+        EXPECT_EQ(without_seconds(path(folder + name)), without_seconds(path("local" + name)));
   }
   std::size_t files_in(const std::string& folder) const {
     return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path(folder)),
@@ -55,7 +60,6 @@ class Slurm : public ::testing::Test {
 
   TemporaryFolder scratch_;
   std::vector<std::string> cases_ = {path("thin.toml"), path("thick.toml")};
-  Cluster cluster_;
 };
 
 TEST_F(Slurm, ArrayJobIsSubmittedByOneCommandAndGatheredByAnother) {
@@ -75,7 +79,7 @@ TEST_F(Slurm, ArrayJobIsSubmittedByOneCommandAndGatheredByAnother) {
   const std::string thin = read_file(path("thin.toml"));
   put_text(path("thin.toml"), replaced(thin, "viscosity = 3.0", "viscosity = 9.0"));
   std::filesystem::remove(path("hold"));
-  wait_for_the_job();
+  wait_for_the_jobs();
   const auto edited = tabulate("out", {"--gather"}, fake.executable());
   expect_refusal(edited, ErrorKind::kNotConverged, HasSubstr("1 of 2 tables are not finished"));
   EXPECT_THAT(edited.errors, HasSubstr("the case was edited since"));
@@ -95,61 +99,9 @@ TEST_F(Slurm, WithFreeFemTheTablesAreThoseOfALocalRunToo) {
     put_text(file, replaced(text, "relative_accuracy = 1e-3", "relative_accuracy = 1e-2"));
   }
   expect_done(tabulate("out", {"--launcher", "slurm", "--tasks", "3"}, "FreeFem++-nw"));
-  wait_for_the_job();
+  wait_for_the_jobs();
   expect_done(tabulate("out", {"--gather"}, "no-such-freefem"));
   expect_tables_of_a_local_run("FreeFem++-nw");
-}
-
-// Four tasks of six rows, two on each node. The first row of each is answered, and all rows on node
-// 2; the second rows on node 1 take for ever, until that node dies.
-constexpr const char* kEndlessOnNode1 = R"sh(
-if [ "$SLURMD_NODENAME" = n1 ] && [ -e "$folder/answered_by.$SLURM_ARRAY_TASK_ID" ]; then
-  : > "$folder/endless.$SLURM_ARRAY_TASK_ID"
-  exec sleep 3600
-fi
-: > "$folder/answered_by.$SLURM_ARRAY_TASK_ID"
-)sh";
-
-class NodeThatDies : public Slurm {
- protected:
-  /// Submits, and kills node 1 once it has answered two rows and is at two more.
-  void submit_and_kill_a_node(const std::vector<std::string>& options) const {
-    std::vector<std::string> all = {"--launcher", "slurm", "--tasks", "4"};
-    all.insert(all.end(), options.begin(), options.end());
-    expect_done(tabulate("out", all, fake_.executable()));
-    const auto endless = [this] {
-      std::size_t count = 0;
-      for (const auto& name : scratch_.names()) count += name.starts_with("endless.") ? 1 : 0;
-      return count == 2;
-    };
-    wait_until([&] { return endless() && fake_.answered().size() == 14; }, cluster_);
-    cluster_.kill_node(1);
-  }
-
-  freefem_axi::FakeFreeFem fake_{scratch_.path(), kEndlessOnNode1};
-};
-
-TEST_F(NodeThatDies, LosesNoFinishedRowAndASecondJobComputesTheOthersOnly) {
-  submit_and_kill_a_node({"--slurm-options", "--no-requeue"});
-  wait_for_the_job();
-  EXPECT_THAT(fake_.answered(), SizeIs(14));
-  const auto missing = tabulate("out", {"--gather"}, fake_.executable());
-  EXPECT_EQ(missing.exit_status, results::exit_code_of(ErrorKind::kNotConverged)) << missing.errors;
-  EXPECT_THAT(missing.errors, AllOf(HasSubstr("thin.csv: 4 of 12 rows are missing"),
-                                    HasSubstr("thick.csv: 6 of 12 rows are missing")));
-  expect_done(tabulate("out", {"--launcher", "slurm"}, fake_.executable()));
-  wait_for_the_job();
-  EXPECT_THAT(fake_.answered(), SizeIs(24));  // each row once
-  expect_done(tabulate("out", {"--gather"}, fake_.executable()));
-  expect_tables_of_a_local_run(fake_.executable());
-}
-
-TEST_F(NodeThatDies, ItsTasksGoOnElsewhereByThemselves) {
-  submit_and_kill_a_node({});
-  wait_for_the_job();
-  EXPECT_THAT(fake_.answered(), SizeIs(24));  // each row once
-  expect_done(tabulate("out", {"--gather"}, fake_.executable()));
-  expect_tables_of_a_local_run(fake_.executable());
 }
 
 TEST_F(Slurm, RowThatFailsIsNamedWhenGatheredAndASecondJobComputesItAlone) {
@@ -157,7 +109,7 @@ TEST_F(Slurm, RowThatFailsIsNamedWhenGatheredAndASecondJobComputesItAlone) {
 [ $gap = 1.5 ] && [ $velocity = 2 ] && [ ! -e "$folder/mended" ] && { echo out of luck; exit 4; }
 )sh");
   expect_done(tabulate("out", {"--launcher", "slurm", "--tasks", "5"}, fake.executable()));
-  wait_for_the_job();
+  wait_for_the_jobs();
   const auto failed = tabulate("out", {"--gather"}, fake.executable());
   expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("2 of 2 tables are not finished"));
   EXPECT_THAT(failed.errors,
@@ -171,7 +123,7 @@ TEST_F(Slurm, RowThatFailsIsNamedWhenGatheredAndASecondJobComputesItAlone) {
   put_text(path("mended"), "");
   EXPECT_THAT(tabulate("out", {"--launcher", "slurm"}, fake.executable()).errors,
               HasSubstr("2 tasks"));
-  wait_for_the_job();
+  wait_for_the_jobs();
   expect_done(tabulate("out", {"--gather"}, "no-such-freefem"));
   EXPECT_THAT(fake.answered(), SizeIs(24));
   expect_tables_of_a_local_run(fake.executable());
@@ -181,6 +133,52 @@ TEST_F(Slurm, JobThatItDoesNotTakeIsSaidInItsWords) {
   expect_refusal(
       tabulate("out", {"--launcher", "slurm", "--slurm-options", "--partition=nowhere"}, "none"),
       ErrorKind::kExternalProgram, AllOf(HasSubstr("sbatch failed"), HasSubstr("nowhere")));
+}
+
+// Four tasks of six rows, two on each node. The first row of each is answered, and all rows on node
+// 2; the second rows on node 1 take for ever, until that node dies.
+constexpr const char* kEndlessOnNode1 = R"sh(
+if [ "$SLURMD_NODENAME" = n1 ] && [ -e "$folder/answered_by.$SLURM_ARRAY_TASK_ID" ]; then
+  : > "$folder/endless.$SLURM_ARRAY_TASK_ID"
+  exec sleep 3600
+fi
+: > "$folder/answered_by.$SLURM_ARRAY_TASK_ID"
+)sh";
+
+class NodeThatDies : public Slurm {};
+
+// Two jobs at once, because Slurm takes many seconds to notice that a node is dead.
+TEST_F(NodeThatDies, LosesNoFinishedRowAndOthersAreComputedElsewhereOrByASecondJob) {
+  const TemporaryFolder kept_scratch, requeued_scratch;
+  const freefem_axi::FakeFreeFem kept(kept_scratch.path(), kEndlessOnNode1),
+      requeued(requeued_scratch.path(), kEndlessOnNode1);
+  const std::vector<std::string> four_tasks = {"--launcher", "slurm", "--tasks", "4"};
+  auto no_requeue = four_tasks;
+  no_requeue.insert(no_requeue.end(), {"--slurm-options", "--no-requeue"});
+  expect_done(tabulate("out", no_requeue, kept.executable()));
+  expect_done(tabulate("requeued", four_tasks, requeued.executable()));
+  const auto hangs = [](const TemporaryFolder& scratch, const freefem_axi::FakeFreeFem& fake) {
+    std::size_t endless = 0;
+    for (const auto& name : scratch.names()) endless += name.starts_with("endless.") ? 1 : 0;
+    return endless == 2 && fake.answered().size() == 14;
+  };
+  wait_until([&] { return hangs(kept_scratch, kept) && hangs(requeued_scratch, requeued); });
+  cluster().kill_node(1);
+  wait_for_the_jobs();
+  // The tasks of one job went on by themselves.
+  EXPECT_THAT(requeued.answered(), SizeIs(24));  // each row once
+  expect_done(tabulate("requeued", {"--gather"}, requeued.executable()));
+  // Those of the other one need a second job, which computes the missing rows only.
+  EXPECT_THAT(kept.answered(), SizeIs(14));
+  const auto missing = tabulate("out", {"--gather"}, kept.executable());
+  EXPECT_EQ(missing.exit_status, results::exit_code_of(ErrorKind::kNotConverged)) << missing.errors;
+  EXPECT_THAT(missing.errors, AllOf(HasSubstr("thin.csv: 4 of 12 rows are missing"),
+                                    HasSubstr("thick.csv: 6 of 12 rows are missing")));
+  expect_done(tabulate("out", {"--launcher", "slurm"}, kept.executable()));
+  wait_for_the_jobs();
+  EXPECT_THAT(kept.answered(), SizeIs(24));
+  expect_done(tabulate("out", {"--gather"}, kept.executable()));
+  expect_tables_of_a_local_run(kept.executable(), {"out", "requeued"});
 }
 
 }  // namespace

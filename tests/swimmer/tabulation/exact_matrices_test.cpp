@@ -67,9 +67,9 @@ TEST(CollinearSpheres, InALongTubeHaveTheDragOfOneIfTheyAreFarApart) {
 TEST(CollinearSpheres, UnitOfLengthScalesTheMatrix) {
   // In a tube, which needs fewer elements than unbounded fluid.
   const auto large =
-      solve_resistance(freefem_axi::default_freefem(), {1, {1, 1}, Tube{2, 12}, 1e-3}, {1});
+      solve_resistance(freefem_axi::default_freefem(), {1, {1, 1}, Tube{2, 12}, 1e-2}, {1});
   const auto small = solve_resistance(freefem_axi::default_freefem(),
-                                      {1e-3, {5e-5, 5e-5}, Tube{1e-4, 6e-4}, 1e-3}, {5e-5});
+                                      {1e-3, {5e-5, 5e-5}, Tube{1e-4, 6e-4}, 1e-2}, {5e-5});
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_NEAR(small.entries[i] / large.entries[i] / 5e-8, 1, 1e-9);
 }
