@@ -10,6 +10,7 @@
 #include "tests/common/failure.hpp"
 #include "tests/particles/case/fluid_cases.hpp"
 #include "viscontact/particles/case/particles_sections.hpp"
+#include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::particles {
 namespace {

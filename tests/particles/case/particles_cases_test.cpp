@@ -10,6 +10,7 @@
 
 #include "viscontact/particles/case/particles_case.hpp"
 #include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::particles {
 namespace {
