@@ -17,6 +17,7 @@
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/motions/pair_fit.hpp"
 #include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/particles/simulation.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/rolling/case/rolling_case.hpp"
 
