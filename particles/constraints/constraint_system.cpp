@@ -206,7 +206,9 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system,
 }
 
 /// Changes the offsets of the rows so that their linear values after `solution` become those after
-/// finite turns, and stores the changes in shifts_. Returns the largest one over its bound.
+/// the motion: gaps as ContactSystem::gap() gives them, and lengths of links after finite turns.
+/// Stores the changes in shifts_. Returns the largest one over its bound. Contacts that are open
+/// before and after the change keep their offset.
 template <int D>
 double ConstraintSystem<D>::correct(ContactSystem<D>& system,
                                     const ConstraintSolution<D>& solution) {
@@ -220,8 +222,17 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system,
     shifts_[b] = std::max(shifts_[b], std::abs(by));
     largest = std::max(largest, std::abs(by) / problem_.blocks[b].allowed);
   };
-  for (std::size_t c = 0; c < system.contacts.size(); ++c)
-    if (system.is_held(system.contacts[c])) shift(c, 0, system.gap(system.contacts[c]));
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    const auto& contact = system.contacts[c];
+    const bool has_body = particles_.bodies.body_of(contact.second) >= 0 ||
+                          (contact.first >= 0 && particles_.bodies.body_of(contact.first) >= 0);
+    if (!has_body && !(system.uses_distances() && system.is_held(contact))) continue;
+    const std::size_t r = problem_.blocks[c].row;
+    const double gap = system.gap(contact);
+    const bool is_open = contact.lowest == 0 && problem_.impulses[r] == 0 && gap > 0 &&
+                         problem_.rows[r].offset + problem_.product(r, motions) > 0;
+    if (!is_open) shift(c, 0, gap);
+  }
   for (std::size_t l = 0; l < links_.size(); ++l) {
     if (links_[l].is_spring()) continue;
     const std::size_t b = system.contacts.size() + l;
@@ -237,7 +248,7 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system,
 /// True if a last correction is larger than rounding errors and errors of solutions are.
 template <int D>
 bool ConstraintSystem<D>::has_large_shifts() const {
-  constexpr double kPart = 1e-6;  // of the mean radius
+  constexpr double kPart = 1e-6;  // of the mean radius, a free choice
   for (std::size_t b = 0; b < shifts_.size(); ++b) {
     const std::size_t contacts = residuals_.size();
     const bool is_angle = b >= contacts && links_[b - contacts].is_angle();
@@ -321,22 +332,22 @@ void ConstraintSystem<D>::give_loads_of_step() {
 
 /// Solves problem_ with given loads in place of those of the solution: the loads at its present
 /// impulses, or, if `without_friction`, those of a solution without friction. If it is solved,
-/// replaces `solution` and returns true. Adds its iterations to `solution` in any case.
+/// replaces `solution` and returns true. Adds its iterations to `result` in any case.
 template <int D>
 bool ConstraintSystem<D>::solve_with_given_loads(bool without_friction,
-                                                 ConstraintSolution<D>& solution) {
+                                                 ConstraintSolution<D>& solution,
+                                                 SolverResult& result) {
   give_loads(problem_);
   if (without_friction) {
     for (auto& block : problem_.blocks) block.given_load = 0;
     std::ranges::fill(problem_.impulses, 0.0);
-    problem_.keeps_loads = false;
+    problem_.keeps_loads = problem_.is_near = false;
   }
   auto with_given_loads = solve_constraints(problem_, kMostOfGivenLoads);
   problem_.keeps_loads = true;
-  const int taken = solution.result.iterations + with_given_loads.result.iterations;
+  result.iterations += with_given_loads.result.iterations;
   const bool is_solved = with_given_loads.result.residual <= 1;
   if (is_solved) solution = std::move(with_given_loads);
-  solution.result.iterations = taken;
   return is_solved;
 }
 
@@ -344,17 +355,18 @@ bool ConstraintSystem<D>::solve_with_given_loads(bool without_friction,
 /// or corrections make no progress. Returns true and sets has_given_up_ if it is solved. The loads
 /// are those of a solution without friction if `have_diverged`, because those of the present
 /// impulses have no meaning then, and where these do not lead to a solution. Returns false, and
-/// leaves problem_ and the motions of `solution` as they are, if no contact has such loads, or if
-/// links contradict each other.
+/// leaves problem_ and `solution` as they are, if no contact has such loads, or if links contradict
+/// each other. Adds the iterations to `result` in any case.
 template <int D>
-bool ConstraintSystem<D>::give_up(bool have_diverged, ConstraintSolution<D>& solution) {
+bool ConstraintSystem<D>::give_up(bool have_diverged, ConstraintSolution<D>& solution,
+                                  SolverResult& result) {
   const bool has_own_loads = std::ranges::any_of(problem_.blocks, [](const ConstraintBlock& block) {
     return block.is_contact && block.rows > 1 && block.friction_bound != FrictionBound::kGiven;
   });
   if (!has_own_loads || !can_give_up_ || has_given_up_ || problem_.is_rough) return false;
   const auto with_own_loads = problem_;
-  has_given_up_ = (!have_diverged && solve_with_given_loads(false, solution)) ||
-                  solve_with_given_loads(true, solution);
+  has_given_up_ = (!have_diverged && solve_with_given_loads(false, solution, result)) ||
+                  solve_with_given_loads(true, solution, result);
   if (!has_given_up_) {
     can_give_up_ = false;
     problem_ = with_own_loads;
@@ -363,21 +375,6 @@ bool ConstraintSystem<D>::give_up(bool have_diverged, ConstraintSolution<D>& sol
   for (std::size_t c = 0; c < carried_.size(); ++c)
     given_loads_.push_back(problem_.blocks[c].given_load);
   return true;
-}
-
-/// Solves problem_ as it is. If the problem, in which loads of the solution bound the friction, is
-/// not solved in `max_iterations`, solves it with given loads, in more iterations. A convex problem
-/// is given up only if further iterations would not solve it.
-template <int D>
-ConstraintSolution<D> ConstraintSystem<D>::solve_problem(int max_iterations) {
-  if (has_given_up_) return solve_constraints(problem_, kMostOfGivenLoads);
-  auto solution = solve_constraints(problem_, std::max(1, max_iterations));
-  // Where friction locks particles that must move, impulses grow without bound. This happens in
-  // every convex problem without a solution.
-  if (!(solution.result.residual <= 1) &&
-      !(is_convex_ && solution.result.iterations >= max_iterations))
-    give_up(is_convex_, solution);
-  return solution;
 }
 
 /// Makes problem_ from the contacts of `system` and the links, as solve() describes it.
@@ -410,27 +407,48 @@ void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, bool is_r
 template <int D>
 SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
                                         double roughly_allowed, int max_iterations) {
-  make_problem(system, is_rough, roughly_allowed);
   // Each correction multiplies the error by about the turn of the bodies in the step [rad]. With
-  // turns of 1 it gains little. Corrections end if this number of them has not halved the largest
-  // one, which a factor of 0.87 would do.
-  constexpr int kMostWithoutGain = 5;
-  ConstraintSolution<D> solution;
-  SolverResult result;
+  // turns of 1 it gains little. Corrections diverge if they grow kPatience times in succession, or if
+  // kMostWithoutGain of them do not halve the largest correction, which a factor of 0.87 would do.
+  // Either the constraints contradict each other, or the step is too long.
+  constexpr int kPatience = 3, kMostWithoutGain = 5;
+  // A correction is fast if it is below kFast of the one before. All four are free choices.
+  constexpr double kFast = 0.1;
+  // An unsolved problem is still corrected if its residual is this small part of the correction.
+  constexpr double kSmallPart = 1e-3;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double last_change = kInfinity, gained_change = kInfinity;
   int growing = 0, gained_at = 0;
+  const auto restart = [&] {
+    make_problem(system, is_rough, roughly_allowed);
+    last_change = gained_change = kInfinity;
+    growing = gained_at = 0;
+  };
+  restart();
+  ConstraintSolution<D> solution;
+  SolverResult result;
   for (int n = 0;; ++n) {
-    solution = solve_problem(max_iterations - result.iterations);
+    const int most = max_iterations - result.iterations;
+    solution = solve_constraints(problem_, has_given_up_ ? kMostOfGivenLoads : std::max(1, most));
     result.iterations += solution.result.iterations;
+    const bool is_exhausted =
+        result.iterations >= max_iterations + (has_given_up_ ? kMostOfGivenLoads : 0);
+    // A convex problem is given up only if further iterations would not solve it.
+    if (!(solution.result.residual <= 1) && !is_rough && !(is_convex_ && is_exhausted)) {
+      if (n > 0 && system.use_distances()) {
+        max_iterations += result.iterations;
+        restart();
+        n = -1;
+        continue;
+      }
+      // Where friction locks particles that must move, impulses grow without bound, so that loads
+      // have no meaning. This happens in every convex problem without a solution.
+      give_up(is_convex_, solution, result);
+    }
     result.residual = solution.result.residual;
     move_particles(system, solution.motions);
     const double change = correct(system, solution);
     result.residual += change;
-    // If corrections grow kPatience times in succession, they diverge: the constraints contradict
-    // each other, or the step is too long. The number is a free choice.
-    constexpr int kPatience = 3;
-    constexpr double kFast = 0.1;
     growing = change < last_change ? 0 : growing + 1;
     const bool is_fast = change < kFast * last_change;
     last_change = change;
@@ -438,31 +456,36 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
       gained_change = change;
       gained_at = n;
     }
-    // The first correction contains most of what turns change. The loads are those of the solution
-    // after it, from the same first loads, so that they do not depend on whether it is needed.
+    const bool is_unsolved = !(solution.result.residual <= std::max(1.0, kSmallPart * change));
+    // Half of what is allowed is left to the residual of the solution.
+    if (change <= 0.5 || is_rough || is_unsolved || is_exhausted) break;
+    if (growing == kPatience || n - gained_at == kMostWithoutGain) {
+      if (!has_large_shifts()) break;
+      if (system.use_distances()) {
+        restart();
+        n = -1;
+        continue;
+      }
+      // Friction may turn bodies so far that corrections do not converge.
+      if (has_given_up_) break;
+      auto corrected = std::move(problem_);
+      restart();
+      if (!give_up(true, solution, result)) {
+        problem_ = std::move(corrected);
+        break;
+      }
+      n = 0;
+      continue;
+    }
+    // The loads of a solution bound the friction of the next one. With large friction this may
+    // repeat without end, while corrections would follow the loads instead of vanishing. The first
+    // correction contains most of what turns change. The loads are therefore those of the solution
+    // after it, from the same first loads as before it, and later ones keep them.
     if (n == 0 && !problem_.keeps_loads)
       for (std::size_t c = 0; c < first_loads_.size(); ++c)
         problem_.blocks[c].given_load = first_loads_[c];
-    // The loads of a solution bound the friction of the next one. With large friction this may
-    // repeat without end, while corrections would follow the loads instead of vanishing, so that
-    // later ones keep them.
     if (n > 0) problem_.keeps_loads = true;
-    problem_.is_near = n > 0 && (is_fast || !has_large_shifts());
-    // An unsolved problem is still corrected if its residual is a small part of the correction.
-    constexpr double kSmallPart = 1e-3;
-    const bool is_unsolved = !(solution.result.residual <= std::max(1.0, kSmallPart * change));
-    // Half of what is allowed is left to the residual of the solution.
-    if (change <= 0.5 || is_rough || is_unsolved ||
-        (result.iterations >= max_iterations && !has_given_up_))
-      break;
-    if (growing < kPatience && n - gained_at < kMostWithoutGain) continue;
-    // Friction may turn bodies so far that corrections do not converge. Given loads limit friction.
-    if (has_given_up_ || !has_large_shifts()) break;
-    make_problem(system, is_rough, roughly_allowed);
-    if (!give_up(true, solution)) break;
-    result.iterations += solution.result.iterations;
-    last_change = gained_change = kInfinity;
-    n = growing = gained_at = 0;
+    problem_.is_near = n > 0 && solution.result.residual <= 1 && (is_fast || !has_large_shifts());
   }
   take_over(system, solution);
   if (is_rough) first_loads_ = carried_;

@@ -78,9 +78,12 @@ class ConstraintSystem {
   /// largest residual of the last problem plus the largest correction that would follow, both over
   /// what is allowed [1].
   ///
-  /// The equations of the problem are linear in the turns of rigid bodies. The problem is therefore
-  /// solved again, with offsets corrected by the difference between the gaps and lengths after
-  /// finite turns and their linear values, until this difference is below half of what is allowed.
+  /// The equations of the problem are linear in the motions. The problem is therefore solved again,
+  /// with offsets corrected by the difference between the lengths of links and the gaps of bodies
+  /// after finite turns and their linear values, until this difference is below half of what is
+  /// allowed. Gaps are at first taken along the normals at the beginning of the step. If the corrected
+  /// problem is not solved, or corrections diverge, ContactSystem::use_distances() applies, and the
+  /// solution begins anew.
   ///
   /// If Coulomb's law is not solved in `max_iterations`, the friction is bounded by the loads of
   /// the best iterate, in this and all later calls, so that at least gaps, films and links are
@@ -89,8 +92,10 @@ class ConstraintSystem {
   ///
   /// The convex relaxation (5.9) has no solution where friction locks particles that must move. If
   /// iterations no longer reduce its residual, the friction is bounded by the loads of a solution
-  /// without friction, as in (5.17), and residual() is that of (5.17). So it is with both laws where
-  /// friction turns bodies so far that corrections do not converge.
+  /// without friction, as in (5.17), and residual() is that of (5.17).
+  ///
+  /// If corrections diverge also with distances, the friction is bounded by the loads of a solution
+  /// without friction with either law, unless all loads are given already.
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double roughly_allowed,
                      int max_iterations);
 
@@ -127,10 +132,10 @@ class ConstraintSystem {
   double correct(ContactSystem<D>& system, const ConstraintSolution<D>& solution);
   bool has_large_shifts() const;
   void make_problem(const ContactSystem<D>& system, bool is_rough, double roughly_allowed);
-  bool give_up(bool have_diverged, ConstraintSolution<D>& solution);
+  bool give_up(bool have_diverged, ConstraintSolution<D>& solution, SolverResult& result);
   void give_loads_of_step();
-  bool solve_with_given_loads(bool without_friction, ConstraintSolution<D>& solution);
-  ConstraintSolution<D> solve_problem(int max_iterations);
+  bool solve_with_given_loads(bool without_friction, ConstraintSolution<D>& solution,
+                              SolverResult& result);
   BlockResidual residual_of_contact(std::size_t c, const ConstraintSolution<D>& solution) const;
   void take_over(ContactSystem<D>& system, const ConstraintSolution<D>& solution);
 

@@ -73,8 +73,18 @@ bool ContactSystem<D>::is_held(const Contact<D>& contact) {
 
 template <int D>
 double ContactSystem<D>::gap(const Contact<D>& contact) {
-  return is_held(contact) ? distance_after(particles_, contact, displacements_)
-                          : gap_after(contact, displacements_);
+  return uses_distances_ && is_held(contact) ? distance_after(particles_, contact, displacements_)
+                                             : gap_after(contact, displacements_);
+}
+
+template <int D>
+bool ContactSystem<D>::use_distances() {
+  const bool changes =
+      !uses_distances_ && std::ranges::any_of(contacts, [&](const Contact<D>& contact) {
+        return contact.first >= 0 && is_held(contact);
+      });
+  uses_distances_ = uses_distances_ || changes;
+  return changes;
 }
 
 template <int D>

@@ -54,11 +54,14 @@ class ContactSystem {
 
   /// True if a particle of the contact is in an island with a rigid body or a rigid link.
   bool is_held(const Contact<D>& contact);
-  /// Gap of a contact, which need not be in the system, after the present displacements [L]: if
-  /// is_held(), distance_after(), otherwise the linearised gap, gap_after(). The linearised gap of
-  /// two particles in touch becomes negative when they turn about each other. It would contradict
-  /// bodies and links that turn with them.
+  /// Gap of a contact, which need not be in the system, after the present displacements [L]: the
+  /// linearised gap, gap_after(), or distance_after() if uses_distances() and is_held().
   double gap(const Contact<D>& contact);
+  /// Makes gap() the distance for contacts that are held. The linearised gap of two particles in
+  /// touch becomes negative when they turn about each other, and would contradict rigid bodies and
+  /// links that turn with the particles. Returns false if this changes nothing.
+  bool use_distances();
+  bool uses_distances() const { return uses_distances_; }  ///< true after use_distances()
 
   const std::vector<std::int32_t>& bodies() const { return bodies_; }  ///< particle of each body
   /// Number of the body that a particle is; -1 if the particle does not take part.
@@ -84,6 +87,7 @@ class ContactSystem {
   std::vector<std::size_t> island_sizes_;  // number of bodies of each island, at its root
   // 1 for an island with a rigid body or a rigid link, otherwise 0; at its root.
   std::vector<char> is_held_;
+  bool uses_distances_ = false;
   std::size_t largest_island_ = 1;
   FreeSetFactor<D> factor_;  // of the last solve() that needed a factor, for the next one
 };
