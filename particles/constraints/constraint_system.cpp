@@ -207,8 +207,8 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system,
 
 /// Changes the offsets of the rows so that their linear values after `solution` become those after
 /// the motion: gaps as ContactSystem::gap() gives them, and lengths of links after finite turns.
-/// Stores the changes in shifts_. Returns the largest one over its bound. Contacts that are open
-/// before and after the change keep their offset.
+/// Stores the changes in shifts_, and returns the largest one over its bound, without those of
+/// contacts that stay open.
 template <int D>
 double ConstraintSystem<D>::correct(ContactSystem<D>& system,
                                     const ConstraintSolution<D>& solution) {
@@ -217,21 +217,22 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system,
   shifts_.assign(problem_.blocks.size(), 0.0);
   const auto shift = [&](std::size_t b, std::size_t k, double value) {
     const std::size_t r = problem_.blocks[b].row + k;
-    const double by = value - (problem_.rows[r].offset + problem_.product(r, motions));
-    problem_.rows[r].offset += by;
-    shifts_[b] = std::max(shifts_[b], std::abs(by));
-    largest = std::max(largest, std::abs(by) / problem_.blocks[b].allowed);
+    const double linear = problem_.rows[r].offset + problem_.product(r, motions);
+    problem_.rows[r].offset += value - linear;
+    // A contact that is open before and after the change moves nothing.
+    const auto& block = problem_.blocks[b];
+    if (block.is_contact && block.lowest == 0 && problem_.impulses[r] == 0 && linear > 0 &&
+        value > 0)
+      return;
+    shifts_[b] = std::max(shifts_[b], std::abs(value - linear));
+    largest = std::max(largest, std::abs(value - linear) / block.allowed);
   };
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     const auto& contact = system.contacts[c];
     const bool has_body = particles_.bodies.body_of(contact.second) >= 0 ||
                           (contact.first >= 0 && particles_.bodies.body_of(contact.first) >= 0);
-    if (!has_body && !(system.uses_distances() && system.is_held(contact))) continue;
-    const std::size_t r = problem_.blocks[c].row;
-    const double gap = system.gap(contact);
-    const bool is_open = contact.lowest == 0 && problem_.impulses[r] == 0 && gap > 0 &&
-                         problem_.rows[r].offset + problem_.product(r, motions) > 0;
-    if (!is_open) shift(c, 0, gap);
+    if (has_body || (system.uses_distances() && system.is_held(contact)))
+      shift(c, 0, system.gap(contact));
   }
   for (std::size_t l = 0; l < links_.size(); ++l) {
     if (links_[l].is_spring()) continue;
@@ -412,10 +413,12 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   // kMostWithoutGain of them do not halve the largest correction, which a factor of 0.87 would do.
   // Either the constraints contradict each other, or the step is too long.
   constexpr int kPatience = 3, kMostWithoutGain = 5;
-  // A correction is fast if it is below kFast of the one before. All four are free choices.
+  // A correction is fast if it is below kFast of the one before. All these numbers are free choices.
   constexpr double kFast = 0.1;
   // An unsolved problem is still corrected if its residual is this small part of the correction.
   constexpr double kSmallPart = 1e-3;
+  // Corrected problems take 10 to 300 iterations, unless constraints contradict each other.
+  constexpr int kMostCorrected = 1000;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double last_change = kInfinity, gained_change = kInfinity;
   int growing = 0, gained_at = 0;
@@ -428,8 +431,9 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   ConstraintSolution<D> solution;
   SolverResult result;
   for (int n = 0;; ++n) {
-    const int most = max_iterations - result.iterations;
-    solution = solve_constraints(problem_, has_given_up_ ? kMostOfGivenLoads : std::max(1, most));
+    int most = has_given_up_ ? kMostOfGivenLoads : max_iterations - result.iterations;
+    if (n > 0 && system.can_use_distances()) most = std::min(most, kMostCorrected);
+    solution = solve_constraints(problem_, std::max(1, most));
     result.iterations += solution.result.iterations;
     const bool is_exhausted =
         result.iterations >= max_iterations + (has_given_up_ ? kMostOfGivenLoads : 0);

@@ -78,11 +78,15 @@ double ContactSystem<D>::gap(const Contact<D>& contact) {
 }
 
 template <int D>
+bool ContactSystem<D>::can_use_distances() {
+  return !uses_distances_ && std::ranges::any_of(contacts, [&](const Contact<D>& contact) {
+    return contact.first >= 0 && is_held(contact);
+  });
+}
+
+template <int D>
 bool ContactSystem<D>::use_distances() {
-  const bool changes =
-      !uses_distances_ && std::ranges::any_of(contacts, [&](const Contact<D>& contact) {
-        return contact.first >= 0 && is_held(contact);
-      });
+  const bool changes = can_use_distances();
   uses_distances_ = uses_distances_ || changes;
   return changes;
 }

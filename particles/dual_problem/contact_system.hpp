@@ -61,6 +61,7 @@ class ContactSystem {
   /// touch becomes negative when they turn about each other, and would contradict rigid bodies and
   /// links that turn with the particles. Returns false if this changes nothing.
   bool use_distances();
+  bool can_use_distances();  ///< true if use_distances() would change something
   bool uses_distances() const { return uses_distances_; }  ///< true after use_distances()
 
   const std::vector<std::int32_t>& bodies() const { return bodies_; }  ///< particle of each body
