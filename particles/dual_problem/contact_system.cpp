@@ -79,9 +79,10 @@ double ContactSystem<D>::gap(const Contact<D>& contact) {
 
 template <int D>
 bool ContactSystem<D>::can_use_distances() {
-  return !uses_distances_ && std::ranges::any_of(contacts, [&](const Contact<D>& contact) {
-    return contact.first >= 0 && is_held(contact);
-  });
+  return may_use_distances_ && !uses_distances_ &&
+         std::ranges::any_of(contacts, [&](const Contact<D>& contact) {
+           return contact.first >= 0 && is_held(contact);
+         });
 }
 
 template <int D>

@@ -62,6 +62,8 @@ class ContactSystem {
   /// links that turn with the particles. Returns false if this changes nothing.
   bool use_distances();
   bool can_use_distances();  ///< true if use_distances() would change something
+  /// Makes use_distances() return false.
+  void forbid_distances() { may_use_distances_ = false; }
   bool uses_distances() const { return uses_distances_; }  ///< true after use_distances()
 
   const std::vector<std::int32_t>& bodies() const { return bodies_; }  ///< particle of each body
@@ -88,7 +90,7 @@ class ContactSystem {
   std::vector<std::size_t> island_sizes_;  // number of bodies of each island, at its root
   // 1 for an island with a rigid body or a rigid link, otherwise 0; at its root.
   std::vector<char> is_held_;
-  bool uses_distances_ = false;
+  bool uses_distances_ = false, may_use_distances_ = true;
   std::size_t largest_island_ = 1;
   FreeSetFactor<D> factor_;  // of the last solve() that needed a factor, for the next one
 };

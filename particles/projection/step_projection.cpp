@@ -287,12 +287,14 @@ template class StepProjection<3>;
 template <int D>
 ResidualScales<D>::ResidualScales(const State& state, double h,
                                   std::span<const double> displacements,
-                                  std::span<const double> mobilities, ContactSystem<D>& system)
+                                  std::span<const double> mobilities, ContactSystem<D>& system,
+                                  bool has_constraints)
     : state_(state),
       h_(h),
       displacements_(displacements),
       mobilities_(mobilities),
       system_(system),
+      has_constraints_(has_constraints),
       island_impulses_(system.bodies().size(), 0.0) {
   const auto& bodies = system.bodies();
   for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -361,13 +363,14 @@ template <int D>
 ResidualScale ResidualScales<D>::of(const Contact<D>& contact) {
   const std::array particles{contact.first, contact.second};
   auto scale = of(particles, contact.w, std::abs(contact.gap));
-  if (!system_.is_held(contact)) return scale;
-  // The errors are taken as 8 units in the last place of the radii.
-  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+  if (!has_constraints_) return scale;
+  // The errors are taken as 1 or, where bodies or links turn, 8 units in the last place of the radii.
+  const double rounding =
+      (system_.is_held(contact) ? 8 : 1) * std::numeric_limits<double>::epsilon();
   double radii = 0;
   for (const auto particle : particles)
     if (particle >= 0) radii += state_.particles.radii[index_of(particle)];
-  scale.rounding = std::max(scale.rounding, kRounding * radii);
+  scale.rounding = std::max(scale.rounding, rounding * radii);
   return scale;
 }
 

@@ -59,8 +59,10 @@ class ResidualScales {
  public:
   /// Measures the impulses at work at the present impulses of `system` and displacements h v [L].
   /// `mobilities`: h/m of all particles [T/M], > 0. The arguments must outlive this object.
+  /// `has_constraints`: true in a step with friction, bodies or links.
   ResidualScales(const State& state, double h, std::span<const double> displacements,
-                 std::span<const double> mobilities, ContactSystem<D>& system);
+                 std::span<const double> mobilities, ContactSystem<D>& system,
+                 bool has_constraints);
 
   /// Scales of a contact or link between `particles`; negative numbers are obstacles. The particles
   /// need not be in `system`. `w` > 0 is the change of the gap per impulse [T/M]. `length` >= 0 [L]
@@ -70,9 +72,10 @@ class ResidualScales {
   /// small for a heavy particle may be all that moves a light one. The rounding errors are those of
   /// the gap, of the displacements of the particles, and of a solution for all connected contacts.
   ResidualScale of(std::span<const std::int32_t> particles, double w, double length);
-  /// Scales of a contact, from its own particles, w and gap. In an island with a rigid body or link
-  /// (ContactSystem::is_held()) rounding errors are at least those of the radii, because finite
-  /// turns move points of the surface with such errors.
+  /// Scales of a contact, from its own particles, w and gap. In a step with friction, bodies or
+  /// links, rounding errors are at least the last place of the radii, because smaller displacements
+  /// of particles at rest are errors of the solutions. In an island with a rigid body or link
+  /// (ContactSystem::is_held()) they are larger, because finite turns move points of the surface.
   ResidualScale of(const Contact<D>& contact);
 
  private:
@@ -88,6 +91,7 @@ class ResidualScales {
   double h_;
   std::span<const double> displacements_, mobilities_;
   ContactSystem<D>& system_;
+  bool has_constraints_;
   std::vector<ParticleScale> body_scales_;  // of all bodies of system_
   // Largest w^(1/2) p of the contacts of each island [L (M/T)^(1/2)], at ContactSystem::island().
   std::vector<double> island_impulses_;
@@ -141,8 +145,12 @@ class StepProjection {
   /// Makes solve() treat friction, rigid bodies and links, too. `step` must outlive this object.
   void add_constraints(const ConstraintStep& step);
   /// Makes solve() linearise contacts where collisions (impacts/) have left their particles,
-  /// because elsewhere they could stop particles that pass each other. `impacts` must outlive this.
-  void follow(const Impacts<D>& impacts) { impacts_ = &impacts; }
+  /// because elsewhere they could stop particles that pass each other. Distances are not used then,
+  /// because the projection after blows would add energy with them. `impacts` must outlive this.
+  void follow(const Impacts<D>& impacts) {
+    impacts_ = &impacts;
+    system_.forbid_distances();
+  }
   /// Solves the projection and sets the displacements h v, but changes neither pairs nor memories
   /// of the state. `mean_radius` [L], > 0, is the unit of SolverSettings::tolerance. Call it once.
   ProjectionResult solve(const SolverSettings& settings, double mean_radius);
@@ -183,7 +191,9 @@ class StepProjection {
   double w(std::int32_t first, std::int32_t second) const {
     return (first < 0 ? 0.0 : mobilities_[index_of(first)]) + mobilities_[index_of(second)];
   }
-  ResidualScales<D> residual_scales() { return {state_, h_, displacements_, mobilities_, system_}; }
+  ResidualScales<D> residual_scales() {
+    return {state_, h_, displacements_, mobilities_, system_, constraints_.has_value()};
+  }
   // True if the number is that of a particle in system_.
   bool takes_part(std::int32_t particle) const {
     return particle >= 0 && system_.body_of(particle) >= 0;
