@@ -205,9 +205,9 @@ ProjectionResult Simulation::project(double h, double next) {
     // The impulses moved particles further than the lists allow for, so that pairs may be missing:
     // the projection is repeated with longer lists. The loop ends because skins and margin only
     // grow. The new impulses are its first guess. With restitution the impulses of the step before
-    // are kept instead, because they say which pairs bore a load, which the blows need to know. So
-    // they are with the convex relaxation, which needs no guess, and whose friction depends on them
-    // where there are films.
+    // are kept instead, because they say which pairs bore a load, which the blows need to know. The
+    // convex relaxation keeps them, too: it needs no guess, and where there are films its friction
+    // depends on these impulses.
     const auto& friction = setting_.laws.friction;
     const bool is_convex = friction && friction->method == FrictionMethod::kConvex;
     if (!setting_.laws.restitution.is_on() && !is_convex) {

@@ -137,7 +137,8 @@ template <int D>
 class StepProjection {
  public:
   /// All arguments must outlive this object. `h` > 0 [T]; `planes_before`, `planes`: all obstacles
-  /// at the beginning and at the end of the step; `displacements`: D numbers for each particle [L], h u* before solve(), then h v;
+  /// at the beginning and at the end of the step; `displacements`: D numbers for each particle [L],
+  /// h u* before solve(), then h v;
   /// `mobilities`: h/m of each particle [T/M], > 0.
   StepProjection(State& state, double h, std::span<const PlanePosition> planes_before,
                  std::span<const PlanePosition> planes, std::span<double> displacements,
