@@ -31,7 +31,8 @@ enum class ErrorKind {
 /// what is allowed or what to do".
 class Error : public std::runtime_error {
  public:
-  /// `message` is what() of the error; that it has the form above is not checked.
+  /// `message` is what() of the error, and not a format: its braces stay. That it has the form
+  /// above is not checked.
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
   /// As above; the message is fmt::format(text, first, rest...).
   template <class First, class... Rest>

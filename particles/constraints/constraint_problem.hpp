@@ -157,8 +157,9 @@ struct ConstraintProblem {
   bool is_convex = false;
   /// True if an approximate solution of a convex problem is enough.
   bool is_rough = false;
-  /// True if `impulses` solve a convex problem whose offsets differ little. The solver then starts
-  /// from them, and if it must start anew, is as accurate as rounding errors permit.
+  /// True if `impulses` solve a convex problem whose offsets differ little from those of this one.
+  /// The solver then first takes proximal steps from these impulses. If the steps do not suffice,
+  /// it uses interior points that are as accurate as rounding errors permit.
   bool is_near = false;
   /// False: the solver replaces each given_load by that of a first solution, and solves again.
   bool keeps_loads = false;

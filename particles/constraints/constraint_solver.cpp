@@ -232,8 +232,8 @@ class Iteration {
   /// steps, if needed, which are few: it is known which contacts stick and slide.
   void solve_convex(int max_iterations) {
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return;
-    // Proximal steps from a solution that is near keep most of the errors of its slips. Solutions
-    // by interior points have other errors each, which bodies that turn pass on to gaps, so that
+    // Proximal steps from a near solution change its slips little. Each solution by interior points
+    // has errors of its own in the slips. Bodies that turn would pass these errors on to gaps, and
     // corrections for finite turns would not vanish. Two to eight iterations are the rule.
     constexpr int kMostNear = 20;
     if (problem_.is_near &&

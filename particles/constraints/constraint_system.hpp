@@ -56,7 +56,7 @@ class ConstraintSystem {
   /// True if an arm keeps the particles of `pair` from overlapping at the end of the step by more
   /// than 1e-6 of the sum of their radii, which cases may leave as rounding errors of its length.
   /// Their contact would repeat the equation of the arm to first order in the arm's turn, and
-  /// contradict it to second order. It must therefore not be added.
+  /// contradict it to second order. Its load would not be unique. It must therefore not be added.
   bool is_held_apart(const Pair& pair) const;
 
   /// Adds the contact of `pair`. `memory` holds the guess of the friction. Call it for each contact
@@ -81,9 +81,9 @@ class ConstraintSystem {
   /// The equations of the problem are linear in the motions. The problem is therefore solved again,
   /// with offsets corrected by the difference between the lengths of links and the gaps of bodies
   /// after finite turns and their linear values, until this difference is below half of what is
-  /// allowed. Gaps are at first taken along the normals at the beginning of the step. If the corrected
-  /// problem is not solved, or corrections diverge, ContactSystem::use_distances() applies, and the
-  /// solution begins anew.
+  /// allowed. Gaps are at first taken along the normals at the beginning of the step. If the
+  /// corrected problem is not solved, or corrections diverge, ContactSystem::use_distances()
+  /// applies, and the solution begins anew.
   ///
   /// If Coulomb's law is not solved in `max_iterations`, the friction is bounded by the loads of
   /// the best iterate, in this and all later calls, so that at least gaps, films and links are

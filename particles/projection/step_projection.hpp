@@ -108,8 +108,8 @@ struct ProjectionResult {
   /// Number of contacts with an impulse or a film (gamma < 0) whose particles move around each
   /// other by more than kLargestTurn (contact.hpp), so that linearised gaps are wrong.
   std::size_t unresolved = 0;
-  /// True if given loads bound the friction, because the problem that was asked for was not solved
-  /// (ConstraintSystem::has_given_up()).
+  /// True if given loads bound the friction, because the problem that was asked for was not solved,
+  /// or its corrections for finite turns diverged (ConstraintSystem::has_given_up()).
   bool has_given_loads = false;
   double link_residual = 0;  ///< largest residual of a link [L], >= 0
   /// Names of the hinges and arms that contradict each other, for messages. Empty if the residuals
@@ -128,11 +128,11 @@ struct ProjectionResult {
 /// their pairs are added and the problem is solved again, until no gap is closed. A rough solution
 /// comes first, because it finds most of these pairs with little work.
 ///
-/// The step has converged if each contact meets two conditions, with its linearised gap d after the
-/// step, impulse p and change w of the gap per impulse. The residual |min(d, w (p - gamma))|,
-/// without the tolerated overlap, is at most half of SolverSettings::tolerance mean radii. The
-/// residual over w is at most SolverSettings::impulse_tolerance of the impulse at work, or within
-/// rounding errors. Links are measured likewise.
+/// The step has converged if each contact meets two conditions, with its gap d after the step
+/// (ContactSystem::gap()), impulse p and change w of the gap per impulse. The residual
+/// |min(d, w (p - gamma))|, without the tolerated overlap, is at most half of
+/// SolverSettings::tolerance mean radii. The residual over w is at most SolverSettings::impulse_tolerance of the impulse at work,
+/// or within rounding errors. Links are measured likewise.
 template <int D>
 class StepProjection {
  public:

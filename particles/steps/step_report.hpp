@@ -50,9 +50,10 @@ struct FluidStepReport {
   RelativeErrors force_errors;     ///< of the forces of the fluid on the particles
 };
 
-/// What is recorded of one step. For a contact, let d be its linearised gap after the step [L], p
-/// its impulse [M L/T], gamma the lower bound of p (minus the impulse that its film had absorbed
-/// before the step) [M L/T], and w the change of the gap per impulse [T/M].
+/// What is recorded of one step. For a contact, let d be its gap after the step [L], linearised
+/// except in groups that turn (ContactSystem::gap()), p its impulse [M L/T], gamma the lower bound
+/// of p (minus the impulse that its film had absorbed before the step) [M L/T], and w the change of
+/// the gap per impulse [T/M].
 struct StepReport {
   double time = 0;           ///< at the end of the step [T]
   std::size_t contacts = 0;  ///< number of contacts in the problem that the step solves

@@ -6,7 +6,7 @@
 
 namespace viscontact {
 
-/// A case with three gaps of low accuracy and a short motion, with which the whole main job with
+/// A case with two gaps of low accuracy and a short motion, with which the whole main job with
 /// FreeFEM takes seconds.
 std::string quick_case_text();
 

@@ -1,5 +1,5 @@
-// data/reference/discs.csv, a third of it computed anew by both methods, and what is known of it in closed form
-// or was published.
+// data/reference/discs.csv: a third of it is computed anew by both methods, and its values are
+// compared with closed forms and published ones.
 #include "tests/oracles/discs/reference_discs.hpp"
 
 #include <gtest/gtest.h>
