@@ -75,19 +75,40 @@ void give_loads(ConstraintProblem<D>& problem) {
   }
 }
 
+/// The change of the value of row `r` by a unit impulse on row `s` of the same block [T/M].
+template <int D>
+double mobility_between(const ConstraintProblem<D>& problem, std::size_t r, std::size_t s) {
+  const auto of_r = problem.parts_of(r), of_s = problem.parts_of(s);
+  double sum = 0;
+  for (std::size_t part = 0; part < of_r.size(); ++part) {
+    const auto& unit = problem.units[static_cast<std::size_t>(of_s[part].unit)];
+    const auto moved = unit.moved_by(of_s[part].coefficients);
+    double share = 0;
+    for (std::size_t k = 0; k < moved.size(); ++k) share += of_r[part].coefficients[k] * moved[k];
+    sum += share;
+  }
+  return sum;
+}
+
+template <int D>
+std::array<double, kMostRows> block_mobilities(const ConstraintProblem<D>& problem,
+                                               const ConstraintBlock& block) {
+  std::array<double, kMostRows> w{};
+  for (std::size_t k = 0; k < block.rows; ++k)
+    w[k] = mobility_between(problem, block.row + k, block.row + k);
+  if (block.is_contact && block.rows == 3) {
+    const double beside = mobility_between(problem, block.row + 1, block.row + 2);
+    w[1] = w[2] = (w[1] + w[2]) / 2 + std::hypot((w[1] - w[2]) / 2, beside);
+  }
+  return w;
+}
+
 template <int D>
 std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
-  std::vector<double> w;
-  w.reserve(problem.rows.size());
-  for (std::size_t r = 0; r < problem.rows.size(); ++r) {
-    w.push_back(0);
-    for (const auto& [unit, coefficients] : problem.parts_of(r)) {
-      const auto moved = problem.units[static_cast<std::size_t>(unit)].moved_by(coefficients);
-      double share = 0;
-      for (std::size_t k = 0; k < moved.size(); ++k) share += coefficients[k] * moved[k];
-      w.back() += share;
-    }
-  }
+  std::vector<double> w(problem.rows.size());
+  for (const auto& block : problem.blocks)
+    std::ranges::copy_n(block_mobilities(problem, block).begin(),
+                        static_cast<std::ptrdiff_t>(block.rows), &w[block.row]);
   return w;
 }
 
@@ -139,6 +160,10 @@ template std::vector<Motion<2>> motions<2>(const ConstraintProblem<2>&, std::spa
 template std::vector<Motion<3>> motions<3>(const ConstraintProblem<3>&, std::span<const double>);
 template void give_loads<2>(ConstraintProblem<2>&);
 template void give_loads<3>(ConstraintProblem<3>&);
+template std::array<double, kMostRows> block_mobilities<2>(const ConstraintProblem<2>&,
+                                                           const ConstraintBlock&);
+template std::array<double, kMostRows> block_mobilities<3>(const ConstraintProblem<3>&,
+                                                           const ConstraintBlock&);
 template std::vector<double> row_mobilities<2>(const ConstraintProblem<2>&);
 template std::vector<double> row_mobilities<3>(const ConstraintProblem<3>&);
 

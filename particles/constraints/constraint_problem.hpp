@@ -207,8 +207,15 @@ std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
 template <int D>
 void give_loads(ConstraintProblem<D>& problem);
 
-/// The mobility of each row, its change by a unit impulse on it: diagonal of J h M^-1 J^T [T/M], >=
-/// 0, in the order of the rows; of rows of angles [T/(M L^2)].
+/// The mobilities of the rows of `block`, > 0 in rows of contacts, otherwise >= 0 [T/M], of rows of
+/// angles [T/(M L^2)]: by how much a unit impulse on a row changes its value, which is the diagonal
+/// of J h M^-1 J^T. Two tangential rows both have the larger eigenvalue of their part of this
+/// matrix, which does not depend on the choice of the tangents.
+template <int D>
+std::array<double, kMostRows> block_mobilities(const ConstraintProblem<D>& problem,
+                                               const ConstraintBlock& block);
+
+/// The block_mobilities() of all blocks, in the order of the rows.
 template <int D>
 std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
 

@@ -27,19 +27,16 @@
 namespace viscontact::particles {
 namespace {
 
-/// The mobility of each row [T/M]. Both tangential rows of a contact get the larger of their two.
-/// With kLeastImpulses all gaps get the largest mobility, so that all are equally stiff.
+/// The row_mobilities() [T/M]. With kLeastImpulses all gaps get the largest mobility, so that all
+/// are equally stiff.
 template <int D>
 std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, ConstraintStart start) {
   auto w = row_mobilities(problem);
+  if (start != ConstraintStart::kLeastImpulses) return w;
   double largest = 0;
   for (const auto& block : problem.blocks) largest = std::max(largest, w[block.row]);
-  for (const auto& block : problem.blocks) {
-    if (!block.is_contact) continue;
-    if (start == ConstraintStart::kLeastImpulses) w[block.row] = largest;
-    for (std::size_t k = 2; k < block.rows; ++k)
-      w[block.row + 1] = w[block.row + k] = std::max(w[block.row + 1], w[block.row + k]);
-  }
+  for (const auto& block : problem.blocks)
+    if (block.is_contact) w[block.row] = largest;
   return w;
 }
 

@@ -307,16 +307,12 @@ BlockResidual ConstraintSystem<D>::residual_of_contact(
   auto block = problem_.blocks[c];
   if (is_convex_ || !has_given_up_ || block.rows == 1) return solution.residuals[c];
   block.friction_bound = FrictionBound::kCoulomb;
-  std::array<double, kMostRows> v{}, w{};
+  std::array<double, kMostRows> v{};
   for (std::size_t k = 0; k < block.rows; ++k) {
     const auto r = block.row + k;
     v[k] = problem_.rows[r].offset + problem_.product(r, solution.motions);
-    for (const auto& [unit, coefficients] : problem_.parts_of(r)) {
-      const auto moved = problem_.units[static_cast<std::size_t>(unit)].moved_by(coefficients);
-      for (std::size_t i = 0; i < moved.size(); ++i) w[k] += coefficients[i] * moved[i];
-    }
   }
-  for (std::size_t k = 2; k < block.rows; ++k) w[1] = w[k] = std::max(w[1], w[k]);
+  const auto w = block_mobilities(problem_, block);
   return residual_of(block, v.data(), &problem_.impulses[block.row], w.data());
 }
 

@@ -22,6 +22,10 @@ constexpr double kRegularisation = 1e-10;
 /// Part of the way to the first boundary at which a step ends [1]; a free choice below 1.
 constexpr double kInside = 0.995;
 
+/// The larger of |x_0| and the distance from the axis, which does not depend on the choice of the
+/// tangents of a contact in space; NaN if one is NaN.
+double magnitude(const ConePoint& x) { return largest_or_nan(std::abs(x[0]), beside_axis(x)); }
+
 }  // namespace
 
 template <int D>
@@ -112,7 +116,8 @@ void InteriorPoints<D>::add_impulse(const Cones& part, const ConePoint& r,
     problem_.add_impulse(part.row + k, impulse[part.first + k], to);
 }
 
-/// The largest scaled value of a row, with its offset, for the motions y_; NaN if one is NaN.
+/// The largest magnitude of the scaled values of a part, with the offsets of its rows, for the
+/// motions y_; NaN if one is NaN.
 template <int D>
 double InteriorPoints<D>::largest_value() const {
   double largest = 0;
@@ -120,7 +125,7 @@ double InteriorPoints<D>::largest_value() const {
     largest = largest_or_nan(
         largest, std::abs(value(part, y_) + part.scale * problem_.rows[part.row].offset));
   for (const auto& part : cones_)
-    for (const double v : values(part, true, y_)) largest = largest_or_nan(largest, std::abs(v));
+    largest = largest_or_nan(largest, magnitude(values(part, true, y_)));
   return largest;
 }
 
@@ -162,7 +167,7 @@ double InteriorPoints<D>::measure() {
       part.error = Cone::coordinates(components);
     }
     add_product(part.scaling.product_of_points());
-    for (const double e : part.error) largest = largest_or_nan(largest, std::abs(e));
+    largest = largest_or_nan(largest, magnitude(part.error));
   }
   if (degree_ > 0) gap_ /= degree_;
   for (std::size_t u = 0; u < y_.size(); ++u) {

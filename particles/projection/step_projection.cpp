@@ -209,6 +209,23 @@ std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
   return pairs_of_particles_->connected(pairs, depth, may_close);
 }
 
+/// Removes from `pairs` those without film, and without impulse in the step before, that the free
+/// motion closes by no more than allowed. The convex relaxation (5.9) lifts each pair that takes
+/// part and slides. For a particle that slides along an obstacle without load, rounding errors would
+/// decide whether the pair takes part.
+template <int D>
+void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
+                                       const SolverSettings& settings, double mean_radius) {
+  auto scales = residual_scales();
+  std::erase_if(pairs, [&](std::size_t k) {
+    if (pair(k).gamma < 0 || pair(k).impulse != 0 || has_film(k)) return false;
+    const auto here = contact(k);
+    return -gap_after(here, displacements_) <=
+           scales.of(here).allowed(settings.tolerance * mean_radius / 2,
+                                   settings.impulse_tolerance);
+  });
+}
+
 template <int D>
 ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double mean_radius) {
   ProjectionResult result;
@@ -223,7 +240,9 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
-  choose(closed_by_free_motion());
+  auto closed = closed_by_free_motion();
+  if (is_convex) leave_touching(closed, settings, mean_radius);
+  choose(closed);
   if (has_friction) {
     margin_ = kMargin * mean_radius;
     if (is_convex) choose(nearly_closed(true));
@@ -269,7 +288,12 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   }
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     result.pairs.push_back(&pair(chosen_[c]));
-    result.impulses.push_back(system_.contacts[c].impulse);
+    // A pair that had an impulse in the step before takes part in the next one, and the convex
+    // relaxation may lift it. An impulse within its allowed error must not have this effect.
+    const auto& here = system_.contacts[c];
+    const bool is_error =
+        is_convex && here.lowest == 0 && here.w * here.impulse <= 2 * here.allowed;
+    result.impulses.push_back(is_error ? 0 : here.impulse);
     if (!constraints_) continue;
     result.memories.push_back(state_.memories.of(pair(chosen_[c]).memory));
     constraints_->remember(c, result.memories.back());
@@ -364,13 +388,16 @@ ResidualScale ResidualScales<D>::of(const Contact<D>& contact) {
   const std::array particles{contact.first, contact.second};
   auto scale = of(particles, contact.w, std::abs(contact.gap));
   if (!has_constraints_) return scale;
-  // The errors are taken as 1 or, where bodies or links turn, 8 units in the last place of the radii.
+  // The errors are taken as 1 or, where bodies or links turn, 8 units in the last place of the radii
+  // and of the distances from the origin, because gaps are differences of coordinates.
   const double rounding =
       (system_.is_held(contact) ? 8 : 1) * std::numeric_limits<double>::epsilon();
-  double radii = 0;
+  double lengths = 0;
   for (const auto particle : particles)
-    if (particle >= 0) radii += state_.particles.radii[index_of(particle)];
-  scale.rounding = std::max(scale.rounding, rounding * radii);
+    if (particle >= 0)
+      lengths += state_.particles.radii[index_of(particle)] +
+                 norm(state_.particles.position(index_of(particle)));
+  scale.rounding = std::max(scale.rounding, rounding * lengths);
   return scale;
 }
 

@@ -207,6 +207,8 @@ class StepProjection {
   bool has_film(std::size_t k);
   std::vector<std::size_t> nearly_closed(bool are_films_only);
   std::vector<std::size_t> closed_by_free_motion();
+  void leave_touching(std::vector<std::size_t>& pairs, const SolverSettings& settings,
+                      double mean_radius);
   void choose(const std::vector<std::size_t>& pairs);
   SolverResult solve_contacts(bool is_rough, double length, int max_iterations);
   std::vector<std::size_t> with_connected_pairs(const std::vector<std::size_t>& pairs, int round);

@@ -393,6 +393,23 @@ TEST_P(ConvexFriction, EveryStepOfABodyInAWedgeOfMovingWallsConverges) {
   }
 }
 
+TEST_P(ConvexFriction, AParticleThatSlidesAlongAPlaneWithoutLoadIsNotLifted) {
+  // The relaxation lifts a contact that takes part and slides. Whether the free motion closes a gap
+  // by a rounding error must not decide that.
+  for (const double downwards : {-1e-17, 0.0, 1e-17}) {
+    auto setting = convex_setting(0.01, 0.5);
+    setting.planes = {plane_at_rest({}, {0, 1, 0})};
+    State state = no_particles(GetParam());
+    add_particle(state, {0, 0.5, 0}, 0.5, 1, {1, -downwards, 0});
+    add_rotation(state.particles);
+    Simulation simulation(setting, state, 1);
+    run(simulation, 0.1, [&](const StepReport& report) {
+      EXPECT_TRUE(report.converged);
+      EXPECT_EQ(simulation.state().particles.velocity(0)[0], 1) << report.time;
+    });
+  }
+}
+
 TEST_P(ConvexFriction, AParticleThatABeltDrivesIntoACornerIsHeldWhereTheRelaxationHasNoSolution) {
   // The belt moves towards the wall at the speed 1. For mu_s > 1 no motion satisfies (5.9), because
   // slipping along one surface demands a larger opening of the other one. Friction then has the

@@ -304,6 +304,35 @@ TEST(Arms, ADiscWithoutRoomBetweenTwoThatAnArmHoldsTurnsWithThem) {
       }
 }
 
+TEST(Arms, AroundADiscTurnWithItAlsoFarFromTheOrigin) {
+  // Gaps and lengths are differences of coordinates, whose rounding errors are 1e-12 of the radius
+  // here. A third of these steps did not converge when errors were those of the radii.
+  for (const double gamma_min : {-0.3, 0.0})
+    for (const double h : {0.001, 0.1}) {
+      SCOPED_TRACE(h);
+      auto setting = setting_of(h, Scheme::kEuler);
+      setting.solver.tolerance = 1e-6;
+      setting.laws.film.gamma_min = gamma_min;
+      setting.laws.friction = FrictionLaw{0.5, FrictionMethod::kConvex};
+      State state = no_particles(2);
+      const Vector centre{1e4, 7e3, 0};
+      add_particle(state, centre, 1, 1);
+      for (const double angle : {0.0, 2.0, 4.0}) {
+        const Vector apart{2 * std::cos(angle), 2 * std::sin(angle), 0};
+        add_particle(state, centre + apart, 1, 1, {-apart[1], apart[0], 0});
+      }
+      add_rotation(state.particles);
+      for (std::int32_t k = 1; k < 4; ++k) {
+        const std::int32_t next = k % 3 + 1;
+        const double length =
+            norm(state.particles.position(index_of(next)) - state.particles.position(index_of(k)));
+        setting.links.arms.push_back({k, next, PiecewiseLinearLength{{{0, length}}}});
+      }
+      Simulation simulation(setting, state, 1);
+      run(simulation, 20 * h, expect_converged);
+    }
+}
+
 TEST(Arms, HoldOneImageOfAParticleWhileAnotherOneMayTouch) {
   // The cell has the length 3.9 along x. The pair turns towards the x axis until the image on the
   // other side touches, too. A case may give the length 2 with a rounding error of 1e-6 of it.
