@@ -30,6 +30,43 @@ Motion<D> row_of(const LinkPart& part) {
   return row;
 }
 
+/// ConstraintSystem::least_violations() of the blocks of a problem; angles in [rad].
+template <int D>
+std::vector<double> least_violations_of(const ConstraintProblem<D>& problem) {
+  // Proximal steps: each minimises the sum of v^2/(kEpsilon w) plus the square of the change of the
+  // motions in the norm of M/h, masses over the step's length, which keeps the matrix regular. A
+  // step multiplies errors by about kEpsilon if the rows determine the motions well. The number of
+  // steps is a free choice.
+  constexpr double kEpsilon = 1e-6;
+  constexpr int kSteps = 30;
+  const auto w = row_mobilities(problem);
+  UnitMatrix<D> matrix(problem, true);
+  auto y = motions<D>(problem, std::vector<double>(problem.rows.size(), 0.0));
+  std::vector<double> violations(problem.blocks.size());
+  for (int n = 0;; ++n) {
+    matrix.set_to_masses();
+    std::vector<Motion<D>> missing(y.size(), Motion<D>{});
+    for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+      const auto& block = problem.blocks[b];
+      violations[b] = 0;
+      if (!block.is_contact && block.compliance > 0) continue;
+      for (std::size_t r = block.row; r < block.row + (block.is_contact ? 1 : block.rows); ++r) {
+        const double value = problem.rows[r].offset + problem.product(r, y);
+        if (block.is_contact && value >= 0) continue;
+        violations[b] = std::max(violations[b], std::abs(value));
+        const double weight = 1 / (kEpsilon * w[r]);
+        matrix.add_product(b, r, r, weight);
+        problem.add_impulse(r, -weight * value, missing);
+      }
+    }
+    if (n == kSteps || !matrix.factorise()) break;
+    const auto change = matrix.solution_of(missing);
+    for (std::size_t u = 0; u < y.size(); ++u)
+      for (std::size_t k = 0; k < y[u].size(); ++k) y[u][k] += change[u][k];
+  }
+  return violations;
+}
+
 }  // namespace
 
 template <int D>
@@ -48,6 +85,8 @@ ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particle
       links_(link_equations(*step.links, particles, times_)),
       link_residuals_(links_.size(), 0.0),
       link_forces_(step.link_forces.begin(), step.link_forces.end()),
+      unit_of_particle_(particles.count(), -1),
+      unit_of_body_(particles.bodies.count(), -1),
       offsets_(particles.bodies.empty() ? 0 : particles.count()) {
   for (auto& stop : stop_equations(*step.links, particles)) {
     links_.push_back(std::move(stop));
@@ -98,27 +137,64 @@ void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
   frictions_.push_back(memory.friction());
   carried_.push_back(memory[Remembered::kCarried]);
   first_loads_.push_back(carried_.back());
+  last_loads_.emplace_back();
+  given_loads_.push_back(0);
+  gave_up_.push_back(0);
+  could_not_give_up_.push_back(0);
   residuals_.emplace_back();
 }
 
-/// Makes a unit of each rigid body, and of each particle without a body, that is in `system`.
+/// Finds the islands of `system`, in the order of their first bodies, with their contacts and links.
 template <int D>
-void ConstraintSystem<D>::number_units(const ContactSystem<D>& system) {
-  unit_of_particle_.assign(particles_.count(), -1);
-  unit_of_body_.assign(particles_.bodies.count(), -1);
-  for (std::size_t b = 0; b < system.bodies().size(); ++b) {
-    const auto particle = system.bodies()[b];
+void ConstraintSystem<D>::find_islands(ContactSystem<D>& system) {
+  islands_.clear();
+  std::vector<std::int32_t> number(system.bodies().size(), -1);  // of the islands, at their roots
+  const auto island_of = [&](std::int32_t particle) -> Island& {
+    auto& n = number[index_of(system.island(system.body_of(particle)))];
+    if (n < 0) {
+      n = static_cast<std::int32_t>(islands_.size());
+      islands_.emplace_back();
+    }
+    return islands_[index_of(n)];
+  };
+  for (const auto particle : system.bodies()) {
+    auto& island = island_of(particle);
+    island.bodies.push_back(system.body_of(particle));
+    island.is_held |= particles_.bodies.body_of(particle) >= 0;
+  }
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    auto& island = island_of(system.contacts[c].second);
+    island.contacts.push_back(c);
+    island.has_given_up |= gave_up_[c] != 0;
+    island.can_give_up &= could_not_give_up_[c] == 0;
+  }
+  for (std::size_t l = 0; l < links_.size(); ++l) {
+    auto& island = island_of(links_[l].parts().front().particle);
+    island.links.push_back(l);
+    island.is_held |= !links_[l].is_spring();
+  }
+}
+
+/// Makes a unit of each rigid body, and of each particle without a body, of the island.
+template <int D>
+void ConstraintSystem<D>::number_units(const ContactSystem<D>& system, Island& island) {
+  for (const auto b : island.bodies)
+    if (const auto body = particles_.bodies.body_of(system.bodies()[index_of(b)]); body >= 0)
+      unit_of_body_[index_of(body)] = -1;
+  for (const auto b : island.bodies) {
+    const auto particle = system.bodies()[index_of(b)];
     const auto body = particles_.bodies.body_of(particle);
     auto& unit = unit_of_particle_[index_of(particle)];
     unit = body < 0 ? -1 : unit_of_body_[index_of(body)];
     if (unit >= 0) continue;
-    unit = static_cast<std::int32_t>(problem_.units.size());
+    unit = static_cast<std::int32_t>(island.problem.units.size());
     if (body >= 0) unit_of_body_[index_of(body)] = unit;
     const auto k = index_of(particle), turns = static_cast<std::size_t>(kTurns<D>);
-    problem_.units.push_back(
-        body < 0 ? unit_of_particle<D>(mobilities_[k], step_.turn_mobilities[k],
-                                       system.free_displacement(b), &free_turns_[k * turns])
-                 : unit_of_body<D>(free_bodies_[index_of(body)]));
+    island.problem.units.push_back(
+        body < 0
+            ? unit_of_particle<D>(mobilities_[k], step_.turn_mobilities[k],
+                                  system.free_displacement(index_of(b)), &free_turns_[k * turns])
+            : unit_of_body<D>(free_bodies_[index_of(body)]));
   }
 }
 
@@ -130,11 +206,11 @@ ContactSide ConstraintSystem<D>::side_of(std::int32_t particle) const {
 }
 
 template <int D>
-void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c,
-                                      double allowed_slip) {
+void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c, double allowed_slip,
+                                      ConstraintProblem<D>& problem) {
   const auto& tangents = tangents_[c];
   ConstraintBlock block;
-  block.row = problem_.rows.size();
+  block.row = problem.rows.size();
   block.lowest = contact.lowest;
   block.friction = step_.laws.friction ? step_.laws.friction->coefficient : 0;
   block.capacity = tangents.capacity;
@@ -143,37 +219,37 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c,
   // The film of smooth particles absorbs every impulse, so that there is no friction.
   const bool rubs = block.friction > 0 && std::isfinite(block.capacity);
   block.rows = rubs ? static_cast<std::size_t>(D) : 1;
-  if (problem_.is_convex && rubs) {
+  if (problem.is_convex && rubs) {
     block.friction_bound = block.has_film() ? FrictionBound::kGiven : FrictionBound::kCone;
     block.given_load = first_loads_[c];
   }
-  problem_.blocks.push_back(block);
+  problem.blocks.push_back(block);
   const auto first = side_of(contact.first), second = side_of(contact.second);
   for (std::size_t k = 0; k < block.rows; ++k) {
     const double guess = k == 0 ? contact.impulse : dot(tangents.directions[k - 1], frictions_[c]);
-    add_contact_row(contact, tangents, first, second, k, guess, problem_);
+    add_contact_row(contact, tangents, first, second, k, guess, problem);
   }
 }
 
 template <int D>
-void ConstraintSystem<D>::add_link(std::size_t l, double allowed) {
+void ConstraintSystem<D>::add_link(std::size_t l, double allowed, ConstraintProblem<D>& problem) {
   const auto& link = links_[l];
   ConstraintBlock block;
-  block.row = problem_.rows.size();
+  block.row = problem.rows.size();
   block.rows = link.rows.size();
   // The stop of a hinge pushes like a contact without film and friction.
   const bool is_stop = link.kind == LinkEquations::Kind::kStop;
   block.is_contact = is_stop;
   block.allowed = link.is_angle() ? allowed / mean_radius_ : allowed;
   block.compliance = link.rows.front().compliance;
-  problem_.blocks.push_back(block);
+  problem.blocks.push_back(block);
   for (std::size_t k = 0; k < link.rows.size(); ++k) {
     const auto& equation = link.rows[k];
     std::vector<RowPart<D>> parts;
     for (const auto& part : equation.parts)
       parts.push_back({unit_of_particle_[index_of(part.particle)], row_of<D>(part)});
     const double guess = is_stop ? 0 : link_forces_[link.first_force + k];
-    problem_.add_row(equation.value, parts, times_.kick * guess);
+    problem.add_row(equation.value, parts, times_.kick * guess);
   }
 }
 
@@ -189,12 +265,13 @@ UnitMotion ConstraintSystem<D>::motion_of(std::int32_t unit,
   return result;
 }
 
-/// Moves the particles of `system` with their units, with finite turns of rigid bodies.
+/// Moves the particles of the island with their units, with finite turns of rigid bodies.
 template <int D>
-void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system,
+void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system, const Island& island,
                                          std::span<const Motion<D>> motions) {
   constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
-  for (const auto particle : system.bodies()) {
+  for (const auto b : island.bodies) {
+    const auto particle = system.bodies()[index_of(b)];
     const auto k = index_of(particle);
     const auto motion = motion_of(unit_of_particle_[k], motions);
     Vector moved = motion.displacement;
@@ -207,203 +284,255 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system,
 
 /// Changes the offsets of the rows so that their linear values after `solution` become those after
 /// the motion: gaps as ContactSystem::gap() gives them, and lengths of links after finite turns.
-/// Stores the changes in shifts_, and returns the largest one over its bound, without those of
+/// Stores the changes as shifts, and returns the largest one over its bound, without those of
 /// contacts that stay open.
 template <int D>
-double ConstraintSystem<D>::correct(ContactSystem<D>& system,
+double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
                                     const ConstraintSolution<D>& solution) {
   const std::span<const Motion<D>> motions = solution.motions;
+  auto& problem = island.problem;
   double largest = 0;
-  shifts_.assign(problem_.blocks.size(), 0.0);
+  island.shifts.assign(problem.blocks.size(), 0.0);
   const auto shift = [&](std::size_t b, std::size_t k, double value) {
-    const std::size_t r = problem_.blocks[b].row + k;
-    const double linear = problem_.rows[r].offset + problem_.product(r, motions);
-    problem_.rows[r].offset += value - linear;
+    const std::size_t r = problem.blocks[b].row + k;
+    const double linear = problem.rows[r].offset + problem.product(r, motions);
+    problem.rows[r].offset += value - linear;
     // A contact that is open before and after the change moves nothing.
-    const auto& block = problem_.blocks[b];
-    if (block.is_contact && block.lowest == 0 && problem_.impulses[r] == 0 && linear > 0 &&
+    const auto& block = problem.blocks[b];
+    if (block.is_contact && block.lowest == 0 && problem.impulses[r] == 0 && linear > 0 &&
         value > 0)
       return;
-    shifts_[b] = std::max(shifts_[b], std::abs(value - linear));
+    island.shifts[b] = std::max(island.shifts[b], std::abs(value - linear));
     largest = std::max(largest, std::abs(value - linear) / block.allowed);
   };
-  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+  std::size_t b = 0;
+  for (const auto c : island.contacts) {
     const auto& contact = system.contacts[c];
     const bool has_body = particles_.bodies.body_of(contact.second) >= 0 ||
                           (contact.first >= 0 && particles_.bodies.body_of(contact.first) >= 0);
-    if (has_body || (system.uses_distances() && system.is_held(contact)))
-      shift(c, 0, system.gap(contact));
+    if (has_body || system.uses_distance(contact)) shift(b, 0, system.gap(contact));
+    ++b;
   }
-  for (std::size_t l = 0; l < links_.size(); ++l) {
+  for (const auto l : island.links) {
+    const std::size_t of_link = b++;
     if (links_[l].is_spring()) continue;
-    const std::size_t b = system.contacts.size() + l;
     std::vector<UnitMotion> of_units;
-    for (const auto& part : problem_.parts_of(problem_.blocks[b].row))
+    for (const auto& part : problem.parts_of(problem.blocks[of_link].row))
       of_units.push_back(motion_of(part.unit, motions));
     const auto values = values_after(links_[l], *step_.links, particles_, times_, of_units);
-    for (std::size_t k = 0; k < values.size(); ++k) shift(b, k, values[k]);
+    for (std::size_t k = 0; k < values.size(); ++k) shift(of_link, k, values[k]);
   }
   return largest;
 }
 
 /// True if a last correction is larger than rounding errors and errors of solutions are.
 template <int D>
-bool ConstraintSystem<D>::has_large_shifts() const {
+bool ConstraintSystem<D>::has_large_shifts(const Island& island) const {
   constexpr double kPart = 1e-6;  // of the mean radius, a free choice
-  for (std::size_t b = 0; b < shifts_.size(); ++b) {
-    const std::size_t contacts = residuals_.size();
-    const bool is_angle = b >= contacts && links_[b - contacts].is_angle();
-    if (shifts_[b] * (is_angle ? mean_radius_ : 1) > kPart * mean_radius_) return true;
+  const std::size_t contacts = island.contacts.size();
+  for (std::size_t b = 0; b < island.shifts.size(); ++b) {
+    const bool is_angle = b >= contacts && links_[island.links[b - contacts]].is_angle();
+    if (island.shifts[b] * (is_angle ? mean_radius_ : 1) > kPart * mean_radius_) return true;
   }
   return false;
 }
 
-/// Copies the solution to the contacts of `system`, to the forces of links and the motions of
-/// bodies of the step, and to the residuals of this object.
+/// True if ContactSystem::use_distances() would change a gap of the island.
 template <int D>
-void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
+bool ConstraintSystem<D>::can_use_distances(ContactSystem<D>& system, const Island& island) const {
+  return island.is_held && system.may_use_distances() &&
+         std::ranges::any_of(island.contacts, [&](std::size_t c) {
+           const auto& contact = system.contacts[c];
+           return contact.first >= 0 && !system.uses_distance(contact);
+         });
+}
+
+/// Copies the solution of an island to the contacts of `system`, to the forces of links and the
+/// motions of bodies of the step, and to the residuals of this object.
+template <int D>
+void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& island,
                                     const ConstraintSolution<D>& solution) {
+  const auto& problem = island.problem;
+  std::size_t b = 0;
   // A residual is that of the last solution plus the correction that would follow.
-  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
-    const auto& block = problem_.blocks[c];
-    system.contacts[c].impulse = problem_.impulses[block.row];
+  for (const auto c : island.contacts) {
+    const auto& block = problem.blocks[b];
+    system.contacts[c].impulse = problem.impulses[block.row];
     frictions_[c] = {};
     carried_[c] =
         block.rows > 1 ? FrictionLaw::carried(system.contacts[c].impulse, block.capacity) : 0;
     for (std::size_t k = 1; k < block.rows; ++k)
       frictions_[c] =
-          frictions_[c] + problem_.impulses[block.row + k] * tangents_[c].directions[k - 1];
-    residuals_[c] = residual_of_contact(c, solution);
-    residuals_[c].normal += shifts_[c];
+          frictions_[c] + problem.impulses[block.row + k] * tangents_[c].directions[k - 1];
+    residuals_[c] = residual_of_contact(island, b, solution);
+    residuals_[c].normal += island.shifts[b];
+    ++b;
   }
-  std::ranges::fill(link_forces_, 0.0);
-  for (std::size_t l = 0; l < links_.size(); ++l) {
-    const std::size_t b = system.contacts.size() + l;
+  const auto forces_of = [&](std::size_t l) {
+    return std::span(link_forces_).subspan(links_[l].first_force, links_[l].rows.size());
+  };
+  for (const auto l : island.links) std::ranges::fill(forces_of(l), 0.0);
+  for (const auto l : island.links) {
     const auto& link = links_[l];
-    const auto& block = problem_.blocks[b];
-    link_residuals_[l] = solution.residuals[b].normal + shifts_[b];
+    const auto& block = problem.blocks[b];
+    link_residuals_[l] = solution.residuals[b].normal + island.shifts[b];
     if (link.is_angle()) link_residuals_[l] *= mean_radius_;
     // A hinge has one torque, the sum of those of its spring and its stops.
     const bool is_stop = link.kind == LinkEquations::Kind::kStop;
     const double sign = is_stop ? link.parts().front().direction[2] : 1;
     for (std::size_t k = 0; k < block.rows; ++k)
-      link_forces_[link.first_force + k] += sign * problem_.impulses[block.row + k] / times_.kick;
+      forces_of(l)[k] += sign * problem.impulses[block.row + k] / times_.kick;
+    ++b;
   }
-  std::ranges::copy(link_forces_, step_.link_forces.begin());
-  for (std::size_t body = 0; body < unit_of_body_.size(); ++body) {
-    auto& step = step_.bodies[body];
-    step = free_bodies_[body];
-    if (unit_of_body_[body] < 0) continue;
-    const auto motion = motion_of(unit_of_body_[body], solution.motions);
+  for (const auto in_system : island.bodies) {
+    const auto body = particles_.bodies.body_of(system.bodies()[index_of(in_system)]);
+    if (body < 0) continue;
+    auto& step = step_.bodies[index_of(body)];
+    step = free_bodies_[index_of(body)];
+    const auto motion = motion_of(unit_of_body_[index_of(body)], solution.motions);
     constrain(step, motion.displacement, motion.turn, D);
   }
 }
 
-/// The residual of a contact [L]. If Coulomb's law was asked for, it is the residual of this law,
-/// also if the solution has given loads.
+/// The residual of the contact with block `b` of the island [L]. If Coulomb's law was asked for, it
+/// is the residual of this law, also if the solution has given loads.
 template <int D>
 BlockResidual ConstraintSystem<D>::residual_of_contact(
-    std::size_t c, const ConstraintSolution<D>& solution) const {
-  auto block = problem_.blocks[c];
-  if (is_convex_ || !has_given_up_ || block.rows == 1) return solution.residuals[c];
+    const Island& island, std::size_t b, const ConstraintSolution<D>& solution) const {
+  const auto& problem = island.problem;
+  auto block = problem.blocks[b];
+  if (is_convex_ || !island.has_given_up || block.rows == 1) return solution.residuals[b];
   block.friction_bound = FrictionBound::kCoulomb;
   std::array<double, kMostRows> v{};
   for (std::size_t k = 0; k < block.rows; ++k) {
     const auto r = block.row + k;
-    v[k] = problem_.rows[r].offset + problem_.product(r, solution.motions);
+    v[k] = problem.rows[r].offset + problem.product(r, solution.motions);
   }
-  const auto w = block_mobilities(problem_, block);
-  return residual_of(block, v.data(), &problem_.impulses[block.row], w.data());
+  const auto w = block_mobilities(problem, block);
+  return residual_of(block, v.data(), &problem.impulses[block.row], w.data());
 }
 
-/// Bounds friction by the loads that the contacts had when the solver gave up its own problem.
-/// Contacts that were added later get the loads of the step before.
+/// Bounds friction by the loads that the contacts had when the solver gave up their problems.
+/// Contacts that were added later get the loads of the step before, and those of an island that was
+/// joined the loads of the last solution.
 template <int D>
-void ConstraintSystem<D>::give_loads_of_step() {
-  for (std::size_t c = given_loads_.size(); c < carried_.size(); ++c)
-    given_loads_.push_back(carried_[c]);
-  give_loads(problem_);
-  for (std::size_t c = 0; c < given_loads_.size(); ++c)
-    problem_.blocks[c].given_load = given_loads_[c];
+void ConstraintSystem<D>::give_loads_of_step(Island& island) {
+  give_loads(island.problem);
+  for (std::size_t b = 0; b < island.contacts.size(); ++b) {
+    const auto c = island.contacts[b];
+    if (gave_up_[c] == 0) given_loads_[c] = carried_[c];
+    gave_up_[c] = 1;
+    island.problem.blocks[b].given_load = given_loads_[c];
+  }
 }
 
-/// Solves problem_ with given loads in place of those of the solution: the loads at its present
+/// Solves a problem with given loads in place of those of the solution: the loads at its present
 /// impulses, or, if `without_friction`, those of a solution without friction. If it is solved,
 /// replaces `solution` and returns true. Adds its iterations to `result` in any case.
 template <int D>
-bool ConstraintSystem<D>::solve_with_given_loads(bool without_friction,
+bool ConstraintSystem<D>::solve_with_given_loads(ConstraintProblem<D>& problem,
+                                                 bool without_friction,
                                                  ConstraintSolution<D>& solution,
                                                  SolverResult& result) {
-  give_loads(problem_);
+  give_loads(problem);
   if (without_friction) {
-    for (auto& block : problem_.blocks) block.given_load = 0;
-    std::ranges::fill(problem_.impulses, 0.0);
-    problem_.keeps_loads = problem_.is_near = false;
+    for (auto& block : problem.blocks) block.given_load = 0;
+    std::ranges::fill(problem.impulses, 0.0);
+    problem.keeps_loads = problem.is_near = false;
   }
-  auto with_given_loads = solve_constraints(problem_, kMostOfGivenLoads);
-  problem_.keeps_loads = true;
+  auto with_given_loads = solve_constraints(problem, kMostOfGivenLoads);
+  problem.keeps_loads = true;
   result.iterations += with_given_loads.result.iterations;
   const bool is_solved = with_given_loads.result.residual <= 1;
   if (is_solved) solution = std::move(with_given_loads);
   return is_solved;
 }
 
-/// Solves problem_ with given loads in place of those of the solution, in which further iterations
-/// or corrections make no progress. Returns true and sets has_given_up_ if it is solved. The loads
-/// are those of a solution without friction if `have_diverged`, because those of the present
+/// Solves the problem of an island with given loads in place of those of the solution, in which
+/// further iterations or corrections make no progress. Returns true if it is solved. The loads are
+/// those of a solution without friction if `have_diverged`, because those of the present
 /// impulses have no meaning then, and where these do not lead to a solution. Returns false, and
-/// leaves problem_ and `solution` as they are, if no contact has such loads, or if links contradict
+/// leaves the problem and `solution` as they are, if no contact has such loads, or if links contradict
 /// each other. Adds the iterations to `result` in any case.
 template <int D>
-bool ConstraintSystem<D>::give_up(bool have_diverged, ConstraintSolution<D>& solution,
-                                  SolverResult& result) {
-  const bool has_own_loads = std::ranges::any_of(problem_.blocks, [](const ConstraintBlock& block) {
+bool ConstraintSystem<D>::give_up(Island& island, bool have_diverged,
+                                  ConstraintSolution<D>& solution, SolverResult& result) {
+  auto& problem = island.problem;
+  const bool has_own_loads = std::ranges::any_of(problem.blocks, [](const ConstraintBlock& block) {
     return block.is_contact && block.rows > 1 && block.friction_bound != FrictionBound::kGiven;
   });
-  if (!has_own_loads || !can_give_up_ || has_given_up_ || problem_.is_rough) return false;
-  const auto with_own_loads = problem_;
-  has_given_up_ = (!have_diverged && solve_with_given_loads(false, solution, result)) ||
-                  solve_with_given_loads(true, solution, result);
-  if (!has_given_up_) {
-    can_give_up_ = false;
-    problem_ = with_own_loads;
+  if (!has_own_loads || !island.can_give_up || island.has_given_up || problem.is_rough)
+    return false;
+  const auto with_own_loads = problem;
+  island.has_given_up =
+      (!have_diverged && solve_with_given_loads(problem, false, solution, result)) ||
+      solve_with_given_loads(problem, true, solution, result);
+  if (!island.has_given_up) {
+    island.can_give_up = false;
+    for (const auto c : island.contacts) could_not_give_up_[c] = 1;
+    problem = with_own_loads;
     return false;
   }
-  for (std::size_t c = 0; c < carried_.size(); ++c)
-    given_loads_.push_back(problem_.blocks[c].given_load);
+  for (std::size_t b = 0; b < island.contacts.size(); ++b) {
+    gave_up_[island.contacts[b]] = 1;
+    given_loads_[island.contacts[b]] = problem.blocks[b].given_load;
+  }
   return true;
 }
 
-/// Makes problem_ from the contacts of `system` and the links, as solve() describes it.
+/// Makes the problem of an island, as solve() describes it.
 template <int D>
-void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, bool is_rough,
-                                       double roughly_allowed) {
-  problem_ = {};
-  problem_.is_convex = is_convex_;
-  problem_.is_rough = is_rough;
-  problem_.has_long_chains = !step_.links->membranes.empty();
-  number_units(system);
-  for (std::size_t c = 0; c < system.contacts.size(); ++c)
-    add_contact(system.contacts[c], c, is_rough ? roughly_allowed : slips_allowed[c]);
+void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& island,
+                                       bool is_rough, double roughly_allowed) {
+  auto& problem = island.problem;
+  problem = {};
+  problem.is_convex = is_convex_;
+  problem.is_rough = is_rough;
+  problem.has_long_chains = !step_.links->membranes.empty();
+  number_units(system, island);
+  for (const auto c : island.contacts)
+    add_contact(system.contacts[c], c, is_rough ? roughly_allowed : slips_allowed[c], problem);
   // In a rough solution the impulses at work are not known yet.
   if (is_rough)
-    for (auto& block : problem_.blocks) block.allowed = roughly_allowed;
-  for (std::size_t l = 0; l < links_.size(); ++l)
-    add_link(l, is_rough ? roughly_allowed : links_allowed[l]);
-  if (has_given_up_) {
-    give_loads_of_step();
-  } else if (!is_rough && last_loads_.size() == system.contacts.size()) {
+    for (auto& block : problem.blocks) block.allowed = roughly_allowed;
+  for (const auto l : island.links)
+    add_link(l, is_rough ? roughly_allowed : links_allowed[l], problem);
+  const auto has_load = [&](std::size_t c) { return last_loads_[c].has_value(); };
+  if (island.has_given_up) {
+    give_loads_of_step(island);
+  } else if (!is_rough && std::ranges::all_of(island.contacts, has_load)) {
     // Without further pairs the loads of the last solution remain, so that the motion does not
     // depend on how often it is solved, which rounding errors may decide.
-    for (std::size_t c = 0; c < last_loads_.size(); ++c)
-      problem_.blocks[c].given_load = last_loads_[c];
-    problem_.keeps_loads = true;
+    for (std::size_t b = 0; b < island.contacts.size(); ++b)
+      problem.blocks[b].given_load = *last_loads_[island.contacts[b]];
+    problem.keeps_loads = true;
   }
 }
 
 template <int D>
 SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
                                         double roughly_allowed, int max_iterations) {
+  find_islands(system);
+  std::ranges::copy(free_bodies_, step_.bodies.begin());
+  SolverResult result;
+  has_given_up_ = false;
+  for (auto& island : islands_) {
+    const auto of_island = solve_island(system, island, is_rough, roughly_allowed, max_iterations);
+    result.iterations = std::max(result.iterations, of_island.iterations);
+    result.residual = largest_or_nan(result.residual, of_island.residual);
+    has_given_up_ |= island.has_given_up;
+  }
+  std::ranges::copy(link_forces_, step_.link_forces.begin());
+  if (is_rough) first_loads_ = carried_;
+  return result;
+}
+
+/// Solves the problem of one island, as solve() describes it.
+template <int D>
+SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island& island,
+                                               bool is_rough, double roughly_allowed,
+                                               int max_iterations) {
+  auto& problem = island.problem;
   // Each correction multiplies the error by about the turn of the bodies in the step [rad]. With
   // turns of 1 it gains little. Corrections diverge if they grow kPatience times in succession, or if
   // kMostWithoutGain of them do not halve the largest correction, which a factor of 0.87 would do.
@@ -419,23 +548,28 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
   double last_change = kInfinity, gained_change = kInfinity;
   int growing = 0, gained_at = 0;
   const auto restart = [&] {
-    make_problem(system, is_rough, roughly_allowed);
+    make_problem(system, island, is_rough, roughly_allowed);
     last_change = gained_change = kInfinity;
     growing = gained_at = 0;
+  };
+  const auto use_distances = [&] {
+    const bool is_change = can_use_distances(system, island);
+    if (is_change) system.use_distances(island.bodies.front());
+    return is_change;
   };
   restart();
   ConstraintSolution<D> solution;
   SolverResult result;
   for (int n = 0;; ++n) {
-    int most = has_given_up_ ? kMostOfGivenLoads : max_iterations - result.iterations;
-    if (n > 0 && system.can_use_distances()) most = std::min(most, kMostCorrected);
-    solution = solve_constraints(problem_, std::max(1, most));
+    int most = island.has_given_up ? kMostOfGivenLoads : max_iterations - result.iterations;
+    if (n > 0 && can_use_distances(system, island)) most = std::min(most, kMostCorrected);
+    solution = solve_constraints(problem, std::max(1, most));
     result.iterations += solution.result.iterations;
     const bool is_exhausted =
-        result.iterations >= max_iterations + (has_given_up_ ? kMostOfGivenLoads : 0);
+        result.iterations >= max_iterations + (island.has_given_up ? kMostOfGivenLoads : 0);
     // A convex problem is given up only if further iterations would not solve it.
     if (!(solution.result.residual <= 1) && !is_rough && !(is_convex_ && is_exhausted)) {
-      if (n > 0 && system.use_distances()) {
+      if (n > 0 && use_distances()) {
         max_iterations += result.iterations;
         restart();
         n = -1;
@@ -443,11 +577,11 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
       }
       // Where friction locks particles that must move, impulses grow without bound, so that loads
       // have no meaning. This happens in every convex problem without a solution.
-      give_up(is_convex_, solution, result);
+      give_up(island, is_convex_, solution, result);
     }
     result.residual = solution.result.residual;
-    move_particles(system, solution.motions);
-    const double change = correct(system, solution);
+    move_particles(system, island, solution.motions);
+    const double change = correct(system, island, solution);
     result.residual += change;
     growing = change < last_change ? 0 : growing + 1;
     const bool is_fast = change < kFast * last_change;
@@ -460,18 +594,18 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     // Half of what is allowed is left to the residual of the solution.
     if (change <= 0.5 || is_rough || is_unsolved || is_exhausted) break;
     if (growing == kPatience || n - gained_at == kMostWithoutGain) {
-      if (!has_large_shifts()) break;
-      if (system.use_distances()) {
+      if (!has_large_shifts(island)) break;
+      if (use_distances()) {
         restart();
         n = -1;
         continue;
       }
       // Friction may turn bodies so far that corrections do not converge.
-      if (has_given_up_) break;
-      auto corrected = std::move(problem_);
+      if (island.has_given_up) break;
+      auto corrected = std::move(problem);
       restart();
-      if (!give_up(true, solution, result)) {
-        problem_ = std::move(corrected);
+      if (!give_up(island, true, solution, result)) {
+        problem = std::move(corrected);
         break;
       }
       n = 0;
@@ -481,61 +615,35 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
     // repeat without end, while corrections would follow the loads instead of vanishing. The first
     // correction contains most of what turns change. The loads are therefore those of the solution
     // after it, from the same first loads as before it, and later ones keep them.
-    if (n == 0 && !problem_.keeps_loads)
-      for (std::size_t c = 0; c < first_loads_.size(); ++c)
-        problem_.blocks[c].given_load = first_loads_[c];
-    if (n > 0) problem_.keeps_loads = true;
-    problem_.is_near = n > 0 && solution.result.residual <= 1 && (is_fast || !has_large_shifts());
+    if (n == 0 && !problem.keeps_loads)
+      for (std::size_t b = 0; b < island.contacts.size(); ++b)
+        problem.blocks[b].given_load = first_loads_[island.contacts[b]];
+    if (n > 0) problem.keeps_loads = true;
+    problem.is_near =
+        n > 0 && solution.result.residual <= 1 && (is_fast || !has_large_shifts(island));
   }
-  take_over(system, solution);
-  if (is_rough) first_loads_ = carried_;
-  if (is_rough || has_given_up_) return result;
-  last_loads_.clear();
-  for (std::size_t c = 0; c < system.contacts.size(); ++c)
-    last_loads_.push_back(problem_.blocks[c].given_load);
+  take_over(system, island, solution);
+  if (is_rough || island.has_given_up) return result;
+  for (std::size_t b = 0; b < island.contacts.size(); ++b)
+    last_loads_[island.contacts[b]] = problem.blocks[b].given_load;
   return result;
 }
 
 template <int D>
 std::vector<double> ConstraintSystem<D>::least_violations() const {
-  const auto& problem = problem_;
-  // Proximal steps: each minimises the sum of v^2/(kEpsilon w) plus the square of the change of the
-  // motions in the norm of M/h, masses over the step's length, which keeps the matrix regular. A
-  // step multiplies errors by about kEpsilon if the rows determine the motions well. The number of
-  // steps is a free choice.
-  constexpr double kEpsilon = 1e-6;
-  constexpr int kSteps = 30;
-  const auto w = row_mobilities(problem);
-  UnitMatrix<D> matrix(problem, true);
-  auto y = motions<D>(problem, std::vector<double>(problem.rows.size(), 0.0));
-  std::vector<double> violations(problem.blocks.size());
-  for (int n = 0;; ++n) {
-    matrix.set_to_masses();
-    std::vector<Motion<D>> missing(y.size(), Motion<D>{});
-    for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
-      const auto& block = problem.blocks[b];
-      violations[b] = 0;
-      if (!block.is_contact && block.compliance > 0) continue;
-      for (std::size_t r = block.row; r < block.row + (block.is_contact ? 1 : block.rows); ++r) {
-        const double value = problem.rows[r].offset + problem.product(r, y);
-        if (block.is_contact && value >= 0) continue;
-        violations[b] = std::max(violations[b], std::abs(value));
-        const double weight = 1 / (kEpsilon * w[r]);
-        matrix.add_product(b, r, r, weight);
-        problem.add_impulse(r, -weight * value, missing);
-      }
+  const std::size_t contacts = residuals_.size();
+  std::vector<double> all(contacts + links_.size());
+  for (const auto& island : islands_) {
+    const auto of_blocks = least_violations_of(island.problem);
+    for (std::size_t b = 0; b < island.contacts.size(); ++b) all[island.contacts[b]] = of_blocks[b];
+    for (std::size_t b = 0; b < island.links.size(); ++b) {
+      const auto l = island.links[b];
+      all[contacts + l] =
+          of_blocks[island.contacts.size() + b] * (links_[l].is_angle() ? mean_radius_ : 1);
     }
-    if (n == kSteps || !matrix.factorise()) break;
-    const auto change = matrix.solution_of(missing);
-    for (std::size_t u = 0; u < y.size(); ++u)
-      for (std::size_t k = 0; k < y[u].size(); ++k) y[u][k] += change[u][k];
   }
-  const std::size_t contacts = violations.size() - links_.size();
-  for (std::size_t l = 0; l < links_.size(); ++l)
-    if (links_[l].is_angle()) violations[contacts + l] *= mean_radius_;
-  return violations;
+  return all;
 }
-
 template class ConstraintSystem<2>;
 template class ConstraintSystem<3>;
 

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -71,23 +72,24 @@ class ConstraintSystem {
   /// solve().
   std::vector<double> slips_allowed;
 
-  /// Solves the step. Sets the impulses of the contacts of `system`, the displacements and turns of
+  /// Solves the step, each island of `system` by itself, so that its solution does not depend on the
+  /// others. Sets the impulses of the contacts of `system`, the displacements and turns of
   /// its particles, the motions of the rigid bodies, and the forces of the links. If `is_rough`, all
   /// residuals may be `roughly_allowed` [L], > 0. Otherwise those of gaps, slips and links may be
-  /// Contact::allowed, slips_allowed and links_allowed. Returns the number of iterations, and the
-  /// largest residual of the last problem plus the largest correction that would follow, both over
-  /// what is allowed [1].
+  /// Contact::allowed, slips_allowed and links_allowed. Returns the number of iterations of the
+  /// island that takes most, at most about `max_iterations`, and the largest residual of the last
+  /// problems plus the largest correction that would follow, both over what is allowed [1].
   ///
-  /// The equations of the problem are linear in the motions. The problem is therefore solved again,
+  /// The equations of a problem are linear in the motions. The problem is therefore solved again,
   /// with offsets corrected by the difference between the lengths of links and the gaps of bodies
   /// after finite turns and their linear values, until this difference is below half of what is
   /// allowed. Gaps are at first taken along the normals at the beginning of the step. If the
   /// corrected problem is not solved, or corrections diverge, ContactSystem::use_distances()
   /// applies, and the solution begins anew.
   ///
-  /// If Coulomb's law is not solved in `max_iterations`, the friction is bounded by the loads of
-  /// the best iterate, in this and all later calls, so that at least gaps, films and links are
-  /// exact. If these loads are so large that this fails, too, the friction is bounded by the loads
+  /// If Coulomb's law is not solved in `max_iterations`, the friction of the island is bounded by
+  /// the loads of the best iterate, in this and all later calls, so that at least gaps, films and
+  /// links are exact. If these loads are so large that this fails, too, the friction is bounded by the loads
   /// of a solution without friction. residual() remains that of Coulomb's law.
   ///
   /// The convex relaxation (5.9) has no solution where friction locks particles that must move. If
@@ -99,8 +101,8 @@ class ConstraintSystem {
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double roughly_allowed,
                      int max_iterations);
 
-  /// True if solve() did not solve the problem that was asked for, and given loads bound the
-  /// friction.
+  /// True if solve() did not solve the problem that was asked for in an island, and given loads
+  /// bound its friction.
   bool has_given_up() const { return has_given_up_; }
 
   /// Writes friction of contact `c`, and the impulse that its solids carry, to memory [M L/T]. This
@@ -123,21 +125,41 @@ class ConstraintSystem {
   std::vector<double> least_violations() const;
 
  private:
+  // A set of particles that contacts and links connect, and its problem.
+  struct Island {
+    std::vector<std::int32_t> bodies;          // numbers of the particles in the ContactSystem
+    std::vector<std::size_t> contacts, links;  // numbers of the blocks of the problem, in its order
+    bool is_held = false;                      // it has a rigid body or a link that is no spring
+    ConstraintProblem<D> problem;
+    std::vector<double> shifts;  // last corrections of the blocks [L]
+    // can_give_up: false if the problem had no solution with given loads either.
+    bool has_given_up = false, can_give_up = true;
+  };
+  void find_islands(ContactSystem<D>& system);
+  SolverResult solve_island(ContactSystem<D>& system, Island& island, bool is_rough,
+                            double roughly_allowed, int max_iterations);
   ContactSide side_of(std::int32_t particle) const;
-  void number_units(const ContactSystem<D>& system);
-  void add_contact(const Contact<D>& contact, std::size_t c, double allowed_slip);
-  void add_link(std::size_t l, double allowed);
+  void number_units(const ContactSystem<D>& system, Island& island);
+  void add_contact(const Contact<D>& contact, std::size_t c, double allowed_slip,
+                   ConstraintProblem<D>& problem);
+  void add_link(std::size_t l, double allowed, ConstraintProblem<D>& problem);
   UnitMotion motion_of(std::int32_t unit, std::span<const Motion<D>> motions) const;
-  void move_particles(const ContactSystem<D>& system, std::span<const Motion<D>> motions);
-  double correct(ContactSystem<D>& system, const ConstraintSolution<D>& solution);
-  bool has_large_shifts() const;
-  void make_problem(const ContactSystem<D>& system, bool is_rough, double roughly_allowed);
-  bool give_up(bool have_diverged, ConstraintSolution<D>& solution, SolverResult& result);
-  void give_loads_of_step();
-  bool solve_with_given_loads(bool without_friction, ConstraintSolution<D>& solution,
-                              SolverResult& result);
-  BlockResidual residual_of_contact(std::size_t c, const ConstraintSolution<D>& solution) const;
-  void take_over(ContactSystem<D>& system, const ConstraintSolution<D>& solution);
+  void move_particles(const ContactSystem<D>& system, const Island& island,
+                      std::span<const Motion<D>> motions);
+  double correct(ContactSystem<D>& system, Island& island, const ConstraintSolution<D>& solution);
+  bool has_large_shifts(const Island& island) const;
+  bool can_use_distances(ContactSystem<D>& system, const Island& island) const;
+  void make_problem(const ContactSystem<D>& system, Island& island, bool is_rough,
+                    double roughly_allowed);
+  bool give_up(Island& island, bool have_diverged, ConstraintSolution<D>& solution,
+               SolverResult& result);
+  void give_loads_of_step(Island& island);
+  bool solve_with_given_loads(ConstraintProblem<D>& problem, bool without_friction,
+                              ConstraintSolution<D>& solution, SolverResult& result);
+  BlockResidual residual_of_contact(const Island& island, std::size_t b,
+                                    const ConstraintSolution<D>& solution) const;
+  void take_over(ContactSystem<D>& system, const Island& island,
+                 const ConstraintSolution<D>& solution);
 
   const ConstraintStep& step_;
   const Particles& particles_;
@@ -154,19 +176,22 @@ class ConstraintSystem {
   std::vector<double> carried_;               // parts of the impulses that solids carry [M L/T]
   std::vector<BlockResidual> residuals_;
   std::vector<double> link_residuals_, link_forces_;
-  // Place in problem_.units of each particle and of each rigid body; -1: not in the step.
+  // Place in ConstraintProblem::units of the particles and rigid bodies of the island that is
+  // solved.
   std::vector<std::int32_t> unit_of_particle_, unit_of_body_;
   std::vector<Vector> offsets_;  // of each particle, from the centre of its rigid body [L]
-  ConstraintProblem<D> problem_;
-  std::vector<double> shifts_;  // last corrections of the blocks [L]
-  // can_give_up_: false if the problem had no solution with given loads either.
-  bool has_given_up_ = false, can_give_up_ = true;
-  std::vector<double> given_loads_;  // of the contacts, if has_given_up_ [M L/T]
+  std::vector<Island> islands_;  // of the last solve()
+  bool has_given_up_ = false;    // an island has given up
+  // For each contact: whether its island had given up or could not, and the loads that then bound
+  // its friction [M L/T].
+  std::vector<char> gave_up_, could_not_give_up_;
+  std::vector<double> given_loads_;
   // Loads of all contacts with which solutions begin [M L/T]: those of the last rough solution, or
   // of the step before.
   std::vector<double> first_loads_;
-  // ConstraintBlock::given_load of all contacts in the last solution that was not rough [M L/T].
-  std::vector<double> last_loads_;
+  // ConstraintBlock::given_load of each contact in the last solution that was not rough [M L/T];
+  // without a value before.
+  std::vector<std::optional<double>> last_loads_;
 };
 
 }  // namespace viscontact::particles

@@ -22,6 +22,7 @@ std::int32_t ContactSystem<D>::number(std::int32_t particle) {
   island_sizes_.push_back(1);
   const auto rigid = particles_.bodies.body_of(particle);
   is_held_.push_back(rigid < 0 ? 0 : 1);
+  uses_distances_.push_back(0);
   if (rigid >= 0)
     for (const auto member : particles_.bodies.bodies[index_of(rigid)].members)
       if (body_of_[index_of(member)] < 0) connect(particle, member);
@@ -60,36 +61,33 @@ void ContactSystem<D>::join(std::int32_t island, std::int32_t other) {
   size += island_sizes_[index_of(island)];
   island_of_[index_of(island)] = other;
   is_held_[index_of(other)] |= is_held_[index_of(island)];
+  uses_distances_[index_of(other)] |= uses_distances_[index_of(island)];
   largest_island_ = std::max(largest_island_, size);
 }
 
+/// True if an island of one of the two particles has the mark.
 template <int D>
-bool ContactSystem<D>::is_held(const Contact<D>& contact) {
+bool ContactSystem<D>::has_mark(const Contact<D>& contact, const std::vector<char>& marks) {
   return std::ranges::any_of(std::array{contact.first, contact.second}, [&](std::int32_t particle) {
     const auto body = particle < 0 ? -1 : body_of(particle);
-    return body >= 0 && is_held_[index_of(island(body))] != 0;
+    return body >= 0 && marks[index_of(island(body))] != 0;
   });
 }
 
 template <int D>
+bool ContactSystem<D>::is_held(const Contact<D>& contact) {
+  return has_mark(contact, is_held_);
+}
+
+template <int D>
+bool ContactSystem<D>::uses_distance(const Contact<D>& contact) {
+  return has_distances_ && has_mark(contact, uses_distances_);
+}
+
+template <int D>
 double ContactSystem<D>::gap(const Contact<D>& contact) {
-  return uses_distances_ && is_held(contact) ? distance_after(particles_, contact, displacements_)
-                                             : gap_after(contact, displacements_);
-}
-
-template <int D>
-bool ContactSystem<D>::can_use_distances() {
-  return may_use_distances_ && !uses_distances_ &&
-         std::ranges::any_of(contacts, [&](const Contact<D>& contact) {
-           return contact.first >= 0 && is_held(contact);
-         });
-}
-
-template <int D>
-bool ContactSystem<D>::use_distances() {
-  const bool changes = can_use_distances();
-  uses_distances_ = uses_distances_ || changes;
-  return changes;
+  return uses_distance(contact) ? distance_after(particles_, contact, displacements_)
+                                : gap_after(contact, displacements_);
 }
 
 template <int D>

@@ -55,16 +55,19 @@ class ContactSystem {
   /// True if a particle of the contact is in an island with a rigid body or a rigid link.
   bool is_held(const Contact<D>& contact);
   /// Gap of a contact, which need not be in the system, after the present displacements [L]: the
-  /// linearised gap, gap_after(), or distance_after() if uses_distances() and is_held().
+  /// linearised gap, gap_after(), or distance_after() if uses_distance().
   double gap(const Contact<D>& contact);
-  /// Makes gap() the distance for contacts that are held. The linearised gap of two particles in
-  /// touch becomes negative when they turn about each other, and would contradict rigid bodies and
-  /// links that turn with the particles. Returns false if this changes nothing.
-  bool use_distances();
-  bool can_use_distances();  ///< true if use_distances() would change something
-  /// Makes use_distances() return false.
-  void forbid_distances() { may_use_distances_ = false; }
-  bool uses_distances() const { return uses_distances_; }  ///< true after use_distances()
+  /// Makes gap() the distance for the contacts of the island of this body, which is held. The
+  /// linearised gap of two particles in touch becomes negative when they turn about each other, and
+  /// would contradict rigid bodies and links that turn with the particles.
+  void use_distances(std::int32_t body) {
+    uses_distances_[index_of(island(body))] = 1;
+    has_distances_ = true;
+  }
+  /// True if gap() of the contact is the distance of the two surfaces.
+  bool uses_distance(const Contact<D>& contact);
+  void forbid_distances() { may_use_distances_ = false; }        ///< see may_use_distances()
+  bool may_use_distances() const { return may_use_distances_; }  ///< false: do not use_distances()
 
   const std::vector<std::int32_t>& bodies() const { return bodies_; }  ///< particle of each body
   /// Number of the body that a particle is; -1 if the particle does not take part.
@@ -77,6 +80,7 @@ class ContactSystem {
 
  private:
   std::int32_t number(std::int32_t particle);
+  bool has_mark(const Contact<D>& contact, const std::vector<char>& marks);
   void join(std::int32_t island, std::int32_t other);
 
   std::span<double> displacements_;
@@ -88,9 +92,11 @@ class ContactSystem {
   // island, or the body itself if it is the root, which represents the island.
   std::vector<std::int32_t> island_of_;
   std::vector<std::size_t> island_sizes_;  // number of bodies of each island, at its root
-  // 1 for an island with a rigid body or a rigid link, otherwise 0; at its root.
-  std::vector<char> is_held_;
-  bool uses_distances_ = false, may_use_distances_ = true;
+  // 1 for an island with a rigid body or a rigid link, and for one whose gaps are distances,
+  // otherwise 0; at its root.
+  std::vector<char> is_held_, uses_distances_;
+  // has_distances_: true if uses_distances_ has a 1.
+  bool may_use_distances_ = true, has_distances_ = false;
   std::size_t largest_island_ = 1;
   FreeSetFactor<D> factor_;  // of the last solve() that needed a factor, for the next one
 };
