@@ -450,7 +450,8 @@ TEST_P(ConvexFriction, AGroupOfParticlesDoesNotFeelAnotherOneFarAway) {
       SCOPED_TRACE(gamma_min);
       auto setting = convex_setting(0.01, 1.5, gamma_min);
       setting.gravity = {0, -1, 0};
-      setting.planes = {plane_at_rest({}, {0, 1, 0}), plane_at_rest({-0.5 * kFar, 0, 0}, {1, 0, 0})};
+      setting.planes = {plane_at_rest({}, {0, 1, 0}),
+                        plane_at_rest({-0.5 * kFar, 0, 0}, {1, 0, 0})};
       const auto add_heap = [&](State& state, const Vector& at, double speed) {
         for (int k = 0; k < 6; ++k)
           add_particle(state, at + Vector{0.6 * (k % 3), 0.55 + 1.05 * (k / 3 + k % 3), 0}, 0.5,
