@@ -153,7 +153,7 @@ struct ConstraintProblem {
   std::vector<ConstraintRow> rows;      ///< rows of all blocks, in the order of the blocks
   std::vector<ConstraintBlock> blocks;  ///< all contacts and links
   std::vector<double> impulses;         ///< of the rows [M L/T]: a guess, then the solution
-  /// True if no contact has kCoulomb, so that the solution minimises a convex function.
+  /// True if no contact with friction has kCoulomb, so that the solution minimises a convex function.
   bool is_convex = false;
   /// True if an approximate solution of a convex problem is enough.
   bool is_rough = false;
@@ -163,9 +163,6 @@ struct ConstraintProblem {
   bool is_near = false;
   /// False: the solver replaces each given_load by that of a first solution, and solves again.
   bool keeps_loads = false;
-  /// True if links hold long chains of units together, as those of a membrane do. The solver then
-  /// makes few Gauss-Seidel sweeps, because they carry impulses too slowly along a chain.
-  bool has_long_chains = false;
 
   /// Adds a row with this offset [L], the parts `of_row`, and a guess of its impulse [M L/T].
   void add_row(double offset, std::span<const RowPart<D>> of_row, double impulse) {

@@ -79,13 +79,13 @@ class Iteration {
     update();
   }
 
-  /// Repeats kSweeps sweeps as long as these reduce the residual to less than `gain` of it. A sweep
-  /// takes a small part of the time of a factorisation, so that slow progress is enough. In long
-  /// chains of units, sweeps are worth their time only if a few of them solve the problem.
+  /// Repeats kSweeps sweeps as long as these reduce the residual to less than kGain of it. A sweep
+  /// takes a small part of the time of a factorisation, so that slow progress is enough.
   void sweep_while_it_gains(int max_iterations) {
-    const double gain = problem_.has_long_chains ? 0.1 : 0.7;
+    constexpr double kGain = 0.7;
     double before = std::numeric_limits<double>::infinity();
-    while (residual_ > 1 && residual_ < gain * before && best_.result.iterations < max_iterations) {
+    while (residual_ > 1 && residual_ < kGain * before &&
+           best_.result.iterations < max_iterations) {
       before = residual_;
       sweep();
     }

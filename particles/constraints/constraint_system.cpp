@@ -488,10 +488,12 @@ void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& i
   problem = {};
   problem.is_convex = is_convex_;
   problem.is_rough = is_rough;
-  problem.has_long_chains = !step_.links->membranes.empty();
   number_units(system, island);
   for (const auto c : island.contacts)
     add_contact(system.contacts[c], c, is_rough ? roughly_allowed : slips_allowed[c], problem);
+  // Without friction every problem is convex.
+  problem.is_convex |= std::ranges::all_of(
+      problem.blocks, [](const ConstraintBlock& block) { return block.rows == 1; });
   // In a rough solution the impulses at work are not known yet.
   if (is_rough)
     for (auto& block : problem.blocks) block.allowed = roughly_allowed;
