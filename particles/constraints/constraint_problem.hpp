@@ -204,10 +204,10 @@ std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
 template <int D>
 void give_loads(ConstraintProblem<D>& problem);
 
-/// The mobilities of the rows of `block`, > 0 in rows of contacts, otherwise >= 0 [T/M], of rows of
-/// angles [T/(M L^2)]: by how much a unit impulse on a row changes its value, which is the diagonal
-/// of J h M^-1 J^T. Two tangential rows both have the larger eigenvalue of their part of this
-/// matrix, which does not depend on the choice of the tangents.
+/// The mobilities of the rows of `block` [T/M], > 0 in rows of contacts, otherwise >= 0: by how much
+/// a unit impulse on a row changes its value, the diagonal of J h M^-1 J^T. Those of rows of angles
+/// are in [T/(M L^2)]. In place of two diagonal entries both tangential rows have the larger
+/// eigenvalue of their part of the matrix, which does not depend on the choice of the tangents.
 template <int D>
 std::array<double, kMostRows> block_mobilities(const ConstraintProblem<D>& problem,
                                                const ConstraintBlock& block);

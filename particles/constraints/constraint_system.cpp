@@ -157,22 +157,35 @@ void ConstraintSystem<D>::find_islands(ContactSystem<D>& system) {
     }
     return islands_[index_of(n)];
   };
-  for (const auto particle : system.bodies()) {
-    auto& island = island_of(particle);
-    island.bodies.push_back(system.body_of(particle));
-    island.is_held |= particles_.bodies.body_of(particle) >= 0;
-  }
+  for (const auto particle : system.bodies())
+    island_of(particle).bodies.push_back(system.body_of(particle));
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     auto& island = island_of(system.contacts[c].second);
     island.contacts.push_back(c);
     island.has_given_up |= gave_up_[c] != 0;
     island.can_give_up &= could_not_give_up_[c] == 0;
   }
-  for (std::size_t l = 0; l < links_.size(); ++l) {
-    auto& island = island_of(links_[l].parts().front().particle);
-    island.links.push_back(l);
-    island.is_held |= !links_[l].is_spring();
-  }
+  for (std::size_t l = 0; l < links_.size(); ++l)
+    island_of(links_[l].parts().front().particle).links.push_back(l);
+}
+
+/// True if the island was solved so accurately before, has no contact that was added since, and its
+/// residuals are allowed. Those of Coulomb's law cannot be after the island has given up.
+template <int D>
+bool ConstraintSystem<D>::is_solved(const ContactSystem<D>& system, const Island& island,
+                                    bool is_rough) const {
+  const auto solved = progress_[index_of(island.bodies.front())].solved;
+  if (!island.contacts.empty() && island.contacts.back() >= known_contacts_) return false;
+  if (is_rough) return solved != Progress::Solved::kNot;
+  if (solved != Progress::Solved::kAccurately) return false;
+  return (island.has_given_up && !is_convex_) ||
+         (std::ranges::all_of(island.contacts,
+                              [&](std::size_t c) {
+                                return residuals_[c].normal <= system.contacts[c].allowed &&
+                                       residuals_[c].tangential <= slips_allowed[c];
+                              }) &&
+          std::ranges::all_of(
+              island.links, [&](std::size_t l) { return link_residuals_[l] <= links_allowed[l]; }));
 }
 
 /// Makes a unit of each rigid body, and of each particle without a body, of the island.
@@ -340,10 +353,9 @@ bool ConstraintSystem<D>::has_large_shifts(const Island& island) const {
 /// True if ContactSystem::use_distances() would change a gap of the island.
 template <int D>
 bool ConstraintSystem<D>::can_use_distances(ContactSystem<D>& system, const Island& island) const {
-  return island.is_held && system.may_use_distances() &&
-         std::ranges::any_of(island.contacts, [&](std::size_t c) {
+  return system.may_use_distances() && std::ranges::any_of(island.contacts, [&](std::size_t c) {
            const auto& contact = system.contacts[c];
-           return contact.first >= 0 && !system.uses_distance(contact);
+           return contact.first >= 0 && system.is_held(contact) && !system.uses_distance(contact);
          });
 }
 
@@ -413,14 +425,15 @@ BlockResidual ConstraintSystem<D>::residual_of_contact(
 }
 
 /// Bounds friction by the loads that the contacts had when the solver gave up their problems.
-/// Contacts that were added later get the loads of the step before, and those of an island that was
-/// joined the loads of the last solution.
+/// Contacts that were added later get the loads of the step before. Those of an island that was
+/// joined get the loads of its last solution, or, if it could not give up, those before it.
 template <int D>
 void ConstraintSystem<D>::give_loads_of_step(Island& island) {
   give_loads(island.problem);
   for (std::size_t b = 0; b < island.contacts.size(); ++b) {
     const auto c = island.contacts[b];
-    if (gave_up_[c] == 0) given_loads_[c] = carried_[c];
+    if (gave_up_[c] == 0)
+      given_loads_[c] = could_not_give_up_[c] != 0 ? first_loads_[c] : carried_[c];
     gave_up_[c] = 1;
     island.problem.blocks[b].given_load = given_loads_[c];
   }
@@ -514,18 +527,30 @@ void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& i
 template <int D>
 SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
                                         double roughly_allowed, int max_iterations) {
+  using Solved = typename Progress::Solved;
   find_islands(system);
-  std::ranges::copy(free_bodies_, step_.bodies.begin());
+  progress_.resize(system.bodies().size());
   SolverResult result;
   has_given_up_ = false;
   for (auto& island : islands_) {
-    const auto of_island = solve_island(system, island, is_rough, roughly_allowed, max_iterations);
-    result.iterations = std::max(result.iterations, of_island.iterations);
-    result.residual = largest_or_nan(result.residual, of_island.residual);
+    Progress progress;
+    for (const auto b : island.bodies)
+      progress.iterations = std::max(progress.iterations, progress_[index_of(b)].iterations);
+    if (!is_solved(system, island, is_rough)) {
+      const auto solved = solve_island(system, island, is_rough, roughly_allowed,
+                                       max_iterations - progress.iterations);
+      progress.iterations += solved.iterations;
+      progress.solved = is_rough               ? Solved::kRoughly
+                        : solved.residual <= 1 ? Solved::kAccurately
+                                               : Solved::kNot;
+      for (const auto b : island.bodies) progress_[index_of(b)] = progress;
+      result.residual = largest_or_nan(result.residual, solved.residual);
+    }
+    result.iterations = std::max(result.iterations, progress.iterations);
     has_given_up_ |= island.has_given_up;
   }
+  known_contacts_ = system.contacts.size();
   std::ranges::copy(link_forces_, step_.link_forces.begin());
-  if (is_rough) first_loads_ = carried_;
   return result;
 }
 
@@ -625,6 +650,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
         n > 0 && solution.result.residual <= 1 && (is_fast || !has_large_shifts(island));
   }
   take_over(system, island, solution);
+  if (is_rough)
+    for (const auto c : island.contacts) first_loads_[c] = carried_[c];
   if (is_rough || island.has_given_up) return result;
   for (std::size_t b = 0; b < island.contacts.size(); ++b)
     last_loads_[island.contacts[b]] = problem.blocks[b].given_load;
@@ -636,6 +663,7 @@ std::vector<double> ConstraintSystem<D>::least_violations() const {
   const std::size_t contacts = residuals_.size();
   std::vector<double> all(contacts + links_.size());
   for (const auto& island : islands_) {
+    if (island.problem.blocks.empty()) continue;
     const auto of_blocks = least_violations_of(island.problem);
     for (std::size_t b = 0; b < island.contacts.size(); ++b) all[island.contacts[b]] = of_blocks[b];
     for (std::size_t b = 0; b < island.links.size(); ++b) {

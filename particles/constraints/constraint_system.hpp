@@ -73,11 +73,12 @@ class ConstraintSystem {
   std::vector<double> slips_allowed;
 
   /// Solves the step, each island of `system` by itself, so that its solution does not depend on the
-  /// others. Sets the impulses of the contacts of `system`, the displacements and turns of
-  /// its particles, the motions of the rigid bodies, and the forces of the links. If `is_rough`, all
+  /// others. An island without contacts that were added since it was solved as accurately remains as
+  /// it is. Sets the impulses of the contacts of `system`, the displacements and turns of its
+  /// particles, the motions of the rigid bodies, and the forces of the links. If `is_rough`, all
   /// residuals may be `roughly_allowed` [L], > 0. Otherwise those of gaps, slips and links may be
-  /// Contact::allowed, slips_allowed and links_allowed. Returns the number of iterations of the
-  /// island that takes most, at most about `max_iterations`, and the largest residual of the last
+  /// Contact::allowed, slips_allowed and links_allowed. Returns the number of iterations of
+  /// the island with the most in all calls, at most about `max_iterations`, and the largest residual of the last
   /// problems plus the largest correction that would follow, both over what is allowed [1].
   ///
   /// The equations of a problem are linear in the motions. The problem is therefore solved again,
@@ -127,15 +128,20 @@ class ConstraintSystem {
  private:
   // A set of particles that contacts and links connect, and its problem.
   struct Island {
-    std::vector<std::int32_t> bodies;          // numbers of the particles in the ContactSystem
+    std::vector<std::int32_t> bodies;          // numbers that ContactSystem gives to the particles
     std::vector<std::size_t> contacts, links;  // numbers of the blocks of the problem, in its order
-    bool is_held = false;                      // it has a rigid body or a link that is no spring
-    ConstraintProblem<D> problem;
-    std::vector<double> shifts;  // last corrections of the blocks [L]
+    ConstraintProblem<D> problem;  // empty if the last solve() left the island as it was
+    std::vector<double> shifts;    // last corrections of the blocks [L]
     // can_give_up: false if the problem had no solution with given loads either.
     bool has_given_up = false, can_give_up = true;
   };
+  // How the island of a particle was solved so far.
+  struct Progress {
+    enum class Solved : unsigned char { kNot, kRoughly, kAccurately } solved = Solved::kNot;
+    int iterations = 0;
+  };
   void find_islands(ContactSystem<D>& system);
+  bool is_solved(const ContactSystem<D>& system, const Island& island, bool is_rough) const;
   SolverResult solve_island(ContactSystem<D>& system, Island& island, bool is_rough,
                             double roughly_allowed, int max_iterations);
   ContactSide side_of(std::int32_t particle) const;
@@ -179,9 +185,11 @@ class ConstraintSystem {
   // Place in ConstraintProblem::units of the particles and rigid bodies of the island that is
   // solved.
   std::vector<std::int32_t> unit_of_particle_, unit_of_body_;
-  std::vector<Vector> offsets_;  // of each particle, from the centre of its rigid body [L]
-  std::vector<Island> islands_;  // of the last solve()
-  bool has_given_up_ = false;    // an island has given up
+  std::vector<Vector> offsets_;     // of each particle, from the centre of its rigid body [L]
+  std::vector<Island> islands_;     // of the last solve()
+  std::vector<Progress> progress_;  // of all bodies of the ContactSystem
+  std::size_t known_contacts_ = 0;  // number of contacts in the last solve()
+  bool has_given_up_ = false;       // an island has given up
   // For each contact: whether its island had given up or could not, and the loads that then bound
   // its friction [M L/T].
   std::vector<char> gave_up_, could_not_give_up_;

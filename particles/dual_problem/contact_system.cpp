@@ -65,7 +65,7 @@ void ContactSystem<D>::join(std::int32_t island, std::int32_t other) {
   largest_island_ = std::max(largest_island_, size);
 }
 
-/// True if an island of one of the two particles has the mark.
+/// True if the island of one of the two particles has the mark.
 template <int D>
 bool ContactSystem<D>::has_mark(const Contact<D>& contact, const std::vector<char>& marks) {
   return std::ranges::any_of(std::array{contact.first, contact.second}, [&](std::int32_t particle) {

@@ -57,17 +57,18 @@ class ContactSystem {
   /// Gap of a contact, which need not be in the system, after the present displacements [L]: the
   /// linearised gap, gap_after(), or distance_after() if uses_distance().
   double gap(const Contact<D>& contact);
-  /// Makes gap() the distance for the contacts of the island of this body, which is held. The
-  /// linearised gap of two particles in touch becomes negative when they turn about each other, and
-  /// would contradict rigid bodies and links that turn with the particles.
+  /// Makes gap() the distance for the contacts of the island of this body. The island must be held,
+  /// and may_use_distances(). The linearised gap of two particles in touch becomes negative when
+  /// they turn about each other, and would contradict rigid bodies and links that turn with them.
   void use_distances(std::int32_t body) {
     uses_distances_[index_of(island(body))] = 1;
     has_distances_ = true;
   }
   /// True if gap() of the contact is the distance of the two surfaces.
   bool uses_distance(const Contact<D>& contact);
-  void forbid_distances() { may_use_distances_ = false; }        ///< see may_use_distances()
-  bool may_use_distances() const { return may_use_distances_; }  ///< false: do not use_distances()
+  /// Forbids use_distances(), for a caller whose solutions would gain energy with distances.
+  void forbid_distances() { may_use_distances_ = false; }
+  bool may_use_distances() const { return may_use_distances_; }  ///< false: they are forbidden
 
   const std::vector<std::int32_t>& bodies() const { return bodies_; }  ///< particle of each body
   /// Number of the body that a particle is; -1 if the particle does not take part.
@@ -95,7 +96,7 @@ class ContactSystem {
   // 1 for an island with a rigid body or a rigid link, and for one whose gaps are distances,
   // otherwise 0; at its root.
   std::vector<char> is_held_, uses_distances_;
-  // has_distances_: true if uses_distances_ has a 1.
+  // has_distances_: true if uses_distances_ has a 1, which saves two searches for each gap.
   bool may_use_distances_ = true, has_distances_ = false;
   std::size_t largest_island_ = 1;
   FreeSetFactor<D> factor_;  // of the last solve() that needed a factor, for the next one

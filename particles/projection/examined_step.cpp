@@ -17,8 +17,7 @@ namespace {
 bool take(double residual, const ResidualScale& scale, const SolverSettings& settings,
           double mean_radius, ProjectionResult& result) {
   if (residual > scale.rounding) result.residuals.take_impulse(residual / scale.w, scale.impulse);
-  return result.residuals.take(
-      residual, scale.allowed(settings.tolerance * mean_radius / 2, settings.impulse_tolerance));
+  return result.residuals.take(residual, scale.allowed_gap(settings, mean_radius));
 }
 
 }  // namespace

@@ -142,7 +142,9 @@ std::vector<std::size_t> StepProjection<D>::nearly_closed(bool are_films_only) {
 
 template <int D>
 void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
-  for (const auto k : interleaved(pairs)) {
+  // With constraints one thread solves each island by itself, in an order of its contacts that must
+  // not depend on other islands.
+  for (const auto k : constraints_ ? pairs : interleaved(pairs)) {
     is_chosen_[k] = 1;
     if (constraints_ && constraints_->is_held_apart(pair(k))) continue;
     chosen_.push_back(k);
@@ -153,11 +155,14 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
 }
 
 /// Solves for the impulses of the chosen contacts and of the links, after allow(). With constraints,
-/// half of `length` [L] is what a rough solution allows for all residuals.
+/// half of `length` [L] is what a rough solution allows for all residuals. `iterations` were done in
+/// this step before. Returns the number after the solution, which `max_iterations` limit.
 template <int D>
-SolverResult StepProjection<D>::solve_contacts(bool is_rough, double length, int max_iterations) {
-  if (constraints_) return constraints_->solve(system_, is_rough, length / 2, max_iterations);
-  return system_.solve(is_rough, max_iterations, pool_);
+int StepProjection<D>::solve_contacts(bool is_rough, double length, int iterations,
+                                      int max_iterations) {
+  if (constraints_)
+    return constraints_->solve(system_, is_rough, length / 2, max_iterations).iterations;
+  return iterations + system_.solve(is_rough, max_iterations - iterations, pool_).iterations;
 }
 
 /// Sets allowed residuals to halves of ResidualScale::allowed(): those of the chosen contacts for
@@ -181,7 +186,7 @@ void StepProjection<D>::allow(double length, double fraction, double of_slips) {
 }
 
 /// Returns `pairs` and, from the third round on, also pairs that are connected with them and whose
-/// gaps may close next: gaps up to the largest change of a displacement by contacts. Otherwise each
+/// gaps may close next: gaps up to the largest change of a displacement in an island. Otherwise each
 /// round would find only the next pair of a chain through which an impulse goes. The chain is
 /// followed over 1 pair in round 3, and over twice as many in each further round.
 template <int D>
@@ -190,29 +195,33 @@ std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
   // Both are free choices; 2 to the power of kLargestDepth must be an int.
   constexpr int kFirstRound = 3, kLargestDepth = 20;
   if (pairs.empty() || round < kFirstRound) return pairs;
-  double square = 0;
-  for (std::size_t b = 0; b < system_.bodies().size(); ++b) {
-    double change = 0;
+  std::vector<double> farthest(system_.bodies().size());  // in each island, at its root
+  for (std::size_t b = 0; b < farthest.size(); ++b) {
+    double square = 0;
     for (std::size_t d = 0; d < D; ++d) {
       const double moved =
           displacements_[index_of(system_.bodies()[b]) * D + d] - system_.free_displacement(b)[d];
-      change += moved * moved;
+      square += moved * moved;
     }
-    square = std::max(square, change);
+    auto& of_island = farthest[index_of(system_.island(static_cast<std::int32_t>(b)))];
+    of_island = std::max(of_island, std::sqrt(square));
   }
-  const double farthest = std::sqrt(square);
+  const auto farthest_of = [&](std::int32_t particle) {
+    return takes_part(particle) ? farthest[index_of(system_.island(system_.body_of(particle)))] : 0;
+  };
   const auto may_close = [&](std::size_t k) {
-    return is_chosen_[k] == 0 && system_.gap(contact(k)) <= farthest;
+    return is_chosen_[k] == 0 && system_.gap(contact(k)) <= std::max(farthest_of(pair(k).first),
+                                                                     farthest_of(pair(k).second));
   };
   if (!pairs_of_particles_) pairs_of_particles_.emplace(state_);
   const int depth = 1 << std::min(round - kFirstRound, kLargestDepth);
   return pairs_of_particles_->connected(pairs, depth, may_close);
 }
 
-/// Removes from `pairs` those without film, and without impulse in the step before, that the free
-/// motion closes by no more than allowed. The convex relaxation (5.9) lifts each pair that takes
-/// part and slides. For a particle that slides along an obstacle without load, rounding errors would
-/// decide whether the pair takes part.
+/// Removes pairs from `pairs` whose gaps the free motion closes by no more than the allowed residual.
+/// Pairs with a film, or with an impulse in the step before, stay. The convex relaxation (5.9) lifts
+/// each pair that takes part and slides. For a particle that slides along an obstacle without load,
+/// rounding errors would decide whether the pair takes part.
 template <int D>
 void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
                                        const SolverSettings& settings, double mean_radius) {
@@ -220,9 +229,7 @@ void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
   std::erase_if(pairs, [&](std::size_t k) {
     if (pair(k).gamma < 0 || pair(k).impulse != 0 || has_film(k)) return false;
     const auto here = contact(k);
-    return -gap_after(here, displacements_) <=
-           scales.of(here).allowed(settings.tolerance * mean_radius / 2,
-                                   settings.impulse_tolerance);
+    return -gap_after(here, displacements_) <= scales.of(here).allowed_gap(settings, mean_radius);
   });
 }
 
@@ -254,7 +261,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   bool is_rough = settings.tolerance < kRoughLength && settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;
   int waited = 0;
-  int rounds_with_given_loads = 0;
+  int rounds_unsolved = 0;
   double least_excess = std::numeric_limits<double>::infinity();
   while (!system_.bodies().empty()) {
     const double length = (is_rough ? kRoughLength : settings.tolerance / 2) * mean_radius;
@@ -263,40 +270,49 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     // A rough solution with friction or links leaves half of the iterations to the accurate one.
     const int most =
         is_rough && constraints_ ? settings.max_iterations / 2 : settings.max_iterations;
-    result.iterations += solve_contacts(is_rough, length, most - result.iterations).iterations;
+    result.iterations = solve_contacts(is_rough, length, result.iterations, most);
     const bool is_last = result.iterations >= settings.max_iterations;
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
     if (result.residuals.converged) break;
-    if (constraints_ && constraints_->has_given_up() && !is_convex) {
-      // Coulomb's law was not solved, and its friction is bounded by given loads instead
-      // (ConstraintSystem). Pairs that the solution closes are still added, in at most kMostRounds
+    if (is_last || (constraints_ && constraints_->has_given_up() && !is_convex)) {
+      // An island is not solved, or its friction is bounded by given loads in place of Coulomb's law.
+      // Pairs that solutions close are still added, also to other islands, in at most kMostRounds
       // rounds, a free choice that bounds the time of such a step.
       constexpr int kMostRounds = 20;
-      if (more.empty() || ++rounds_with_given_loads > kMostRounds) break;
-      choose(more);
-      continue;
+      if (!constraints_ || is_rough || more.empty() || ++rounds_unsolved > kMostRounds) break;
     }
-    if (is_last) break;
     // After kPatience rounds (a free choice) without gain or new pair, rounding errors are left.
     constexpr int kPatience = 10;
     waited = more.empty() && !is_rough && result.residuals.excess >= least_excess ? waited + 1 : 0;
     if (waited == kPatience) break;
     if (!is_rough) least_excess = std::min(least_excess, result.residuals.excess);
-    if (more.empty()) is_rough = false;
     choose(with_connected_pairs(more, ++rounds));
-    if (margin_ > 0) choose(nearly_closed(is_convex));
+    const auto near = margin_ > 0 ? nearly_closed(is_convex) : std::vector<std::size_t>{};
+    choose(near);
+    // If the rough solution ended before an island has all nearly closed pairs, it would depend on
+    // other islands whether these pairs get a rough solution.
+    if (more.empty() && near.empty()) is_rough = false;
   }
+  auto scales = residual_scales();
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     result.pairs.push_back(&pair(chosen_[c]));
     // A pair that had an impulse in the step before takes part in the next one, and the convex
-    // relaxation may lift it. An impulse within its allowed error must not have this effect.
+    // relaxation may lift it. An impulse within its allowed error must not have this effect, and is
+    // none.
     const auto& here = system_.contacts[c];
     const bool is_error =
-        is_convex && here.lowest == 0 && here.w * here.impulse <= 2 * here.allowed;
+        is_convex && here.lowest == 0 &&
+        here.w * here.impulse <= scales.of(here).allowed_gap(settings, mean_radius);
     result.impulses.push_back(is_error ? 0 : here.impulse);
     if (!constraints_) continue;
-    result.memories.push_back(state_.memories.of(pair(chosen_[c]).memory));
-    constraints_->remember(c, result.memories.back());
+    auto memory = state_.memories.of(pair(chosen_[c]).memory);
+    if (is_error) {
+      memory.set_friction({});
+      memory[Remembered::kCarried] = 0;
+    } else {
+      constraints_->remember(c, memory);
+    }
+    result.memories.push_back(memory);
   }
   result.bodies = system_.bodies();
   result.has_given_loads = constraints_ && constraints_->has_given_up();

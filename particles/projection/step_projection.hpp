@@ -40,6 +40,10 @@ struct ResidualScale {
   double allowed(double length, double fraction) const {
     return std::min(length, std::max(fraction * impulse * w, rounding));
   }
+  /// Allowed residual of a gap [L]. `mean_radius` > 0 [L] is the unit of SolverSettings::tolerance.
+  double allowed_gap(const SolverSettings& settings, double mean_radius) const {
+    return allowed(settings.tolerance * mean_radius / 2, settings.impulse_tolerance);
+  }
 };
 
 /// The fraction of the impulse at work that ResidualScale::allowed() gets for slips [1], > 0. It
@@ -73,8 +77,9 @@ class ResidualScales {
   /// the gap, of the displacements of the particles, and of a solution for all connected contacts.
   ResidualScale of(std::span<const std::int32_t> particles, double w, double length);
   /// Scales of a contact, from its own particles, w and gap. In a step with friction, bodies or
-  /// links, rounding errors are at least the last place of the radii, because smaller displacements
-  /// of particles at rest are errors of the solutions. In an island with a rigid body or link
+  /// links, rounding errors are at least the last place of the radii and of the distances of the
+  /// particles from the origin, because smaller displacements of particles at rest are errors of
+  /// the solutions. Allowed residuals far from the origin are therefore larger. In an island with a rigid body or link
   /// (ContactSystem::is_held()) they are larger, because finite turns move points of the surface.
   ResidualScale of(const Contact<D>& contact);
 
@@ -103,7 +108,8 @@ inline constexpr double kBroken = 1e-3;
 
 /// Result of the projection of a step.
 struct ProjectionResult {
-  int iterations = 0;       ///< number of iterations of all solutions, >= 0
+  /// Number of iterations of all solutions, with constraints of the island with the most, >= 0.
+  int iterations = 0;
   StepResiduals residuals;  ///< of the last solution; impulse_errors are in the order of `pairs`
   /// Number of contacts with an impulse or a film (gamma < 0) whose particles move around each
   /// other by more than kLargestTurn (contact.hpp), so that linearised gaps are wrong.
@@ -210,7 +216,7 @@ class StepProjection {
   void leave_touching(std::vector<std::size_t>& pairs, const SolverSettings& settings,
                       double mean_radius);
   void choose(const std::vector<std::size_t>& pairs);
-  SolverResult solve_contacts(bool is_rough, double length, int max_iterations);
+  int solve_contacts(bool is_rough, double length, int iterations, int max_iterations);
   std::vector<std::size_t> with_connected_pairs(const std::vector<std::size_t>& pairs, int round);
   void allow(double length, double fraction, double of_slips);
   std::vector<std::size_t> examine(const SolverSettings& settings, double mean_radius,

@@ -58,7 +58,9 @@ struct StepReport {
   double time = 0;           ///< at the end of the step [T]
   std::size_t contacts = 0;  ///< number of contacts in the problem that the step solves
   std::size_t glued = 0;     ///< number of contacts with gamma < 0 after the step
-  int iterations = 0;        ///< of the solver of this problem, summed over the parts of the step
+  /// Iterations of the solver of this problem, summed over the parts of the step. With friction,
+  /// bodies or links the set of connected particles counts that needs most.
+  int iterations = 0;
   /// Largest residual |min(d, w (p - gamma))| of a contact, divided by the mean radius [1].
   double residual = 0;
   /// Largest residual divided by w and by the impulses at work on the particles of the contact [1]:
