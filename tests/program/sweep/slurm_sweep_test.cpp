@@ -16,6 +16,7 @@ using ::testing::HasSubstr;
 
 class SlurmSweep : public SweepCommand {
  protected:
+  void TearDown() override { cluster().cancel_jobs(); }
   ProgramResult run(const std::string& output, const std::vector<std::string>& more) const {
     std::vector<std::string> arguments = {"sweep",   path("case.toml"),
                                           "-o",      path(output),

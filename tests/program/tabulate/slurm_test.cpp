@@ -32,6 +32,7 @@ class Slurm : public ::testing::Test {
     put_text(path("thin.toml"), text);
     put_text(path("thick.toml"), replaced(text, "viscosity = 3.0", "viscosity = 6.0"));
   }
+  void TearDown() override { cluster().cancel_jobs(); }
   std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
 
   ProgramResult tabulate(const std::string& output, const std::vector<std::string>& options,
