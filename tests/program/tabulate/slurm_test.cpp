@@ -148,7 +148,7 @@ fi
 
 class NodeThatDies : public Slurm {};
 
-// Two jobs at once, because Slurm takes many seconds to notice that a node is dead.
+// Two jobs at once, because Slurm begins the tasks of a dead node again after many seconds only.
 TEST_F(NodeThatDies, LosesNoFinishedRowAndOthersAreComputedElsewhereOrByASecondJob) {
   const TemporaryFolder kept_scratch, requeued_scratch;
   const freefem_axi::FakeFreeFem kept(kept_scratch.path(), kEndlessOnNode1),
