@@ -23,7 +23,7 @@ constexpr double kGap = 0.25;
 constexpr double kRoundOff = 1e-11;
 
 Tabulation tabulation_of_viscosity(double viscosity) {
-  auto tabulation = unit_tabulation({kGap}, 5, 1e-3);
+  auto tabulation = unit_tabulation({kGap}, 2.5, 1e-3);
   tabulation.viscosity = viscosity;
   return tabulation;
 }
