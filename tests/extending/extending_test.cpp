@@ -1,6 +1,5 @@
 // docs/extending.md, applied and built (CMakeLists.txt here), does what its text says.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 // Strokes of three spheres.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <numbers>

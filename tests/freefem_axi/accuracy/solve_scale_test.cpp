@@ -2,7 +2,6 @@
 // are: at a viscosity of 1e100 a row took 40 s and gave a force wrong by 70 decades, at 1e-15 the
 // solver failed. Stokes flow is linear in both.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 // The page that plays a motion of particles, in a browser (chromium) and as text.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <tuple>
 

@@ -1,6 +1,5 @@
 // Long motions: fewer rows in the files, and progress on a terminal.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstdlib>
 

@@ -1,6 +1,5 @@
 // A sweep of particles on Slurm itself: a cluster of two nodes on this machine.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/particles/sweep/particles_case.hpp"
 #include "tests/program/program.hpp"
