@@ -151,9 +151,9 @@ TEST_F(ExternalPrograms, RowAtWhichFreeFemHangsIsNamedAndTheOthersAreKept) {
   // The other rows, which answer at once, have time even on a busy machine.
   const auto result = run_viscontact(
       {"tabulate", path("case.toml"), "-o", path("table.csv")},
-      {"VISCONTACT_FREEFEM=" + fake.executable(), "VISCONTACT_FREEFEM_TIME_LIMIT=2"});
+      {"VISCONTACT_FREEFEM=" + fake.executable(), "VISCONTACT_FREEFEM_TIME_LIMIT=3"});
   expect_refusal(result, ErrorKind::kExternalProgram, HasSubstr("1 of 6 rows failed"));
-  EXPECT_THAT(result.errors, AllOf(HasSubstr("gap 1.5"), HasSubstr("not ended after 2 s"),
+  EXPECT_THAT(result.errors, AllOf(HasSubstr("gap 1.5"), HasSubstr("not ended after 3 s"),
                                    HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT"),
                                    HasSubstr("the same command tries them again")));
   EXPECT_THAT(read_file(path("table.csv")),
@@ -167,7 +167,7 @@ TEST_F(ExternalPrograms, FreeFemThatTooLittleMemoryMakesHangIsStopped) {
   put_text(path("case.toml"), replaced(gentle_case_text(), six_gaps, "gaps = [0.05]"));
   const auto result =
       run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv"), "--jobs", "1"},
-                     {"VISCONTACT_FREEFEM_TIME_LIMIT=2"}, "ulimit -v 200000;");
+                     {"VISCONTACT_FREEFEM_TIME_LIMIT=3"}, "ulimit -v 200000;");
   EXPECT_EQ(result.exit_status, results::exit_code_of(ErrorKind::kExternalProgram))
       << result.errors;
   EXPECT_THAT(result.errors, HasSubstr("gap 0.05"));
