@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <random>
 
 #include "viscontact/common/error.hpp"
@@ -39,16 +38,16 @@ Eigen::MatrixXd root_of(const std::vector<std::vector<double>>& covariance) {
          eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
-/// The ends of the interval that contains the middle 95 % of the values. Sorts `values`. Throws
-/// Error(kNotConverged) if there are none.
+/// The ends of the interval that contains the middle 95 % of the values. Changes the order of
+/// `values`. Throws Error(kNotConverged) if there are none.
 std::array<double, 2> middle_of(std::vector<double>& values) {
   if (values.empty())
     throw Error(ErrorKind::kNotConverged,
                 "no random draw of the fit's coefficients gives a positive drag");
-  std::ranges::sort(values);
   const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(
-        std::lround(share * static_cast<double>(values.size() - 1)))];
+    const auto place = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, place);
+    return *place;
   };
   return {at(0.025), at(0.975)};
 }
@@ -82,12 +81,12 @@ FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, 
   const auto instants = instants_of(motion, times);
   std::vector<double> impulses;  // of the external force
   for (const double time : instants) impulses.push_back(motion.external_force.impulse(time));
+  // Replaces the gaps by those with this force. Each search begins at the gap that is replaced.
   const auto gaps_with = [&](const lubrication::LubricationForce& force, double share,
                              std::vector<double>& gaps) {
     const double start = force.impulse(motion.initial_gap);
-    double before = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < instants.size(); ++i)
-      before = gaps[i] = force.gap_of_impulse(start + share * impulses[i], before);
+      gaps[i] = force.gap_of_impulse(start + share * impulses[i], gaps[i]);
   };
   FitUncertainty result;
   result.draws = draws;
@@ -96,8 +95,9 @@ FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, 
   const double estimate = fit.diagnostics ? fit.diagnostics->largest_error_estimate : 0;
   result.misfit = std::min(1.0, residual + estimate + residual * estimate);
   const lubrication::LubricationForce force(fit, limits);
-  std::vector<double> gaps(instants.size()), less(instants.size()), more(instants.size());
+  std::vector<double> gaps(instants.size(), motion.initial_gap);
   gaps_with(force, 1, gaps);
+  auto less = gaps, more = gaps;
   gaps_with(force, 1 - result.misfit, less);
   gaps_with(force, 1 + result.misfit, more);
 
@@ -105,7 +105,6 @@ FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, 
   std::mt19937_64 random(1);  // a fixed seed, so that the draws are always the same
   std::normal_distribution<double> normal;
   std::vector<std::vector<double>> drawn(instants.size());
-  std::vector<double> of_draw(instants.size());
   lubrication::Fit one = fit;
   for (std::size_t draw = 0; draw < draws; ++draw) {
     Eigen::VectorXd z(root.cols());
@@ -113,6 +112,7 @@ FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, 
     const Eigen::VectorXd shift = root * z;
     for (std::size_t i = 0; i < one.terms.size(); ++i)
       one.terms[i].coefficient = fit.terms[i].coefficient + shift(static_cast<Eigen::Index>(i));
+    auto of_draw = gaps;
     try {
       gaps_with(lubrication::LubricationForce(one, limits), 1, of_draw);
     } catch (const Error&) {

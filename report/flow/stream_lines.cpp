@@ -156,6 +156,8 @@ std::vector<Polyline> level_lines(const LinearField& field, double level) {
   std::unordered_map<std::uint64_t, Crossing> crossings;
   const auto above = [&](Index i) { return field.values[i] >= level; };
   for (const auto& triangle : field.triangles) {
+    const bool first = above(triangle[0]);
+    if (above(triangle[1]) == first && above(triangle[2]) == first) continue;
     std::array<std::uint64_t, 2> keys{};
     std::size_t found = 0;
     for (std::size_t i = 0; i < 3; ++i) {

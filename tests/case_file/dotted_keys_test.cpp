@@ -1,6 +1,5 @@
 // Keys of very many parts, which overflowed the stack of toml++.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/case_file/edited_case.hpp"
 #include "tests/common/failure.hpp"

@@ -1,6 +1,5 @@
 // The tables of docs/case-file.md are those that the declarations of the keys make.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <string>

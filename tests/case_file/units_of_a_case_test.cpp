@@ -1,6 +1,5 @@
 // The units that a case says: their words, and words that are refused.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 

@@ -1,7 +1,6 @@
 // Densities and gravity of one sphere: mass, weight less buoyancy, and what may not be given
 // together.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

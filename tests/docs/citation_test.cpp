@@ -1,7 +1,6 @@
 // CITATION.cff has the keys of its format (citation-file-format.github.io, version 1.2.0) that it
 // needs, and names the version of the program.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <set>
 #include <string>

@@ -1,7 +1,6 @@
 // docs/dependencies.md explains each package that scripts/setup installs, in the table of the
 // program or of the tests.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>

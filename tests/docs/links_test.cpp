@@ -1,7 +1,6 @@
 // Every link of a page leads somewhere: to a file of this tree, and to a heading where it names
 // one.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cctype>
 #include <set>

@@ -1,7 +1,6 @@
 // The scripts of the studies with inertia of the fluid run with `--short`: each kind of run that
 // they make, with a coarse mesh and few steps. The studies themselves take minutes each.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <ostream>

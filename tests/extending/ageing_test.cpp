@@ -1,6 +1,5 @@
 // The film that ages, of docs/extending.md, against the closed forms of its chapter.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 // Only a registry names its models, geometries and bases: no other source of the program quotes one
 // of these names. The sources of the models themselves are in the folder of their registry.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <string>

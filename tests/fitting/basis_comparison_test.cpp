@@ -1,7 +1,6 @@
 #include "viscontact/fitting/basis_comparison.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <atomic>
 

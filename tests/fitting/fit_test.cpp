@@ -1,7 +1,6 @@
 #include "viscontact/lubrication/fit.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "viscontact/fitting/least_squares.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>

@@ -1,7 +1,6 @@
 #include "viscontact/fitting/robust_least_squares.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <atomic>
 #include <cmath>

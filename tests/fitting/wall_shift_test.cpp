@@ -2,7 +2,6 @@
 #include "viscontact/fitting/wall_shift.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 

@@ -1,6 +1,5 @@
 // What a script answers when no mesh is good enough, or the solver fails.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,5 @@
 // FreeFEM missing or failing, played by shell scripts.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>

@@ -1,7 +1,6 @@
 // The ends of what a geometry may be told, and geometries that are equal or nearly so in other
 // words.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,6 @@
 #include "viscontact/freefem_axi/geometry.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>

@@ -2,7 +2,6 @@
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <cstdlib>

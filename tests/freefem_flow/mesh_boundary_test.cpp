@@ -3,7 +3,6 @@
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,6 @@
 // That docs/fit.schema.json and the reader mean the same file: every rule of the schema, applied to
 // a good file, is one the reader has too.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,6 @@
 #include "viscontact/lubrication/lubrication_force.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

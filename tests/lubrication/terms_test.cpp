@@ -1,7 +1,6 @@
 #include "viscontact/lubrication/terms.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>

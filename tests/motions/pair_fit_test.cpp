@@ -2,7 +2,6 @@
 #include "viscontact/motions/pair_fit.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>

@@ -1,7 +1,6 @@
 #include "viscontact/pipeline/dry_run.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 

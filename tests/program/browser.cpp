@@ -1,7 +1,6 @@
 #include "tests/program/browser.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <sstream>
 

@@ -48,6 +48,12 @@ class Cluster {
     return run_process({"squeue", "--noheader", "--format=%i %t %R"}, {variable()}).output;
   }
 
+  /// Cancels all jobs, so that those of a test that failed do not hold up the next one.
+  void cancel_jobs() const {
+    const auto cancelled = run_process({"scancel", "--partition=all"}, {variable()});
+    EXPECT_EQ(cancelled.exit_status, 0) << cancelled.output;
+  }
+
  private:
   std::string folder() const { return folder_.path().string(); }
   static ProcessResult script(std::vector<std::string> arguments) {

@@ -1,7 +1,6 @@
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

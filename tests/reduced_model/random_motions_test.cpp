@@ -88,7 +88,7 @@ RandomCase resolvable_case(std::mt19937_64& generator) {
 }
 
 TEST(RandomMotions, WithInertiaKeepTheFirstIntegralAndNeverTouch) {
-  constexpr int kMotions = kCases / 5;  // far slower than the other models
+  constexpr int kMotions = kCases / 10;  // far slower than the other models
   std::mt19937_64 generator(2);
   int thin = 0;
   for (int i = 0; i < kMotions; ++i) {

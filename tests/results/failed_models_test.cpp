@@ -1,7 +1,6 @@
 #include "viscontact/results/failed_models.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"

@@ -1,7 +1,6 @@
 #include "viscontact/results/provenance.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <cstdint>

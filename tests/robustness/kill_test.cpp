@@ -3,7 +3,6 @@
 // VISCONTACT_KILLS times, with FreeFEM itself (VISCONTACT_KILL_FREEFEM).
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,6 +1,5 @@
 // Outputs beside the inputs, and outputs in an input's place: what the user wrote stays as it is.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"

@@ -1,7 +1,6 @@
 // The whole pipeline, FreeFEM and gnuplot too, in places that programs are not tried in: names that
 // a shell takes apart, no home, no temporary folder, a decimal comma. Every number is the same.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <sstream>
 

@@ -1,7 +1,6 @@
 #include "tests/robustness/whole_outputs.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>

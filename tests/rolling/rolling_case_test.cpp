@@ -2,7 +2,6 @@
 #include "viscontact/rolling/case/rolling_case.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,6 @@
 #include "viscontact/rolling/case/rolling_study.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"

@@ -1,6 +1,5 @@
 // The sphere that moves along a plane and turns, beside exact solutions.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 // A case as a template in which numbers are replaced.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <filesystem>

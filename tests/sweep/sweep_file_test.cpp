@@ -1,6 +1,5 @@
 // The file of a sweep: whole, cut off anywhere, and of another sweep.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>

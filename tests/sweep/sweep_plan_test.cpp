@@ -1,6 +1,5 @@
 // Plans of sweeps that are refused, and rows that are handed over in order by several threads.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <atomic>
 #include <cmath>

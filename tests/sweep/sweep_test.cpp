@@ -1,6 +1,5 @@
 // Rows of a sweep, one by one and on several threads.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

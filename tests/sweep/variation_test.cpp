@@ -3,7 +3,6 @@
 #include "viscontact/sweep/variation.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>

@@ -2,7 +2,6 @@
 #include "viscontact/swimmer/case/swimmer_case.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <numbers>
 #include <ostream>

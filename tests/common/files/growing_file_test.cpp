@@ -3,7 +3,6 @@
 #include "viscontact/common/files/growing_file.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 
 #include <csignal>

@@ -1,7 +1,6 @@
 #include "viscontact/common/files/locks.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <optional>
 

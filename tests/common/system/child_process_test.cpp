@@ -1,7 +1,6 @@
 #include "viscontact/common/system/child_process.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

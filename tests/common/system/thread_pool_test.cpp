@@ -3,7 +3,6 @@
 #include "viscontact/common/system/thread_pool.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <new>
 #include <vector>

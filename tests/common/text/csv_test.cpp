@@ -1,7 +1,6 @@
 #include "viscontact/common/text/csv.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <string>

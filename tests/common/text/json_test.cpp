@@ -1,7 +1,6 @@
 #include "viscontact/common/text/json.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/common/failure.hpp"
 

@@ -1,6 +1,5 @@
 // Forces and torques of the motions across the axis and around it, by FreeFEM, beside exact ones.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 
 #include <csignal>

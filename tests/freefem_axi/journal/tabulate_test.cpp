@@ -2,7 +2,6 @@
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <thread>
 
@@ -22,7 +21,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::Pair;
 using ::testing::UnorderedElementsAre;
 
@@ -173,16 +171,6 @@ TEST_F(Tabulate, JournalOfAnotherTabulationIsNotUsed) {
   tabulation_.container->radius = 6;
   (void)tabulate(fake.freefem(), tabulation_, 1, table_path(), no_report);
   EXPECT_EQ(fake.answered().size(), 8U);
-}
-
-TEST_F(Tabulate, MissingFreeFemIsSaidOnceBeforeAnythingIsWritten) {
-  expect_error(
-      [&] {
-        (void)tabulate({"no-such-freefem", "."}, tabulation_, 2, table_path(), no_report);
-      },
-      ErrorKind::kExternalProgram,
-      AllOf(HasSubstr("no-such-freefem"), Not(HasSubstr("rows failed"))));
-  EXPECT_FALSE(std::filesystem::exists(journal_path(table_path())));
 }
 
 TEST(TabulationHash, ChangesWithEverythingThatTheForceDependsOn) {

@@ -1,7 +1,6 @@
 // What the scripts do when something is wrong with them: each test changes one line of a copy of
 // the scripts and solves a row by this copy.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>

@@ -1,7 +1,6 @@
 // Orders of convergence of the scripts in the mesh size against exact drags, on nested meshes each
 // of half the size of the one before.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

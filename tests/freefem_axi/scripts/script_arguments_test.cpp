@@ -1,7 +1,6 @@
 // The scripts themselves refuse arguments that FreeFEM would ignore, misread or abort on, and
 // lengths that leave no fluid.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <ostream>

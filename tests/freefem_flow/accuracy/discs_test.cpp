@@ -2,7 +2,6 @@
 // 1. Bounds on errors: 2e-3 with 12 edges, 2e-4 with 24, 2e-5 with 48 for extrapolated velocities
 // and gaps from 0.1, 1e-3 with 24 edges and a gap of 0.02.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,6 @@
 // Flows whose walls move or let fluid through, periodic cells, and spheres in a cylinder, solved by
 // FreeFEM, against exact values. Viscosity 1.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>

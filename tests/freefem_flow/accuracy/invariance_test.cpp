@@ -1,7 +1,6 @@
 // What must not change the flow that FreeFEM computes: where the box of a period begins, and the
 // unit of length. And that the estimate of the error is true on the lecture's mesh.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>

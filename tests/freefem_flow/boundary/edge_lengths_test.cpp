@@ -2,7 +2,6 @@
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

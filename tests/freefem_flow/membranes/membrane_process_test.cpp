@@ -2,7 +2,6 @@
 #include "viscontact/freefem_flow/membranes/membrane_process.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <algorithm>

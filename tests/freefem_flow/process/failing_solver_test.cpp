@@ -1,7 +1,6 @@
 // Fluid solvers that die, are silent, or answer what the protocol does not allow, played by shell
 // scripts.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 
 #include <ostream>

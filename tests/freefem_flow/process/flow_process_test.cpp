@@ -3,7 +3,6 @@
 #include "viscontact/freefem_flow/process/flow_process.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <atomic>
 #include <cmath>

@@ -2,7 +2,6 @@
 #include "viscontact/freefem_flow/process/opening.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <string>

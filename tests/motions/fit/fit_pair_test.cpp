@@ -3,7 +3,6 @@
 #include "viscontact/motions/fit/fit_pair.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>

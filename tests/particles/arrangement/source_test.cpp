@@ -2,7 +2,6 @@
 #include "viscontact/particles/arrangement/source.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 

@@ -2,7 +2,6 @@
 #include "viscontact/particles/arrangement/species.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

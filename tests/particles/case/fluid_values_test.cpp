@@ -1,6 +1,5 @@
 // What the sections [fluid] and [domain], and particles in a fluid, give.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <numbers>
 #include <variant>

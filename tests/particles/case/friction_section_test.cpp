@@ -1,7 +1,6 @@
 // [friction], rotation and the scheme of a case of many particles: what is read and what is
 // refused.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 

@@ -1,7 +1,6 @@
 // [[body]], [[hinge]], [[spring]] and [[arm]] of a case of many particles: what is read and what is
 // refused.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <limits>
 #include <string>

@@ -1,7 +1,6 @@
 // [[membrane]] of a case: what is read and what is refused.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

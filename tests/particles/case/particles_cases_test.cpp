@@ -1,6 +1,5 @@
 // The shipped cases of many particles show what their titles and docs/particles.md say.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

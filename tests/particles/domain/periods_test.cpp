@@ -3,7 +3,6 @@
 #include "viscontact/particles/domain/periods.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -44,10 +44,10 @@ TEST(JammedFriction, AStepThatDoesNotReachTheTolerancesHasNoOverlap) {
   }
 }
 
-/// Places and angles of 60 particles that have fallen into the box, in lengths of the unit `unit`.
+/// Places and angles of 40 particles that have fallen into the box, in lengths of the unit `unit`.
 std::vector<double> places_in_unit(double unit, int dimension, FrictionMethod method,
                                    double gamma_min) {
-  constexpr int kCount = 60;
+  constexpr int kCount = 40;
   auto setting = box(kCount, dimension);
   setting.gravity = unit * setting.gravity;
   for (auto& plane : setting.planes) plane.start.point = unit * plane.start.point;

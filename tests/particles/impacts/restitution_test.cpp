@@ -1,7 +1,6 @@
 // Restitution of many particles against closed forms: (4.13) for one particle, Newton's cradle, the
 // dry ball that comes to rest, and what every blow must keep.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

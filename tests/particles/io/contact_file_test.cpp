@@ -3,7 +3,6 @@
 #include "viscontact/particles/io/contact_file.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <sstream>

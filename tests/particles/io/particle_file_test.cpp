@@ -2,7 +2,6 @@
 #include "viscontact/particles/io/particle_file.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <array>

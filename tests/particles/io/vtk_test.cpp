@@ -2,7 +2,6 @@
 #include "viscontact/particles/io/vtk.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 #include <vector>

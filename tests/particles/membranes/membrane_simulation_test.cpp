@@ -3,7 +3,6 @@
 #include "viscontact/particles/membranes/membrane_simulation.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>

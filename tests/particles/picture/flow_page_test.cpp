@@ -1,6 +1,5 @@
 // The flow in the page that plays a motion of particles, in a browser (chromium) and as text.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/particles/picture/page_reader.hpp"
 #include "tests/particles/picture/playbacks.hpp"

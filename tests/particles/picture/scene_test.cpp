@@ -2,7 +2,6 @@
 #include "viscontact/particles/picture/scene.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 

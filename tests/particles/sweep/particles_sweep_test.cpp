@@ -1,7 +1,6 @@
 // Points, cases, rows and means of a sweep of particles; what runs them is a function of the test.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <mutex>

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"

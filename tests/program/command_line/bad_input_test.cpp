@@ -1,7 +1,6 @@
 // Bad files and values for each command: exit code 3, an error that says where and what, and
 // nothing written. The tests of the readers have all that can be wrong in a file.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <ostream>
 

@@ -2,7 +2,6 @@
 // terminal is.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -173,8 +172,11 @@ TEST_F(FirstSteps, ManualHasEveryCommandAndOptionOfHelp) {
     const auto part = manual.substr(
         begin,
         std::min(manual.find("\n.SS ", begin + 1), manual.find("\n.SH ", begin + 1)) - begin);
-    const auto options = run_viscontact({name, "--help"}).output;
-    for (const auto& option : matches_in(options, "--[\\w-]+", 0))
+    const auto own_help = run_viscontact({name, "--help"});
+    expect_done(own_help);
+    EXPECT_EQ(own_help.errors, "");
+    EXPECT_THAT(own_help.output, HasSubstr("Usage: viscontact " + name));
+    for (const auto& option : matches_in(own_help.output, "--[\\w-]+", 0))
       EXPECT_THAT(part, HasSubstr(replaced_matches(option, "-", "\\-"))) << name;
   }
   EXPECT_EQ(commands.size(), 17U);

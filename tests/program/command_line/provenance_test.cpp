@@ -2,7 +2,6 @@
 #include "tests/program/command_line/provenance.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <map>

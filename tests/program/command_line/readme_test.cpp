@@ -1,7 +1,6 @@
 // README's commands do what README says. They run in the source folder, as a reader would run them;
 // results go to out/.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <iterator>

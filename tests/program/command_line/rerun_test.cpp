@@ -1,8 +1,5 @@
 // `viscontact rerun` repeats the command that made a file.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
 
 #include "tests/common/regular_expressions.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
@@ -19,7 +16,6 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using Json = nlohmann::json;
 
 class Rerun : public Provenance {};
 
@@ -255,13 +251,6 @@ TEST_F(Rerun, DoesNothingButWriteFilesWhateverTheFileSays) {
         R"(["viscontact","fit","a\u0000b","-o","f.json"])"})
     expect_refusal(forged(command), ErrorKind::kBadInput,
                    HasSubstr("contains a command that 'rerun' does not run"));
-}
-
-TEST_F(Rerun, FindsItInAJsonFileThatWasWrittenOutAgain) {
-  fit();
-  put_text(path("pretty.json"), Json::parse(read_file(path("fit.json"))).dump(4));
-  expect_done(run({"rerun", path("pretty.json"), "-o", path("again.json")}));
-  EXPECT_EQ(rest_of(path("again.json")), rest_of(path("fit.json")));
 }
 
 TEST_F(Provenance, OfAPipeHasNoHash) {

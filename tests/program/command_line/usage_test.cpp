@@ -1,6 +1,5 @@
 // What needs no input: wrong command lines, --help, --version, doctor.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <ostream>
 
@@ -136,40 +135,6 @@ TEST(CommandLine, TakesWordsBehindTwoDashesForFiles) {
                  ErrorKind::kBadInput, HasSubstr("--fix: cannot be read"));
 }
 
-struct Help {
-  std::string command;
-  std::vector<std::string> options;  ///< of docs: positionals in capitals
-};
-
-std::ostream& operator<<(std::ostream& out, const Help& help) { return out << help.command; }
-
-class CommandHelp : public ::testing::TestWithParam<Help> {};
-
-TEST_P(CommandHelp, IsPrintedWithEveryOption) {
-  const auto result = run_viscontact({GetParam().command, "--help"});
-  expect_done(result);
-  EXPECT_EQ(result.errors, "");
-  EXPECT_THAT(result.output, HasSubstr("viscontact " + GetParam().command));
-  for (const auto& option : GetParam().options) EXPECT_THAT(result.output, HasSubstr(option));
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Each, CommandHelp,
-    ::testing::Values(
-        Help{"run", {"CASE", "-o,--output", "--jobs"}},
-        Help{"tabulate", {"CASE", "-o,--output", "--jobs"}},
-        Help{"fit",
-             {"TABLE", "-o,--output", "--basis", "lecture", "asymptotic", "--weights", "relative",
-              "absolute", "--terms", "q ln q", "--loss", "huber", "--fix", "--compare-bases",
-              "--plot"}},
-        Help{"export", {"FIT", "--to", "c-header", "fortran", "python", "json", "csv"}},
-        Help{"simulate",
-             {"CASE", "--fit", "-o,--output", "--models", "viscous_contact_threshold",
-              "--lubrication-limit", "--stokes-limit"}},
-        Help{"compare", {"DIR", "TRAJECTORY", "--reference", "inertial", "-o,--output"}},
-        Help{"report", {"DIR"}}, Help{"doctor", {}}),
-    [](const auto& test) { return test.param.command; });
-
 TEST(SimulateHelp, TellsModelsThatRunByDefaultFromThoseOnRequest) {
   // Its lines are broken in the middle of a list.
   std::string words;
@@ -183,14 +148,6 @@ TEST(SimulateHelp, TellsModelsThatRunByDefaultFromThoseOnRequest) {
     EXPECT_NE(words.find(model.name, model.by_default ? by_default : on_request), std::string::npos)
         << model.name;
   EXPECT_GT(words.find("inelastic_contact"), on_request);
-}
-
-TEST(ProgramHelp, NamesEveryCommand) {
-  const auto result = run_viscontact({"--help"});
-  expect_done(result);
-  for (const auto* command :
-       {"run", "tabulate", "fit", "export", "simulate", "compare", "report", "doctor", "--version"})
-    EXPECT_THAT(result.output, HasSubstr(std::string("  ") + command + " "));
 }
 
 TEST(Version, NamesTheProgramsThatMakeAResult) {

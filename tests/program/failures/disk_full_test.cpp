@@ -1,7 +1,6 @@
 // A disk that takes no more, played by the shell's limit on the size of files: the kernel then
 // refuses the write (EFBIG).
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"

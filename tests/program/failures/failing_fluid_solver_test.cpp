@@ -1,7 +1,6 @@
 // A fluid solver that fails in the middle of a run: exit code 5, its last lines, everything up to
 // then is kept, and the same command continues the run when the solver works again.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>

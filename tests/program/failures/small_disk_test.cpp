@@ -1,7 +1,6 @@
 // Tabulations and runs of particles on a disk that is full; the disk is a small tmpfs, which root
 // may mount.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/mount.h>
 #include <unistd.h>
 

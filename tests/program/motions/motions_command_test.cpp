@@ -1,7 +1,6 @@
 // `tabulate`, `fit` and `export` of several motions, and `rolling`, with FreeFEM once and with the
 // shipped tables.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>

@@ -2,7 +2,6 @@
 // shorter, and give the published numbers that docs/fluid.md compares with. The full cases are
 // commands of that page.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 // docs/viscosity.md and docs/direct-simulation.md say of them. Each is cut to a few steps.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 // Forces by number, moving planes, and the forms of a case that `viscontact particles` accepts.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/program/particles/particles_command.hpp"
 #include "tests/program/program.hpp"

@@ -2,7 +2,6 @@
 // other results of the run, and no failure leaves a part of it. libhdf5 and h5py must be there
 // (scripts/setup --tests).
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstdlib>
 

@@ -2,7 +2,6 @@
 // other units, two ways to hold the same discs, and restarts bit for bit.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 // The ids of a particles' file name its particles: in forces, in messages and in every output.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <ostream>
 

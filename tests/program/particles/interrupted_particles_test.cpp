@@ -2,7 +2,6 @@
 // that it would have been without the interrupt.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,6 @@
 // Runs of `viscontact particles` with rigid bodies and links: their tables and frames, restarts and
 // interrupts, and constraints that contradict each other.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <string>

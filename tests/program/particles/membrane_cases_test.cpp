@@ -1,7 +1,6 @@
 // The shipped cases of membranes (data/cases/membrane) run with FreeFEM, shorter and with fewer
 // beads, and give the numbers that docs/membranes.md compares with.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

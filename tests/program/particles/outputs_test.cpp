@@ -1,6 +1,5 @@
 // What `viscontact particles` writes, and when it writes it again.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,6 @@
 #include "viscontact/particles/io/restart.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,6 @@
 // VTK, and so ParaView, reads the frames that `viscontact particles` writes, with the numbers of
 // the other results.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>

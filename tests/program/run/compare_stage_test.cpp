@@ -1,6 +1,5 @@
 // `compare` and `report`, on simulations with the exact drag.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <set>
 #include <sstream>

@@ -1,6 +1,5 @@
 // A model that fails does not stop the others: what is written, what is said, and the exit code.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 

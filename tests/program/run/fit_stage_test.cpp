@@ -1,6 +1,5 @@
 // `fit`, `shift` and `export`, on a table of the exact drag.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/program/program.hpp"
 #include "tests/program/run/stages.hpp"

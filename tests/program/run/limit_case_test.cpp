@@ -1,7 +1,6 @@
 // data/cases/limit.toml: the lecture's limit of vanishing viscosity, without tabulation. That the
 // trajectories are those of the limit, tests/reduced_model/models checks.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/program/program.hpp"

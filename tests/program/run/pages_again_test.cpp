@@ -2,7 +2,6 @@
 // are those of the run, apart from the line that says how they were made. Colours, and places of
 // texts, in the pictures of a swimmer and of a rolling sphere.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -120,7 +119,8 @@ TEST_F(PagesAgain, OfASwimmer) {
   fs::create_directory(out());
   fs::copy_file(kData + "tables/three_spheres.csv", out() / "table.csv");
   const auto text = read_file(kData + "cases/swimmer/three_spheres.toml");
-  put_case(replaced(text, "period = 1.0", "period = 3.0"));
+  put_case(replaced(replaced(text, "period = 1.0", "period = 3.0"), "[optimal]",
+                    "[optimal]\npolynomials = 8"));
   expect_done(run_viscontact({"swimmer", path("case.toml"), "-o", path("out")}));
   expect_same_again(7);
   expect_room_around("arm x1", path("out/plots/loops.svg"));
@@ -152,7 +152,7 @@ TEST_F(PagesAgain, OfParticles) {
 TEST_F(PagesAgain, OfParticlesInAFluid) {
   auto text = read_file(kData + "cases/fluid/one_disc.toml");
   text = replaced_matches(text, "\\[output\\]\nevery = [^\n]*\n", "");
-  text = replaced_matches(text, "end_time = [^\n]*\n", "end_time = 0.5\n");
+  text = replaced_matches(text, "end_time = [^\n]*\n", "end_time = 0.25\n");
   expect_done(run(put_case(text), out()));
   EXPECT_THAT(read_file(out() / "particles.html"), HasSubstr("id=\"flow-speed\""));
   expect_same_again(2);

@@ -1,7 +1,6 @@
 // report.html in a browser (chromium): no error, no network, the curves are there, the pointer
 // reads them off, drags zoom.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -2,7 +2,6 @@
 #include "tests/program/run/report.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <set>

@@ -1,7 +1,6 @@
 // `viscontact run`: the whole pipeline with FreeFEM, then what the same command makes again.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 

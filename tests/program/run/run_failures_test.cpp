@@ -1,6 +1,5 @@
 // `viscontact run`: what it refuses, what it never replaces, and what a failure leaves.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstdlib>
 

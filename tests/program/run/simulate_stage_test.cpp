@@ -1,6 +1,5 @@
 // `simulate`: where its drag comes from, and what it writes.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <sstream>
 

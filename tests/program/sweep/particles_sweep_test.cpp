@@ -1,7 +1,6 @@
 // `viscontact sweep` of a case of many particles: rows, means, what is kept, kills, and tasks.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <csignal>

@@ -1,6 +1,5 @@
 // A sweep of particles on Slurm itself: a cluster of two nodes on this machine.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/particles/sweep/particles_case.hpp"
 #include "tests/program/program.hpp"
@@ -16,6 +15,7 @@ using ::testing::HasSubstr;
 
 class SlurmSweep : public SweepCommand {
  protected:
+  void TearDown() override { cluster().cancel_jobs(); }
   ProgramResult run(const std::string& output, const std::vector<std::string>& more) const {
     std::vector<std::string> arguments = {"sweep",   path("case.toml"),
                                           "-o",      path(output),

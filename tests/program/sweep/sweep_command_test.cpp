@@ -2,7 +2,6 @@
 #include "tests/program/sweep/sweep_command.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <filesystem>

@@ -1,6 +1,5 @@
 // Ctrl-C, or the loss of the terminal, during a tabulation or while a case is awaited.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
 

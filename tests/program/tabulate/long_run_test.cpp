@@ -1,8 +1,8 @@
-// Tabulations that are killed, or whose journal is damaged: the same command continues, no finished
-// row is computed again, and the table is that of an undisturbed run. (Ctrl-C: interrupt_test.cpp.)
+// Tabulations that are killed: the same command continues, no finished row is computed again, and
+// the table is that of an undisturbed run. (Ctrl-C: interrupt_test.cpp. Damaged journals:
+// tests/freefem_axi/journal/row_journal_test.cpp.)
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
@@ -132,46 +132,6 @@ TEST_F(LongRun, FreeFemDoesNotOutliveAViscontactThatIsKilled) {
   put_text(path("calm"), "");
   expect_done(tabulate(path("table.csv"), fake.executable()));
   EXPECT_THAT(fake.answered(), SizeIs(6));
-}
-
-TEST_F(LongRun, TornLineAndRowsOfAnotherCaseInTheJournalAreNoRows) {
-  const freefem_axi::FakeFreeFem fake(scratch_.path(), "[ -e \"$folder/full\" ] && exit 1\n");
-  put_text(path("case.toml"), gentle_case_text());
-  // The journal of another case, finished but for its last row...
-  put_text(path("case.toml"), replaced(gentle_case_text(), "viscosity = 3.0", "viscosity = 5.0"));
-  expect_done(tabulate(path("other.csv"), fake.executable(), ""));
-  // A row that fails would not do: the table is then written without it, and the journal removed.
-  const freefem_axi::FakeFreeFem killing(scratch_.path(),
-                                         "[ $gap = 1.5 ] && kill -KILL $PPID && exit 1\n");
-  const auto end_killed = [&] {
-    const auto killed =
-        run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv"), "--jobs", "1"},
-                       {"VISCONTACT_FREEFEM=" + killing.executable()});
-    EXPECT_EQ(killed.exit_status, 128 + SIGKILL);
-  };
-  end_killed();
-  EXPECT_THAT(finished(path("table.csv")), SizeIs(5));
-  // ... to which this case adds its own, the last of them torn.
-  put_text(path("case.toml"), gentle_case_text());
-  end_killed();
-  const std::string journal = read_file(path("table.csv.rows"));
-  const auto last_row = journal.rfind(" row ");
-  put_text(path("table.csv.rows"), journal.substr(0, last_row + 40));
-  EXPECT_THAT(finished(path("table.csv")), SizeIs(4));
-
-  const freefem_axi::FakeFreeFem mended(scratch_.path());
-  const auto answers_before = mended.answered().size();
-  expect_done(tabulate(path("table.csv"), mended.executable()));
-  EXPECT_EQ(mended.answered().size(), answers_before + 2);
-  expect_done(tabulate(path("undisturbed.csv"), mended.executable()));
-  EXPECT_EQ(without_seconds(path("table.csv")), without_seconds(path("undisturbed.csv")));
-  // The other case's rows are in no table of that name yet: they are kept.
-  put_text(path("case.toml"), replaced(gentle_case_text(), "viscosity = 3.0", "viscosity = 5.0"));
-  const auto answers = mended.answered().size();
-  expect_done(tabulate(path("table.csv"), mended.executable()));
-  EXPECT_EQ(mended.answered().size(), answers + 1);
-  EXPECT_EQ(without_seconds(path("table.csv")), without_seconds(path("other.csv")));
-  EXPECT_FALSE(std::filesystem::exists(path("table.csv.rows")));
 }
 
 }  // namespace

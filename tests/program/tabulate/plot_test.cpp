@@ -1,6 +1,5 @@
 // tabulate --plot: the pictures of a row, the VTK file, and what FreeFEM writes for them.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <set>
 #include <string>

@@ -1,6 +1,5 @@
 // Several cases in one command: here, in shares as a cluster's tasks compute them, and gathered.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,6 @@
 // What Slurm is asked for, and what becomes of its refusals: with scripts in the place of sbatch
 // and squeue. Slurm itself: slurm_test.cpp.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"

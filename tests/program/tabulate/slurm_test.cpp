@@ -2,7 +2,6 @@
 // (tests/program/tabulate/slurm_cluster).
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
@@ -32,6 +31,7 @@ class Slurm : public ::testing::Test {
     put_text(path("thin.toml"), text);
     put_text(path("thick.toml"), replaced(text, "viscosity = 3.0", "viscosity = 6.0"));
   }
+  void TearDown() override { cluster().cancel_jobs(); }
   std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
 
   ProgramResult tabulate(const std::string& output, const std::vector<std::string>& options,
@@ -147,7 +147,7 @@ fi
 
 class NodeThatDies : public Slurm {};
 
-// Two jobs at once, because Slurm takes many seconds to notice that a node is dead.
+// Two jobs at once, because Slurm begins the tasks of a dead node again after many seconds only.
 TEST_F(NodeThatDies, LosesNoFinishedRowAndOthersAreComputedElsewhereOrByASecondJob) {
   const TemporaryFolder kept_scratch, requeued_scratch;
   const freefem_axi::FakeFreeFem kept(kept_scratch.path(), kEndlessOnNode1),

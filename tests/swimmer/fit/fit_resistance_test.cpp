@@ -1,7 +1,6 @@
 #include "viscontact/swimmer/fit/fit_resistance.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 // file and its evaluation.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

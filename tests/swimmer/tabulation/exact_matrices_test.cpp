@@ -1,6 +1,5 @@
 // Resistance matrices by FreeFEM beside exact ones.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 

@@ -1,6 +1,5 @@
 // The table of resistance matrices, with a script in FreeFEM's place.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
