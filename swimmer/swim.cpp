@@ -112,8 +112,8 @@ SwimErrors swim_errors(const SwimSums& sums, const Stroke& stroke,
   const auto changes = [&](const ResistanceFit& fit) -> SwimErrors {
     const auto changed = swim_sums(Swimmer(fit), stroke);
     const double displacement = changed.displacement - sums.displacement;
-    // Of an optimal loop, the least energy at the wanted displacement changes, to first order, by
-    // the change of the loop's energy minus the multiplier times that of its displacement.
+    // The least energy at the wanted displacement of an optimal loop changes, to first order, by the
+    // change of the loop's energy minus the multiplier times that of its displacement.
     return {displacement, changed.energy - sums.energy - multiplier * displacement};
   };
   SwimErrors errors;

@@ -46,7 +46,7 @@ double size_of(const particles::Domain& domain) {
 }
 
 void check_edge_length(double edge, double length) {
-  constexpr double kShortest = 1e-7;      // FreeFEM takes nearer points for one
+  constexpr double kShortest = 1e-7;      // FreeFEM merges nearer points
   if (edge > kShortest * length) return;  // false for NaN
   throw Error(ErrorKind::kNotConverged,
               "the mesh of the fluid needs an edge of {:.3g} of the length of a curve, but "

@@ -216,9 +216,9 @@ Vector Impacts<D>::velocity_of(const Approach& approach, double t) const {
   return approach.velocity(t) - surface_of(approach, t);
 }
 
-/// Second derivative of the gap in time [L/T^2]. Of two particles it has only the part of the
-/// forces. At an obstacle it also has the part of the motion along a circle or at a plane that
-/// turns, which exists without a force.
+/// Second derivative of the gap in time [L/T^2]. For two particles it contains only the part
+/// of the forces. At an obstacle it also contains the part of the motion along a circle or at a
+/// plane that turns, which exists without a force.
 template <int D>
 double Impacts<D>::acceleration_of_gap(const Approach& approach, double t) const {
   const Vector n = normal_of(approach, t);
