@@ -83,8 +83,8 @@ DrawnParticle DrawnSpecies::next() {
   // For m species, Tijdeman's rule ("The chairman assignment problem", Discrete Mathematics 32,
   // 1980) keeps the number of particles of each species within 1 - 1/(2m - 2) (`farthest`) of its
   // share of the total. A species may come next if its number would then exceed its share by at
-  // most this bound. Among these species, the next one is that which would otherwise be the first to
-  // fall behind its share by this bound (`deadline`: the total at which it does).
+  // most this bound. Among these species, the next one is that which would otherwise be the first
+  // to fall behind its share by this bound (`deadline`: the total at which it does).
   double shares = 0, total = 1;
   for (std::size_t s = 0; s < species_.size(); ++s) {
     shares += species_[s].share;

@@ -409,11 +409,12 @@ template <int D>
 SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
                                         double roughly_allowed, int max_iterations) {
   // Each correction multiplies the error by about the turn of the bodies in the step [rad]. With
-  // turns of 1 it gains little. Corrections diverge if they grow kPatience times in succession, or if
-  // kMostWithoutGain of them do not halve the largest correction, which a factor of 0.87 would do.
-  // Either the constraints contradict each other, or the step is too long.
+  // turns of 1 it gains little. Corrections diverge if they grow kPatience times in succession, or
+  // if kMostWithoutGain of them do not halve the largest correction, which a factor of 0.87 would
+  // do. Either the constraints contradict each other, or the step is too long.
   constexpr int kPatience = 3, kMostWithoutGain = 5;
-  // A correction is fast if it is below kFast of the one before. All these numbers are free choices.
+  // A correction is fast if it is below kFast times the one before. All these numbers are free
+  // choices.
   constexpr double kFast = 0.1;
   // An unsolved problem is still corrected if its residual is this small part of the correction.
   constexpr double kSmallPart = 1e-3;

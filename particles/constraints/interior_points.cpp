@@ -386,9 +386,10 @@ void InteriorPoints<D>::start(double size) {
 template <int D>
 int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
   // If the error is below kNear times its size at the start, and an iteration does not reduce it to
-  // kSlow of the least one, only rounding errors are left.
+  // kSlow times the least error so far, only rounding errors are left.
   constexpr double kNear = 1e-6, kSlow = 0.5;
-  // The second solution of find_direction() saves iterations only near the end: when the error divided by its size at the start is below kNearEnd and below kNearAccuracy * accuracy.
+  // The second solution of find_direction() saves iterations only near the end: when the error
+  // divided by its size at the start is below kNearEnd and below kNearAccuracy * accuracy.
   constexpr double kNearAccuracy = 1e3, kNearEnd = 1e-3;
   set_parts();
   // The least impulses that are allowed, and the motions with these.

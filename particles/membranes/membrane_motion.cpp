@@ -186,9 +186,10 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
   }
   // The limit is a free choice.
   constexpr int kMostRounds = 30;
-  // Newton's method is quadratic: after a change of the positions by less than kExact of their
-  // size, the next one would be a rounding error. In stiff membranes rounding errors are larger.
-  // Therefore a change below kRounding and above half of the one before also ends the method.
+  // Newton's method is quadratic: after a change of the positions by less than kExact times
+  // their size, the next one would be a rounding error. In stiff membranes rounding errors are
+  // larger. Therefore a change below kRounding and above half of the one before also ends the
+  // method.
   constexpr double kExact = 1e-9, kRounding = 1e-6;
   double last = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds; ++round) {

@@ -152,8 +152,8 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
   }
 }
 
-/// Solves for the impulses of the chosen contacts and of the links, after allow(). With constraints,
-/// half of `length` [L] is what a rough solution allows for all residuals.
+/// Solves for the impulses of the chosen contacts and of the links, after allow(). With
+/// constraints, half of `length` [L] is what a rough solution allows for all residuals.
 template <int D>
 SolverResult StepProjection<D>::solve_contacts(bool is_rough, double length, int max_iterations) {
   if (constraints_) return constraints_->solve(system_, is_rough, length / 2, max_iterations);
@@ -364,7 +364,8 @@ ResidualScale ResidualScales<D>::of(const Contact<D>& contact) {
   const std::array particles{contact.first, contact.second};
   auto scale = of(particles, contact.w, std::abs(contact.gap));
   if (!has_constraints_) return scale;
-  // The errors are taken as 1 or, where bodies or links turn, 8 units in the last place of the radii.
+  // The errors are taken as 1 or, where bodies or links turn, 8 units in the last place of the
+  // radii.
   const double rounding =
       (system_.is_held(contact) ? 8 : 1) * std::numeric_limits<double>::epsilon();
   double radii = 0;

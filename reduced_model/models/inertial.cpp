@@ -4,8 +4,8 @@
 // P = m dq/dt + Gamma(q); lengths, masses and times are in any one system of units; motion.hpp and
 // trajectory.hpp have the dimensions and ranges. A CVODE that gives up and, with roughness, an
 // external force with too many periods are an Error(kNotConverged), a gap outside the fit, too many
-// rows and a start within the roughness an Error(kBadInput), a stop an Error(kInterrupted). Used by models.cpp. A change of results must
-// raise kModelsRevision (trajectory.hpp).
+// rows and a start within the roughness an Error(kBadInput), a stop an Error(kInterrupted). Used by
+// models.cpp. A change of results must raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/inertial.hpp"
 
 #include <algorithm>
