@@ -248,7 +248,7 @@ void Blow::restrain(const StepContacts& compressed, StepContacts& restored) cons
   };
   if (!(work(1) > 0)) return;
   double low = 0, high = 1;
-  constexpr int kHalvings = 50;  // to about rounding
+  constexpr int kHalvings = 50;  // reach about rounding errors
   for (int n = 0; n < kHalvings; ++n) {
     const double middle = (low + high) / 2;
     (work(middle) > 0 ? high : low) = middle;

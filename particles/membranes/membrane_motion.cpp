@@ -142,7 +142,7 @@ Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const 
 /// The matrix of Newton's method for step(). Its unknowns are scaled to lengths, so that its
 /// entries have similar sizes. They are the positions [L]; the tensions over `unit`, a force per
 /// length [M/T^2]; and the pressures times the norm of their column of area_columns(), over `unit`.
-/// MembraneMotion::flow_forces must be without the loads.
+/// MembraneMotion::flow_forces must not contain the loads of step().
 Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
                                        const Eigen::VectorXd& positions,
                                        const MembraneMotion& motion, double unit) const {
