@@ -90,7 +90,8 @@ DrawnParticle DrawnSpecies::next() {
     shares += species_[s].share;
     total += static_cast<double>(counts_[s]);
   }
-  constexpr double kRounding = 1e-9;  // free, above rounding errors; a change may alter draws
+  // A free choice above rounding errors; a change may alter draws.
+  constexpr double kRounding = 1e-9;
   const double farthest =
       1 - 0.5 / static_cast<double>(std::max<std::size_t>(species_.size(), 2) - 1);
   std::size_t next = 0;

@@ -298,8 +298,9 @@ double InteriorPoints<D>::length_to_boundary() const {
 }
 
 /// Sets the goals of the corrector, from the changes of the predictor, whose step has the `length`,
-/// and from gap_ before it. The corrector aims at equal products of all u and r, the smaller the
-/// more the predictor reduces gap_, and corrects the product of the predictor's changes.
+/// and from gap_ before it. The corrector aims at equal products of all u and r, which are the
+/// smaller, the more the predictor reduces gap_, and corrects the product of the predictor's
+/// changes.
 template <int D>
 void InteriorPoints<D>::set_corrector(double gap_before, double length) {
   double after = 0;
