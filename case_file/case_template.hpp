@@ -46,8 +46,8 @@ void read_units(const TomlSection& root, Units& units);
 /// What docs/case-file.md says about that key. This does not throw.
 KeyTable table_of_units();
 
-/// Reads the title and the units of a case. Throws Error(kBadInput) if the title is missing although
-/// `needs_title`, and the error of read_units().
+/// Reads the title and the units of a case. Throws Error(kBadInput) if the title is missing
+/// although `needs_title`, and the error of read_units().
 template <class CaseType>
 void read_title_and_units(const TomlSection& root, CaseType& c, bool needs_title = false) {
   if (needs_title || root.has("title")) c.title = root.text("title");

@@ -21,8 +21,8 @@ namespace {
 using freefem_axi::Container;
 using freefem_axi::Tabulation;
 
-// Smallest gap divided by the radius. At smaller gaps the matrices are too ill-conditioned for
-// double precision.
+// Smallest gap divided by the radius. At smaller gaps the matrices of FreeFEM are too
+// ill-conditioned for double precision.
 constexpr double kSmallestGap = 1e-8;
 
 double ball_volume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }

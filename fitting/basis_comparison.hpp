@@ -32,7 +32,7 @@ std::vector<BasisResult> compare_bases(const lubrication::MotionTable& table,
 
 /// The element of `results` whose fit has the smallest FitDiagnostics::information_criterion; null
 /// if no fit has a criterion. Every fit must have diagnostics (not checked), as those of
-/// compare_bases() do. Of equal criteria the first one counts.
+/// compare_bases() do. Among equal criteria the first one counts.
 const BasisResult* best_basis(const std::vector<BasisResult>& results);
 
 }  // namespace viscontact::fitting

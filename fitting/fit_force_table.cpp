@@ -206,7 +206,7 @@ void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
   }
 }
 
-/// The names of the first rows that could not be computed; any number that is short to read works.
+/// The names of the first rows that could not be computed. Any small number of them would do.
 std::string names_of_failed_rows(const lubrication::MotionTable& table) {
   constexpr std::size_t kNamed = 5;
   std::vector<std::string> names;

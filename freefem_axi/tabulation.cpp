@@ -81,7 +81,8 @@ std::optional<double> leading_coefficient(const Tabulation& tabulation) {
   const double coefficient =
       lubrication::stokes_resistance(tabulation.viscosity, tabulation.radius) * tabulation.radius *
       geometry.leading_factor(tabulation.radius, tabulation.geometry_parameters);
-  // A table cannot hold an infinite k, and has none if the neighbour moves away (k <= 0).
+  // A table cannot contain an infinite coefficient, and has none if the neighbour moves away (<=
+  // 0).
   if (!std::isfinite(coefficient) || !(coefficient > 0)) return std::nullopt;
   return coefficient;
 }

@@ -45,8 +45,8 @@ struct Tabulation {
 /// The container in words for the head of a table: "closed cylinder, radius 40, height 80",
 /// "unbounded", or "none" if the neighbour encloses the fluid. This function and the next four
 /// throw Error(kBadInput) if there is no geometry with the name tabulation.geometry. The
-/// geometry_parameters must be complete: otherwise some throw std::out_of_range, others read
-/// beyond.
+/// geometry_parameters must be complete: otherwise some functions throw std::out_of_range, and
+/// others read beyond the array.
 std::string container_in_words(const Tabulation& tabulation);
 
 /// The neighbour in words for the head of a table: "sphere, radius 2, velocity_ratio 0".

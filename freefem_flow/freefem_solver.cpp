@@ -244,7 +244,8 @@ std::string script_of(particles::FluidMesh mesh, int dimension) {
 /// little shorter than the arcs that they replace.
 constexpr double kShortestEdge = 2.2e-7;
 
-/// The larger side [L] of the rectangle around a mesh. That of a cylinder is half of its section.
+/// The larger side [L] of the rectangle around a mesh. The mesh of a cylinder is half of its
+/// section.
 double extent_of(const particles::Domain& domain) {
   if (const auto* disc = std::get_if<particles::DiscDomain>(&domain)) return 2 * disc->radius;
   if (const auto* box = std::get_if<particles::BoxDomain>(&domain))

@@ -22,8 +22,9 @@ struct NeighbourSurface {
   double velocity_ratio = 0;
 };
 
-/// The coefficients of one term. Force and torque factors (motion_table.hpp) are force over
-/// -6 pi mu r u and torque over -8 pi mu r^2 u, with u = r w for angular velocities w.
+/// The coefficients of one term. With the viscosity mu, the radius r and the velocity u of the
+/// sphere, or u = r w for its angular velocity w, the force factor is force/(-6 pi mu r u) and the
+/// torque factor is torque/(-8 pi mu r^2 u), as in motion_table.hpp.
 struct LeadingFactors {
   /// The name of a Term: "ln q" for sliding and rolling, "q ln q" for spinning.
   std::string_view term;

@@ -94,8 +94,8 @@ double distance_to(const Outline& outline, const std::array<double, 2>& x);
 /// in `second`; for plates whose spines cross, it is minus the sum of both end radii.
 double gap(const Outline& first, const Outline& second);
 
-/// Distance of the outline from an obstacle [L]; < 0 if a part of it is behind the obstacle. Of an
-/// ellipse it is searched, likewise.
+/// Distance of the outline from an obstacle [L]; < 0 if a part of it is behind the obstacle. For
+/// an ellipse it is found by a search, as that of two outlines.
 double gap(const PlanePosition& obstacle, const Outline& outline);
 
 /// Outline of particle k in the plane, or of a sphere on the axis with its centre at (0, z).

@@ -89,8 +89,8 @@ struct State {
   /// step. Empty before the first step.
   std::vector<double> arm_powers;
   double earlier_step = 0;  ///< length of the last step [T]; 0 if there was none
-  /// Impulses of the blows in the last step, without a fluid. The rest of the motion does not depend
-  /// on them. Restart files have them for the tables walls.csv and stress.csv.
+  /// Impulses of the blows in the last step, without a fluid. The rest of the motion does not
+  /// depend on them. Restart files have them for the tables walls.csv and stress.csv.
   std::vector<BlowImpulse> blows;
   // What a simulation in a fluid needs of earlier steps; otherwise these members are empty or 0.
   /// Velocities and angular velocities in the last step [L/T, 1/T], motion_components() numbers

@@ -109,9 +109,9 @@ std::string warnings_box(const std::vector<std::string>& items);
 std::string page_head(std::string_view title, std::string_view style, bool has_images,
                       std::string_view more = {});
 
-/// True if the report in the folder of a run and its pictures, those of `names`, exist and the inputs
-/// of the report have not changed since. False without still pictures, because gnuplot may be there
-/// now, and if a file cannot be read, the report included.
+/// True if the report in the folder of a run and its pictures, those of `names`, exist and the
+/// inputs of the report have not changed since. False without still pictures, because gnuplot may
+/// be there now, and if a file cannot be read, the report included.
 bool page_is_current(const std::filesystem::path& folder, std::span<const std::string_view> names);
 
 /// A report while it is made: first its figures, then its page.

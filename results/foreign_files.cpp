@@ -41,8 +41,8 @@ std::string read_head(const std::filesystem::path& path) {
     text += part.substr(0, static_cast<std::size_t>(file.gcount()));
   };
   read_most();
-  // The provenance of a PDF is in its last lines. If the file is shorter than both parts together, a
-  // part of it is read twice.
+  // The provenance of a PDF is in its last lines. If the file is shorter than both parts together,
+  // a part of it is read twice.
   if (text.starts_with("%PDF-") && file) {
     file.seekg(-static_cast<std::streamoff>(kMost), std::ios::end);
     read_most();

@@ -224,7 +224,8 @@ std::string with_creation_date(std::string pdf, const std::string& made) {
   if (begin == std::string::npos) return pdf;
   std::string digits = made;
   std::erase_if(digits, [](char c) { return c < '0' || c > '9'; });
-  // After the 14 digits of the time, those of its distance from UTC follow, unless they are left out.
+  // After the 14 digits of the time, those of its distance from UTC follow, unless they are left
+  // out.
   for (std::size_t at = begin + kDate.size(), i = 0; at < pdf.size() && pdf[at] != ')'; ++at)
     if (pdf[at] >= '0' && pdf[at] <= '9') pdf[at] = i < digits.size() ? digits[i++] : '0';
   return pdf;

@@ -118,9 +118,9 @@ std::string output_text(const std::filesystem::path& path, TextKind kind, const 
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
                   Provenance provenance);
 
-/// As write_output(), but leaves a file alone that has this text and was made in the same folder from
-/// the same inputs, even if by another version or command. Returns true if it wrote. Throws the
-/// errors of write_output().
+/// As write_output(), but leaves a file alone that has this text and was made in the same folder
+/// from the same inputs, even if by another version or command. Returns true if it wrote. Throws
+/// the errors of write_output().
 bool write_if_changed(const std::filesystem::path& path, TextKind kind, const std::string& text,
                       const Provenance& provenance);
 

@@ -70,8 +70,8 @@ std::map<std::string, std::string> head_of(const std::string& kind, const std::s
 /// such as "the key".
 void refuse_doubles(const std::vector<std::string>& names, std::string_view kind);
 
-/// The grid of the ranges "KEY=RANGE" (variation.hpp) of the section [sweep] of a case, which are in
-/// this line. Throws Error(kBadInput), which names case and line, if a range is not valid.
+/// The grid of the ranges "KEY=RANGE" (variation.hpp) of the section [sweep] of a case, which are
+/// in this line. Throws Error(kBadInput), which names case and line, if a range is not valid.
 Points points_of_case(const std::vector<std::string>& ranges,
                       const std::filesystem::path& case_path, int line);
 
@@ -89,7 +89,8 @@ void check_keys(const Points& points, const Check& check) {
   }
 }
 
-/// Throws Error(kWrongUsage) if a key is varied twice, or if the grid leaves out the end of a range.
+/// Throws Error(kWrongUsage) if a key is varied twice, or if the grid leaves out the end of a
+/// range.
 void check_ranges(const Points& points);
 
 /// Returns `make(numbers)` for the keys and values of row `index` < points.rows(). An Error that it
@@ -107,8 +108,8 @@ auto at_point(const Points& points, std::uint64_t index, const Make& make) {
 /// Throws Error(kWrongUsage) if nothing or a key twice is varied, or if the grid leaves out the end
 /// of a range. Then calls `make`, which makes a case, for the first and the last row, so that a
 /// range that leads to a wrong case is an Error before rows are computed; rows between are not
-/// checked. Throws the Errors of `make` and Points::rows(), with_origin(), but as it is an Error that
-/// `make` throws without varied values, too, because its cause is elsewhere, as in the fit.
+/// checked. Throws the Errors of `make` and Points::rows(), with_origin(), but as it is an Error
+/// that `make` throws without varied values, too, because its cause is elsewhere, as in the fit.
 template <class Make>
 void check_ends(const Points& points, const Make& make) {
   if (points.variations.empty() && points.draws == 0)

@@ -28,7 +28,7 @@ struct Variation {
   double value(std::uint64_t i) const;
 
   /// The value at the fraction `share` of the way from `first` to `last`, 0 <= share < 1, measured
-  /// in the logarithm if `logarithmic`. Of a list of n values, element floor(n share) from 0.
+  /// in the logarithm if `logarithmic`. In a list of n values it is element floor(n share) from 0.
   double at(double share) const;
 };
 

@@ -221,7 +221,7 @@ PolynomialLoop small_loop(const BestPlane& plane, const VectorXd& through, doubl
 std::optional<Extremal> follow(const Swimmer& swimmer, const OptimalStrokeRequest& request,
                                double angle, const StopToken& stop) {
   constexpr Index kPolynomials = 8;  // enough on the way; more are added at the end
-  // The displacement begins at kFirstShare of the wanted one and grows by a factor, which is
+  // The displacement begins at kFirstShare times the wanted one and grows by a factor, which is
   // reduced when a search fails, but not below kSmallestFactor.
   constexpr double kFirstShare = 1. / 64, kSmallestFactor = 1.02;
   const LoopOptimizer optimizer(swimmer, request.through, kPolynomials);

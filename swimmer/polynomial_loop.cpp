@@ -2,7 +2,8 @@
 // (polynomial_loop.hpp). Numbers are in the units of the swimmer's fit; polynomial_loop.hpp has
 // their dimensions and ranges. A loop outside the table is an Error(kBadInput). Used by
 // optimal_stroke.cpp. A change must keep that gradients are the derivatives of the sums to
-// round-off, and the 2 n + 24 points of all three quadratures, which polynomial_loop.hpp repeats.
+// round-off, and, for n polynomials, the 2 n + 24 points of all three quadratures, which
+// polynomial_loop.hpp repeats.
 #include "viscontact/swimmer/polynomial_loop.hpp"
 
 #include <Eigen/QR>
@@ -20,8 +21,8 @@ Eigen::VectorXd shape_at(const PolynomialLoop& loop, const Eigen::VectorXd& basi
 }  // namespace
 
 LoopBasis loop_basis(double s, Index count) {
-  // Legendre's polynomials P_j(y) and their derivatives by s, by the three-term recurrence and
-  // P'_{j+1} = P'_{j-1} + (2j + 1) P_j; dy/ds = 2.
+  // Legendre's polynomials P_j(y) by the three-term recurrence, and their derivatives by s from
+  // P'_{j+1} = P'_{j-1} + (2j + 1) P_j and dy/ds = 2.
   const double y = 2 * s - 1;
   Eigen::VectorXd p(count), dp(count), ddp(count);
   for (Index j = 0; j < count; ++j) {
@@ -50,9 +51,9 @@ PolynomialLoop with_more_polynomials(const PolynomialLoop& loop, Index count) {
 }
 
 LoopFunctional::LoopFunctional(const Swimmer& swimmer, Index polynomials) : swimmer_(swimmer) {
-  // Exact for polynomials of a degree below twice this number of points. The integrands are no
-  // polynomials, but analytic functions of loops of degree polynomials + 1; the 24 additional
-  // points are for them.
+  // The rule is exact for polynomials of a degree below twice its number of points. The integrands
+  // are not polynomials but analytic functions of a loop, whose degree is `polynomials` + 1; the 24
+  // additional points make their error small.
   const auto rule = gauss_rule(static_cast<int>(2 * polynomials + 24));
   points_ = rule.points;
   weights_ = rule.weights;

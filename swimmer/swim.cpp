@@ -80,7 +80,7 @@ SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke) {
 }
 
 std::vector<SwimRow> swim_rows(const Swimmer& swimmer, const Stroke& stroke, int intervals) {
-  // Exact to round-off between two rows if they are 1/100 of a stroke or less apart.
+  // The rule is exact to round-off between two rows that are 1/100 of a stroke or less apart.
   const auto rule = gauss_rule(16);
   std::vector<SwimRow> rows;
   double position = 0;
@@ -112,7 +112,7 @@ SwimErrors swim_errors(const SwimSums& sums, const Stroke& stroke,
   const auto changes = [&](const ResistanceFit& fit) -> SwimErrors {
     const auto changed = swim_sums(Swimmer(fit), stroke);
     const double displacement = changed.displacement - sums.displacement;
-    // Of an optimal loop, the least energy at the wanted displacement changes, to first order, by
+    // The least energy at the wanted displacement of an optimal loop changes, to first order, by
     // the change of the loop's energy minus the multiplier times that of its displacement.
     return {displacement, changed.energy - sums.energy - multiplier * displacement};
   };

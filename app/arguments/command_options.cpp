@@ -33,7 +33,7 @@ namespace {
 /// not exist yet is resolved, too, because an output need not exist yet.
 std::filesystem::path resolved_place_of(std::filesystem::path path) {
   namespace fs = std::filesystem;
-  constexpr int kMostLinks = 40;  // as Linux, which refuses a path with more links
+  constexpr int kMostLinks = 40;  // Linux refuses a path with more links, too
   path = fs::absolute(path);
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path)); ++i)
     path = path.parent_path() / fs::read_symlink(path);

@@ -38,8 +38,8 @@ CLI::Option* add_value(CLI::App& command, const std::string& name, Value& value,
 /// words in the type name. CLI11 throws CLI::ValidationError for another value.
 CLI::Validator one_of(std::vector<std::string> words);
 
-/// A check that refuses any value but a whole number from `least` to `most`, written in digits. CLI11
-/// throws CLI::ValidationError for another value.
+/// A check that refuses any value but a whole number from `least` to `most`, written in digits.
+/// CLI11 throws CLI::ValidationError for another value.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most);
 
 /// Calls `read`, which reads a word of the command line, such as the name of a basis, and returns

@@ -115,8 +115,9 @@ void finish_replacement(const std::filesystem::path& place) {
 
 std::string read_file(const std::filesystem::path& path) {
   // A signal ends open and read only while they wait for a pipe. In the program it then asks for a
-  // stop, because other signals have no handler or let them go on (SA_RESTART). In the Python module
-  // it may also be a signal whose handler the user has set, which could not run during the wait.
+  // stop, because other signals have no handler or let them go on (SA_RESTART). In the Python
+  // module it may also be a signal whose handler the user has set, which could not run during the
+  // wait.
   const auto fail = [&] {
     if (errno == EINTR)
       throw Error(ErrorKind::kInterrupted, "interrupted while {} was read", path.string());

@@ -11,9 +11,9 @@
 
 namespace viscontact {
 
-/// The bytes of a file or a pipe. Throws Error(kBadInput), which names the path, if the file does not
-/// exist, is a folder or a device, or cannot be read, and Error(kInterrupted) if a signal comes while
-/// the function waits for a pipe.
+/// The bytes of a file or a pipe. Throws Error(kBadInput), which names the path, if the file does
+/// not exist, is a folder or a device, or cannot be read, and Error(kInterrupted) if a signal comes
+/// while the function waits for a pipe.
 std::string read_file(const std::filesystem::path& path);
 
 /// Replaces the file at `path` by `content` in one step: writes a new file in the same folder,

@@ -26,10 +26,10 @@ struct Pipe {
   Descriptor read_end{}, write_end{};
 };
 
-/// The open file `number`, which is closed if its number is that of a standard stream, under another
-/// number. If this process was started without such a stream, a new file can have its number, and
-/// dup2() of this number to itself would leave the file to be closed when the child becomes the
-/// program.
+/// The open file `number`, which is closed if its number is that of a standard stream, under
+/// another number. If this process was started without such a stream, a new file can have its
+/// number, and dup2() of this number to itself would leave the file to be closed when the child
+/// becomes the program.
 Descriptor beyond_standard_streams(int number) {
   if (number > STDERR_FILENO) return Descriptor(number);
   const Descriptor standard(number);

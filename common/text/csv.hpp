@@ -57,8 +57,8 @@ double csv_comment_number(const CsvComments& comments, const std::string& key,
 /// commas, so that an empty line has one.
 std::vector<std::string> csv_fields(const std::string& line);
 
-/// The text for a message: if it has more than 60 bytes, the first 60 of them and "...", and "?" for
-/// each control character.
+/// The text for a message: if it has more than 60 bytes, the first 60 of them and "...", and "?"
+/// for each control character.
 std::string shortened(const std::string& text);
 
 /// The header line of a CSV file: the first one that is neither empty nor a comment.

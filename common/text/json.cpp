@@ -32,7 +32,7 @@ class LineRecorder {
   /// Reads the text. Throws Error(kBadInput) if it is not valid JSON or if a key stands twice.
   void run(const std::string& file) {
     bool is_valid = Json::sax_parse(stream_, this);
-    // The parser takes a NUL character for the end of the text and ignores what follows.
+    // The parser ends at a NUL character and ignores what follows.
     if (const auto nul = text_.find('\0'); is_valid && nul != std::string::npos) {
       is_valid = false;
       stopped_at_ = nul + 1;

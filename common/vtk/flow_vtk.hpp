@@ -14,7 +14,7 @@
 
 namespace viscontact {
 
-/// Triangles in a plane whose sides are parabolas. Of a flow that is symmetric about an axis, the
+/// Triangles in a plane whose sides are parabolas. For a flow that is symmetric about an axis, the
 /// plane is a half-plane: x >= 0 is the distance from the axis, and y the place along it.
 struct QuadraticMesh {
   std::vector<double> x;  ///< of each node [L]

@@ -15,7 +15,7 @@ namespace viscontact::freefem_axi {
 
 /// The finished and failed rows of the planned table at `table_path`, from its journals and the
 /// table. A table of other inputs and damaged lines count as no rows, and so do files that do not
-/// exist. Of several failures at a point the last one read counts. Throws Error(kBadInput) if a
+/// exist. Among several failures at a point the last one read counts. Throws Error(kBadInput) if a
 /// journal exists but cannot be read.
 RowRecord read_row_record(const std::filesystem::path& table_path, const TablePlan& plan);
 

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Longest edge in a narrow gap over the gap, with 24 edges on the smallest particle. With n edges
-/// the ratio is 24/n times as large, but at most kLargestOfGap.
+/// Ratio of the longest edge in a narrow gap to the gap, with 24 edges on the smallest particle.
+/// With n edges the ratio is 24/n times as large, but at most kLargestOfGap.
 constexpr double kOfGapAt24Edges = 0.4;
 /// The largest such ratio. It allows two edges across the gap, because the fluid in a gap with one
 /// edge across it resists 7 % too much.
@@ -46,7 +46,7 @@ double size_of(const particles::Domain& domain) {
 }
 
 void check_edge_length(double edge, double length) {
-  constexpr double kShortest = 1e-7;      // FreeFEM takes nearer points for one
+  constexpr double kShortest = 1e-7;      // FreeFEM merges nearer points
   if (edge > kShortest * length) return;  // false for NaN
   throw Error(ErrorKind::kNotConverged,
               "the mesh of the fluid needs an edge of {:.3g} of the length of a curve, but "

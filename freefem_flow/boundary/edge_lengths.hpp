@@ -82,7 +82,7 @@ class EdgeLengths {
 
 /// Throws Error(kNotConverged) if an edge of the length `edge` [L] is not longer than 1e-7 times
 /// the curve of the length `length` [L], > 0, that it lies on, or if it is NaN, because FreeFEM
-/// takes its two ends for one point.
+/// merges its two ends.
 void check_edge_length(double edge, double length);
 
 /// Cuts a curve of the length `length` [L], > 0, into at least `least` edges and returns their

@@ -31,8 +31,8 @@ struct CellEdge {
 /// An edge shorter than a tenth of the distance of its end from the particles is left out; its ends
 /// are joined.
 ///
-/// `circles`: the particles, at least one, with centres in the box. Of an ellipse or plate only the
-/// circle around it is used. The circles must not overlap. None of this is checked.
+/// `circles`: the particles, at least one, with centres in the box. An ellipse or plate is
+/// represented by the circle around it. The circles must not overlap. None of this is checked.
 std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
                                      std::span<const particles::Outline> circles);
 

@@ -83,14 +83,15 @@ DrawnParticle DrawnSpecies::next() {
   // For m species, Tijdeman's rule ("The chairman assignment problem", Discrete Mathematics 32,
   // 1980) keeps the number of particles of each species within 1 - 1/(2m - 2) (`farthest`) of its
   // share of the total. A species may come next if its number would then exceed its share by at
-  // most this bound. Of these species the one comes next that would otherwise be the first to fall
-  // behind its share by this bound (`deadline`: the total at which it does).
+  // most this bound. Among these species, the next one is that which would otherwise be the first
+  // to fall behind its share by this bound (`deadline`: the total at which it does).
   double shares = 0, total = 1;
   for (std::size_t s = 0; s < species_.size(); ++s) {
     shares += species_[s].share;
     total += static_cast<double>(counts_[s]);
   }
-  constexpr double kRounding = 1e-9;  // free, above rounding errors; a change may alter draws
+  // A free choice above rounding errors; a change may alter draws.
+  constexpr double kRounding = 1e-9;
   const double farthest =
       1 - 0.5 / static_cast<double>(std::max<std::size_t>(species_.size(), 2) - 1);
   std::size_t next = 0;

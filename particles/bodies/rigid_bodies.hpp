@@ -170,7 +170,8 @@ struct BodyStep {
   /// Velocity of the centre at the end of the step minus displacement/h [L/T]. It is 0 unless
   /// rebounds (impacts/) changed the velocity within the step.
   Vector late_velocity{};
-  /// Of discs: angular momentum at the end minus I turn/h [M L^2/T]; 0 without rebounds.
+  /// For discs: angular momentum at the end minus moment of inertia times turn/h [M L^2/T]; 0
+  /// without rebounds.
   Vector late_momentum{};
   double mobility = 0;              ///< h/m [T/M]
   Matrix3 turn_mobility{};          ///< h I^-1 [T/(M L^2)]; discs use only the last entry

@@ -118,8 +118,8 @@ std::size_t axis_of(std::size_t side) { return side / 2; }
 
 /// Declares the keys of a table for one side, whose velocity is a parabola or may depend on time.
 void side_keys(case_file::Keys& keys, WallVelocity& wall) {
-  // pieces() keeps references to these numbers, so that they are static. kNoEnd: the pieces need
-  // not last until any time, because the last one is extended below.
+  // pieces() keeps references to these numbers, so that they are static. kNoEnd: the pieces of time
+  // need not cover the run, because the last one is extended below.
   static const int kAlong = 1, kInPlane = 2;
   static const double kNoEnd = 0;
   const bool is_parabola =

@@ -1,8 +1,8 @@
-// The second-order cone (x_1^2 + x_2^2)^(1/2) <= x_0 of two and three dimensions, with the operations
-// that the method of interior points needs: products, the distance to the boundary, and the scaling
-// of Nesterov & Todd between a point of the cone and a dual point (Alizadeh & Goldfarb 2003,
-// "Second-order cone programming"; Vandenberghe 2010, "The CVXOPT linear and quadratic cone program
-// solvers"). In two dimensions the cone is |x_1| <= x_0.
+// The second-order cone (x_1^2 + x_2^2)^(1/2) <= x_0 of two and three dimensions, with the
+// operations that the method of interior points needs: products, the distance to the boundary, and
+// the scaling of Nesterov & Todd between a point of the cone and a dual point (Alizadeh & Goldfarb
+// 2003, "Second-order cone programming"; Vandenberghe 2010, "The CVXOPT linear and quadratic cone
+// program solvers"). In two dimensions the cone is |x_1| <= x_0.
 //
 // All components of a point have the same unit, which the caller chooses: the root of [M L^2/T] in
 // interior_points.hpp, [M L/T] in constraint_solver.cpp. Only these two use this header. Nothing is
@@ -75,11 +75,11 @@ inline double length_to_boundary(const InnerPoint& u, const ConePoint& d) {
 }
 
 /// The scaling of Nesterov & Todd between a point u and a dual point r, both inside a cone: the
-/// symmetric matrix W with W^-1 u = W r that maps the cone onto itself. W is diagonal in numbers that
-/// `Frame` computes from the coordinates of a point. Its first two numbers are those in which W
-/// differs most from a multiple of the identity: near a solution one of them is small in u and one
-/// in r, with a small relative error. A `Frame` is made from u and r and has numbers() of a point
-/// and of an InnerPoint, and its inverse point(). Both keep inner products.
+/// symmetric matrix W with W^-1 u = W r that maps the cone onto itself. W is diagonal in numbers
+/// that `Frame` computes from the coordinates of a point. Its first two numbers are those in which
+/// W differs most from a multiple of the identity: near a solution one of them is small in u and
+/// one in r, with a small relative error. A `Frame` is made from u and r and has numbers() of a
+/// point and of an InnerPoint, and its inverse point(). Both keep inner products.
 template <class Frame>
 class NesterovToddScaling {
  public:
@@ -214,10 +214,10 @@ struct SecondOrderCone {
   static ConePoint coordinates(const ConePoint& x) { return x; }
 };
 
-/// The operations of SecondOrderCone for the cone of two dimensions |x_1| <= x_0 (contacts of discs),
-/// which is two linear conditions. Points have the coordinates (x_0 + x_1)/2^0.5, (x_0 - x_1)/2^0.5
-/// and 0. The first two are > 0 inside the cone, and have small relative errors also near the
-/// boundary.
+/// The operations of SecondOrderCone for the cone of two dimensions |x_1| <= x_0 (contacts of
+/// discs), which is two linear conditions. Points have the coordinates (x_0 + x_1)/2^0.5, (x_0 -
+/// x_1)/2^0.5 and 0. The first two are > 0 inside the cone, and have small relative errors also
+/// near the boundary.
 struct LinearCones {
   /// The frame of NesterovToddScaling: the numbers of a point are its coordinates.
   struct Coordinates {

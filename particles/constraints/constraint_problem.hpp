@@ -153,7 +153,8 @@ struct ConstraintProblem {
   std::vector<ConstraintRow> rows;      ///< rows of all blocks, in the order of the blocks
   std::vector<ConstraintBlock> blocks;  ///< all contacts and links
   std::vector<double> impulses;         ///< of the rows [M L/T]: a guess, then the solution
-  /// True if no contact with friction has kCoulomb, so that the solution minimises a convex function.
+  /// True if no contact with friction has kCoulomb, so that the solution minimises a convex
+  /// function.
   bool is_convex = false;
   /// True if an approximate solution of a convex problem is enough.
   bool is_rough = false;
@@ -204,9 +205,9 @@ std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
 template <int D>
 void give_loads(ConstraintProblem<D>& problem);
 
-/// The mobilities of the rows of `block` [T/M], > 0 in rows of contacts, otherwise >= 0: by how much
-/// a unit impulse on a row changes its value, the diagonal of J h M^-1 J^T. Those of rows of angles
-/// are in [T/(M L^2)]. In place of two diagonal entries both tangential rows have the larger
+/// The mobilities of the rows of `block` [T/M], > 0 in rows of contacts, otherwise >= 0: by how
+/// much a unit impulse on a row changes its value, the diagonal of J h M^-1 J^T. Those of rows of
+/// angles are in [T/(M L^2)]. In place of two diagonal entries both tangential rows have the larger
 /// eigenvalue of their part of the matrix, which does not depend on the choice of the tangents.
 template <int D>
 std::array<double, kMostRows> block_mobilities(const ConstraintProblem<D>& problem,

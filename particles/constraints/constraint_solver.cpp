@@ -98,9 +98,10 @@ class Iteration {
     gained_residual_ = best_.result.residual;
     gained_at_ = best_.result.iterations;
   }
-  /// True if the best residual was not halved in the last iterations. With 2000 in place of 3000 and
-  /// Coulomb's law, three more of the 200 steps of bench/box2d.cpp ended without a solution. Convex
-  /// problems whose loads are not given take 20 to 70 iterations, unless they have no solution.
+  /// True if the best residual was not halved in the last iterations. With 2000 in place of 3000
+  /// and Coulomb's law, three more of the 200 steps of bench/box2d.cpp ended without a solution.
+  /// Convex problems whose loads are not given take 20 to 70 iterations, unless they have no
+  /// solution.
   bool is_stagnant() const {
     constexpr int kPatience = 3000, kPatienceOfCones = 300;
     return best_.result.iterations - gained_at_ > (has_cones_ ? kPatienceOfCones : kPatience);
@@ -237,8 +238,8 @@ class Iteration {
         take_convex_steps(std::min(max_iterations, best_.result.iterations + kMostNear)))
       return;
     // No sweeps are made first. They seldom solve a problem, and the time of interior points does
-    // not depend on their start. If rows are redundant, impulses found by sweeps depend on the order
-    // of the rows, and those found by interior points do not.
+    // not depend on their start. If rows are redundant, impulses found by sweeps depend on the
+    // order of the rows, and those found by interior points do not.
     find_interior_solution(max_iterations);
     if (!problem_.is_rough) take_convex_steps(max_iterations);
   }

@@ -144,7 +144,8 @@ void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
   residuals_.emplace_back();
 }
 
-/// Finds the islands of `system`, in the order of their first bodies, with their contacts and links.
+/// Finds the islands of `system`, in the order of their first bodies, with their contacts and
+/// links.
 template <int D>
 void ConstraintSystem<D>::find_islands(ContactSystem<D>& system) {
   islands_.clear();
@@ -465,8 +466,8 @@ bool ConstraintSystem<D>::solve_with_given_loads(ConstraintProblem<D>& problem,
 /// further iterations or corrections make no progress. Returns true if it is solved. The loads are
 /// those of a solution without friction if `have_diverged`, because those of the present
 /// impulses have no meaning then, and where these do not lead to a solution. Returns false, and
-/// leaves the problem and `solution` as they are, if no contact has such loads, or if links contradict
-/// each other. Adds the iterations to `result` in any case.
+/// leaves the problem and `solution` as they are, if no contact has such loads, or if links
+/// contradict each other. Adds the iterations to `result` in any case.
 template <int D>
 bool ConstraintSystem<D>::give_up(Island& island, bool have_diverged,
                                   ConstraintSolution<D>& solution, SolverResult& result) {
@@ -561,11 +562,12 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
                                                int max_iterations) {
   auto& problem = island.problem;
   // Each correction multiplies the error by about the turn of the bodies in the step [rad]. With
-  // turns of 1 it gains little. Corrections diverge if they grow kPatience times in succession, or if
-  // kMostWithoutGain of them do not halve the largest correction, which a factor of 0.87 would do.
-  // Either the constraints contradict each other, or the step is too long.
+  // turns of 1 it gains little. Corrections diverge if they grow kPatience times in succession, or
+  // if kMostWithoutGain of them do not halve the largest correction, which a factor of 0.87 would
+  // do. Either the constraints contradict each other, or the step is too long.
   constexpr int kPatience = 3, kMostWithoutGain = 5;
-  // A correction is fast if it is below kFast of the one before. All these numbers are free choices.
+  // A correction is fast if it is below kFast times the one before. All these numbers are free
+  // choices.
   constexpr double kFast = 0.1;
   // An unsolved problem is still corrected if its residual is this small part of the correction.
   constexpr double kSmallPart = 1e-3;

@@ -1,9 +1,10 @@
 // The contacts with friction, rigid bodies and links (hinges, springs, arms, membranes) of a time
-// step on particles that turn: makes the problem of constraint_problem.hpp, solves it, and writes
-// the solution to contacts, particles and bodies. Lengths [L], masses [M] and times [T] are in any
-// consistent units; D is 2 (discs) or 3 (spheres). Nothing is checked or thrown; residual() and
-// link_residual() tell whether a step is solved. projection/ uses it. Results depend on the order
-// of units, contacts and links; restart files store the link forces in their order.
+// step on particles that turn; a unit is a particle or rigid body that moves as one. Makes the
+// problem of constraint_problem.hpp, solves it, and writes the solution to contacts, particles and
+// bodies. Lengths [L], masses [M] and times [T] are in any consistent units; D is 2 (discs) or 3
+// (spheres). Nothing is checked or thrown; residual() and link_residual() tell whether a step is
+// solved. projection/ uses it. Results depend on the order of units, contacts and links; restart
+// files store the link forces in their order.
 #pragma once
 
 #include <cstddef>
@@ -72,14 +73,15 @@ class ConstraintSystem {
   /// solve().
   std::vector<double> slips_allowed;
 
-  /// Solves the step, each island of `system` by itself, so that its solution does not depend on the
-  /// others. An island without contacts that were added since it was solved as accurately remains as
-  /// it is. Sets the impulses of the contacts of `system`, the displacements and turns of its
-  /// particles, the motions of the rigid bodies, and the forces of the links. If `is_rough`, all
-  /// residuals may be `roughly_allowed` [L], > 0. Otherwise those of gaps, slips and links may be
-  /// Contact::allowed, slips_allowed and links_allowed. Returns the number of iterations of
-  /// the island with the most in all calls, at most about `max_iterations`, and the largest residual of the last
-  /// problems plus the largest correction that would follow, both over what is allowed [1].
+  /// Solves the step, each island of `system` by itself, so that its solution does not depend on
+  /// the others. An island without contacts that were added since it was solved as accurately
+  /// remains as it is. Sets the impulses of the contacts of `system`, the displacements and turns
+  /// of its particles, the motions of the rigid bodies, and the forces of the links. If `is_rough`,
+  /// all residuals may be `roughly_allowed` [L], > 0. Otherwise those of gaps, slips and links may
+  /// be Contact::allowed, slips_allowed and links_allowed. Returns the number of iterations of the
+  /// island with the most in all calls, at most about `max_iterations`, and the largest residual of
+  /// the last problems plus the largest correction that would follow, both over what is allowed
+  /// [1].
   ///
   /// The equations of a problem are linear in the motions. The problem is therefore solved again,
   /// with offsets corrected by the difference between the lengths of links and the gaps of bodies
@@ -90,8 +92,8 @@ class ConstraintSystem {
   ///
   /// If Coulomb's law is not solved in `max_iterations`, the friction of the island is bounded by
   /// the loads of the best iterate, in this and all later calls, so that at least gaps, films and
-  /// links are exact. If these loads are so large that this fails, too, the friction is bounded by the loads
-  /// of a solution without friction. residual() remains that of Coulomb's law.
+  /// links are exact. If these loads are so large that this fails, too, the friction is bounded by
+  /// the loads of a solution without friction. residual() remains that of Coulomb's law.
   ///
   /// The convex relaxation (5.9) has no solution where friction locks particles that must move. If
   /// iterations no longer reduce its residual, the friction is bounded by the loads of a solution
@@ -116,13 +118,12 @@ class ConstraintSystem {
   const BlockResidual& residual(std::size_t c) const { return residuals_[c]; }
   /// Residual of link `l` of links() in the last solution [L]; of angles times the mean radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
-  /// By how much the motion that violates the constraints of the last solve() least violates each
-  /// of them [L], angles times the mean radius, >= 0: first of all contacts, then of all links.
-  /// That motion has the least sum of v^2/w over the rows of rigid links and the negative gaps,
-  /// with the value v and the mobility w of a row. If some motion satisfies all of these
-  /// constraints, the result is 0 but for rounding errors. Otherwise they contradict each other:
-  /// together the impulses v/w move nothing (Farkas' lemma), and constraints without a part in this
-  /// have 0.
+  /// For each constraint of the last solve(), first all contacts, then all links, its violation
+  /// [L], >= 0, angles times the mean radius, by the motion that violates all of them least. That
+  /// motion has the least sum of v^2/w over the rows of rigid links and the negative gaps, with the
+  /// value v and the mobility w of a row. If some motion satisfies all of these constraints, the
+  /// result is 0 but for rounding errors. Otherwise they contradict each other: together the
+  /// impulses v/w move nothing (Farkas' lemma), and constraints without a part in this have 0.
   std::vector<double> least_violations() const;
 
  private:
@@ -177,7 +178,7 @@ class ConstraintSystem {
   std::vector<double> free_turns_;     // h w* of all particles
   std::vector<BodyStep> free_bodies_;  // motions of bodies without contacts and links
   std::vector<LinkEquations> links_;
-  std::vector<ContactTangents<D>> tangents_;  // of all contacts, as the next three
+  std::vector<ContactTangents<D>> tangents_;  // of all contacts, as are the next three arrays
   std::vector<Vector> frictions_;             // impulses of friction [M L/T]
   std::vector<double> carried_;               // parts of the impulses that solids carry [M L/T]
   std::vector<BlockResidual> residuals_;

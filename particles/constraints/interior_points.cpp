@@ -303,8 +303,9 @@ double InteriorPoints<D>::length_to_boundary() const {
 }
 
 /// Sets the goals of the corrector, from the changes of the predictor, whose step has the `length`,
-/// and from gap_ before it. The corrector aims at equal products of all u and r, the smaller the
-/// more the predictor reduces gap_, and corrects the product of the predictor's changes.
+/// and from gap_ before it. The corrector aims at equal products of all u and r, which are the
+/// smaller, the more the predictor reduces gap_, and corrects the product of the predictor's
+/// changes.
 template <int D>
 void InteriorPoints<D>::set_corrector(double gap_before, double length) {
   double after = 0;
@@ -391,10 +392,10 @@ void InteriorPoints<D>::start(double size) {
 template <int D>
 int InteriorPoints<D>::solve(double accuracy, int max_iterations) {
   // If the error is below kNear times its size at the start, and an iteration does not reduce it to
-  // kSlow of the least one, only rounding errors are left.
+  // kSlow times the least error so far, only rounding errors are left.
   constexpr double kNear = 1e-6, kSlow = 0.5;
-  // The second solution of find_direction() is worth its time in the last iterations only: when the
-  // error divided by its size at the start is below kNearEnd and below kNearAccuracy * accuracy.
+  // The second solution of find_direction() saves iterations only near the end: when the error
+  // divided by its size at the start is below kNearEnd and below kNearAccuracy * accuracy.
   constexpr double kNearAccuracy = 1e3, kNearEnd = 1e-3;
   set_parts();
   // The least impulses that are allowed, and the motions with these.

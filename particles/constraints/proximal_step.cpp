@@ -198,7 +198,7 @@ void ProximalStep<D>::find_direction() {
 template <int D>
 double ProximalStep<D>::length_of_step(double before) {
   if (problem_.is_convex) return length_to_minimum();
-  // The step is halved until the error falls by kPromised of its fall in a linear equation.
+  // The step is halved until the error falls by kPromised times its fall in a linear equation.
   constexpr double kPromised = 0.1;
   constexpr int kMostHalvings = 8;
   double length = 1;
@@ -208,7 +208,8 @@ double ProximalStep<D>::length_of_step(double before) {
 }
 
 /// Length of a step, in (0, 1], that ends near the minimum along direction_ of the convex function
-/// whose gradient is -error_: where its derivative along direction_ is kReached of the first.
+/// whose gradient is -error_: where its derivative along direction_ is kReached times the first
+/// one.
 template <int D>
 double ProximalStep<D>::length_to_minimum() {
   constexpr double kReached = 0.1;
@@ -293,11 +294,12 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     const double here = error_at(0, true);
     // For discs the equation is linear as long as no branch changes, so that a step of length 1
     // without a change of a branch ends at the solution, but for rounding errors. For spheres it
-    // must also have an error of kExact of the first one, or not be able to halve the error again.
+    // must also have an error of kExact times the first one, or not be able to halve the error
+    // again.
     const bool is_linear = D == 2 || here <= kExact * first ||
                            ((is_fresh || !problem_.is_convex) && here > before / 2);
     // For spheres the matrix also changes while they slip. In convex problems it is factorised
-    // again if a step with earlier factors did not reduce the error to kSlow of it.
+    // again if a step with earlier factors did not reduce the error to kSlow times its size.
     if (D == 3 && problem_.is_convex && !is_fresh && here > kSlow * before) has_factor_ = false;
     if (here == 0 || (length == 1 && last == branches_ && is_linear)) break;
     // In convex problems the error may grow on the way to the minimum. If it is of the size of

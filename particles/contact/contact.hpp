@@ -133,8 +133,8 @@ std::array<double, D> relative_displacement(const Contact<D>& contact,
   return w;
 }
 
-/// The gap after the step as gap_after(), but along the line of both centres after the step. It is
-/// at least the linearised gap. If that line has no positive component along the normal (the
+/// The gap after the step as gap_after(), but along the line through both centres after the step.
+/// It is at least the linearised gap. If that line has no positive component along the normal (the
 /// particles have passed each other), and for an obstacle, it is the linearised gap.
 template <int D>
 double distance_after(const Particles& p, const Contact<D>& contact,

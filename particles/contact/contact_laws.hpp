@@ -23,7 +23,7 @@ namespace viscontact::particles {
 
 /// Radii of both surfaces of a pair [L].
 struct PairRadii {
-  /// Of a particle > 0; infinite for a plane; minus the radius for a circle around the particle.
+  /// > 0 for a particle; infinite for a plane; minus the radius for a circle around the particle.
   double first = std::numeric_limits<double>::infinity();
   double second = 0;  ///< of the second surface, which is that of a particle, > 0
 };

@@ -24,7 +24,7 @@ struct PeriodicCell {
   Vector lengths{};  ///< periods along x, y and z [L]; 0 where there is no period
   /// Mean gradient du/dx, du/dy, dv/dx, dv/dy of the velocity (u, v) of a fluid in the cell [1/T],
   /// in two dimensions only. An image moves relative to its particle with the velocity gradient
-  /// times shift, where the shift is the one at the start. Zeros without a fluid.
+  /// times its shift at the start. Zeros without a fluid.
   std::array<double, 4> gradient{};
   double moved_for = 0;  ///< time since the start, when the shifts were along the axes [T], >= 0
 

@@ -330,7 +330,7 @@ void ContactProblem::solve_dense() {
                            dense_w(contacts_, responses_, conditions_.layout));
   DenseFactor factor(conditions_.velocity_error);
   const int most = conditions_.solver.max_iterations - iterations_;
-  constexpr int kNewtonSteps = 50;  // a free choice; Newton's method needs a few or cycles
+  constexpr int kNewtonSteps = 50;  // a free choice; Newton's method needs few steps, or cycles
   auto solved = active_set_newton(problem, factor, std::min(most, kNewtonSteps));
   if (!(solved.residual <= 1))
     solved.iterations += solve_by_gradients(problem, most - solved.iterations);

@@ -248,7 +248,7 @@ void Blow::restrain(const StepContacts& compressed, StepContacts& restored) cons
   };
   if (!(work(1) > 0)) return;
   double low = 0, high = 1;
-  constexpr int kHalvings = 50;  // to about rounding
+  constexpr int kHalvings = 50;  // reach about rounding errors
   for (int n = 0; n < kHalvings; ++n) {
     const double middle = (low + high) / 2;
     (work(middle) > 0 ? high : low) = middle;
@@ -257,7 +257,7 @@ void Blow::restrain(const StepContacts& compressed, StepContacts& restored) cons
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     auto& contact = restored.contacts[c];
     go_back(compressed.contacts[c].impulse, contact.impulse);
-    // measure_residuals() then takes the impulse for one at its bound, so that the gap may open.
+    // The impulse is then at its bound, so that measure_residuals() allows the gap to open.
     contact.lowest = contact.impulse;
   }
   for (std::size_t i = 0; i < restored.loads.size(); ++i) {

@@ -262,8 +262,9 @@ Particles moved(const Particles& p, std::span<const double> velocities, double h
   return result;
 }
 
-/// Adds to the gaps of contacts of plates what the gap after the step, in which plates turn by
-/// finite angles, exceeds the linearised one. Returns false, and changes nothing, if that is at
+/// Adds to the gaps of contacts of plates the amount by which the gap after the step, in which
+/// plates turn by finite angles, exceeds the linearised gap. Returns false, and changes nothing, if
+/// the amount is at
 /// most a quarter of the tolerance for each contact that may act.
 bool correct_turns(StepContacts& step, const Particles& p, const Fluid& fluid,
                    std::span<const PlanePosition> obstacles, const ContactConditions& conditions) {

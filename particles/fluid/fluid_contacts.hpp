@@ -91,8 +91,8 @@ struct ContactConditions {
   /// Relative error >= 0 of velocities and of the mobility. Residuals cannot be smaller than what
   /// it causes.
   double velocity_error = 0;
-  /// Impulse of a force in the step over h times the force; 1 but in a fluid with inertia, where it
-  /// is the length of the step before over h (BlowStep::kick) [1], > 0.
+  /// Impulse of a force in the step over h times the force: 1, except in a fluid with inertia,
+  /// where it is the length of the step before over h (BlowStep::kick) [1], > 0.
   double share_of_impulse = 1;
   /// If a unit force of a contact changes the velocity of its gap, or of its slip, by no more than
   /// this [T/M], >= 0, hinges hold the gap or slip, which then takes no part; 0: hinges hold none.
@@ -161,8 +161,8 @@ class ContactProblem {
   /// next solution begins with the impulses found. A solution that `is_rough` has wider tolerances
   /// and saves products: it serves to see which other contacts take part. Returns whether the
   /// residuals of all contacts are within the tolerances; false if they are not after
-  /// SolverSettings::max_iterations or a fixed number of rounds. Without contacts true. Throws what
-  /// the mobility throws.
+  /// SolverSettings::max_iterations or a fixed number of rounds. True if there are no contacts.
+  /// Throws what the mobility throws.
   [[nodiscard]] bool solve(bool is_rough);
 
   /// All contacts, in the order in which they were added, with the impulses of the last solve().

@@ -1,7 +1,8 @@
 // Makes bodies rigid, and hinges and arms hold, at the end of a step in a fluid: functions of
 // FluidSimulation that its solve() calls. The fluid solver keeps linear conditions on velocities,
 // the rows (held_rows.hpp). These hold bodies and links to first order in the motion only, because
-// they turn by finite angles; here velocities are changed until the rest is within the tolerance.
+// they turn by finite angles; here velocities are changed until the remaining error is within the
+// tolerance.
 // Velocities are in [L/T, 1/T], forces of rows in [M L/T^2, M L^2/T^2]; fluid_simulation.hpp and
 // held_rows.hpp have the shapes. hold_after_step() throws Error(kNotConverged) if a length or place
 // would be off by more than a mean radius, hold_with_contacts() what solve_contacts() throws. A
@@ -40,8 +41,8 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
                                                      bool& holds) const {
   const auto of_flow = held_->row_forces();
   auto forces = of_flow;
-  // The forces of the rows that belong to the difference of `velocities` and `flow`, by which the
-  // velocities were extrapolated.
+  // `velocities` were extrapolated from `flow`. The forces of the rows that belong to the
+  // difference are added.
   auto extrapolated = velocities;
   for (std::size_t i = 0; i < flow.size(); ++i) extrapolated[i] -= flow[i];
   add_elements(held_->row_forces_for(extrapolated), forces);

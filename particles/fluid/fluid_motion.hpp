@@ -25,7 +25,8 @@
 
 namespace viscontact::particles {
 
-/// The largest absolute value; infinity if a number is NaN, so that comparisons see it; 0 of none.
+/// The largest absolute value; infinity if a number is NaN, so that comparisons see it; 0 if there
+/// are no numbers.
 inline double largest_magnitude(std::span<const double> numbers) {
   double largest = 0;
   for (const double x : numbers)
@@ -57,12 +58,12 @@ struct BlowStep {
 /// they press.
 struct FluidBlow {
   /// All contacts of the step, in the order of StepContacts::contacts. Contact::impulse is that of
-  /// the whole blow [M L/T]. Contact::lowest, its lower bound, is gamma, but for a contact whose
-  /// solids rebound the least impulse with which they give back their share, and for all contacts
-  /// the impulse itself if the blow was weakened so that it adds no energy.
+  /// the whole blow [M L/T]. Contact::lowest is its lower bound: gamma, or, if the solids of the
+  /// contact rebound, the least impulse with which they give back their share. If the blow was
+  /// weakened so that it adds no energy, it is the impulse itself.
   std::vector<Contact<2>> contacts;
-  /// For each contact the impulse from which its film takes up what it can [M L/T]: the whole
-  /// impulse, but gamma before the step minus gamma after it where solids rebound.
+  /// For each contact the impulse that is offered to its film [M L/T]: the whole impulse, or, if
+  /// its solids rebound, gamma before the step minus gamma after it.
   std::vector<double> absorbed;
   std::vector<double> loads;       ///< contact forces, impulses over `kick`, on each particle
   std::vector<double> velocities;  ///< after the blow
@@ -100,7 +101,7 @@ struct FluidSimulation::Motion {
   std::vector<double> kept;
   StepContacts contact;           ///< the contacts of the step, solved
   std::optional<FluidBlow> blow;  ///< takes the place of `contact` if solids rebound
-  std::vector<double> after;      ///< velocities after the blow; without one as `linear`
+  std::vector<double> after;      ///< velocities after the blow; `linear` if there is none
   /// Errors >= 0 of the impulses, one for each of contact.contacts [M L/T]: those of the blow if
   /// there is one. examine() sets it; empty before.
   std::vector<double> impulse_errors;

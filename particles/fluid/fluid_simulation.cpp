@@ -50,7 +50,8 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
       pool_(1),
       obstacles_(obstacles_of(setting_)) {
   auto& p = state_.particles;
-  // A restart file of a run without a fluid has no velocities of the step before, and may have blows.
+  // A restart file of a run without a fluid has no velocities of the step before, and may have
+  // blows.
   if (state_.earlier_velocities.empty()) state_.earlier_step = 0;
   state_.blows = {};
   auto& film = setting_.laws.film;

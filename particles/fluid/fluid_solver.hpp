@@ -76,7 +76,8 @@ struct FlowQuantities {
   std::vector<double> fluid_forces;
   // In a fluid with inertia:
   double kinetic_energy = 0;  ///< of the fluid [M L^2/T^2], >= 0
-  /// Largest way of the fluid in a step relative to the mesh, over the size of a triangle [1].
+  /// Largest distance that the fluid moves in a step relative to the mesh, over the size of the
+  /// triangle [1].
   double courant_number = 0;
   /// Flow [L^2/T] and mean pressure [M/(L T^2)] of each of Fluid::probes.
   std::vector<std::array<double, 2>> probes{};
@@ -100,7 +101,7 @@ using viscontact::FlowField;
 /// Each function that asks the solver throws Error(kExternalProgram) with the last lines of the
 /// solver if the solver ends, is late or answers with anything but finite numbers,
 /// Error(kInterrupted) if a stop was requested, and Error(kNotConverged) if an argument is not
-/// finite. That place() was called and that arrays have their sizes is not checked, but by asserts.
+/// finite. That place() was called and that arrays have their sizes is checked by asserts only.
 class FluidSolver {
  public:
   virtual ~FluidSolver() = default;

@@ -25,7 +25,7 @@ struct HeldRow {
   /// Places of velocities in the array of all particles (MotionLayout), with their coefficients
   /// [1], or [L] of an angular velocity in a sum that is a velocity.
   std::vector<std::pair<std::size_t, double>> entries;
-  double rate = 0;  ///< [L/T], [1/T]; not used of a spring
+  double rate = 0;  ///< [L/T], [1/T]; not used for a spring
   /// Part of the sum by the motion of periodic images relative to particles in a sheared cell
   /// [L/T].
   double image_rate = 0;

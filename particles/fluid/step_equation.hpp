@@ -91,8 +91,8 @@ class StepEquation {
   /// Coupling::kSplitting projects velocities; in a fluid without inertia inertia().
   std::vector<double> inertia_of_projection() const;
 
-  /// By how much a mean force in the step changes the velocity at its end [T/M, T/(M L^2)]: h/m. It
-  /// is the inverse of the Stokes drag of particles without mass, and 0 of driven particles.
+  /// By how much a mean force in the step changes the velocity at its end [T/M, T/(M L^2)]: h/m.
+  /// For particles without mass it is the inverse of the Stokes drag, for driven ones 0.
   std::vector<double> mobility_of_step() const;
 
   /// In a fluid with inertia, without contact: particles move with U plus this share [1] of the
@@ -116,7 +116,7 @@ class StepEquation {
   /// link to a particle whose given velocity jumps.
   bool is_in_contact(std::int32_t k) const { return in_contact_[index_of(k)] != 0; }
 
-  /// Puts the particles of contacts with an impulse in contact, but driven ones. Returns true if
+  /// Puts the particles of contacts with an impulse in contact, except driven ones. Returns true if
   /// this changed an inertia, or the order of the step of a fluid with inertia: the step must be
   /// solved again.
   bool put_in_contact(std::span<const Contact<2>> contacts);

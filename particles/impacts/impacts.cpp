@@ -32,8 +32,8 @@ double root_of_falling(const Function& f, double from, double until) {
   constexpr int kMostSteps = 200;
   for (int n = 0; n < kMostSteps && at_high != 0; ++n) {
     double t = (low * at_high - high * at_low) / (at_high - at_low);
-    // If one end is the root but for rounding errors, the secant ends there, and bisection moves the
-    // other end.
+    // If one end is the root but for rounding errors, the secant ends there, and bisection moves
+    // the other end.
     if (!(t > low && t < high)) t = low + (high - low) / 2;
     if (!(t > low && t < high)) break;
     const double here = f(t);
@@ -128,9 +128,9 @@ typename Impacts<D>::Arm Impacts<D>::arm_of(std::int32_t k) const {
           free_spin(k) - before};
 }
 
-/// The rigid body of particle `k` with the orientation, the angular momentum and the angular velocity
-/// that it has at the time `t` with the blows so far. Its lists of members stay empty, because nobody
-/// needs them and a copy takes time.
+/// The rigid body of particle `k` with the orientation, the angular momentum and the angular
+/// velocity that it has at the time `t` with the blows so far. Its lists of members stay empty,
+/// because nobody needs them and a copy takes time.
 template <int D>
 RigidBody Impacts<D>::body_at(std::int32_t k, double t) const {
   const auto number = index_of(state_.particles.bodies.body_of(k));
@@ -143,9 +143,10 @@ RigidBody Impacts<D>::body_at(std::int32_t k, double t) const {
   return body;
 }
 
-/// The angular velocity of particle `k` at a blow at the time `t` [1/T]. That of a rigid body in space
-/// changes between blows, while spin(), with which its particles move, is constant. A blow needs the
-/// true velocity of the point at which it acts, because otherwise e_d = 1 would not keep the energy.
+/// The angular velocity of particle `k` at a blow at the time `t` [1/T]. That of a rigid body in
+/// space changes between blows, while spin(), with which its particles move, is constant. A blow
+/// needs the true velocity of the point at which it acts, because otherwise e_d = 1 would not keep
+/// the energy.
 template <int D>
 Vector Impacts<D>::spin_at(std::int32_t k, double t) const {
   return precesses(k) ? body_at(k, t).angular_velocity : spin(k);
@@ -216,9 +217,9 @@ Vector Impacts<D>::velocity_of(const Approach& approach, double t) const {
   return approach.velocity(t) - surface_of(approach, t);
 }
 
-/// Second derivative of the gap in time [L/T^2]. Of two particles it has only the part of the
-/// forces. At an obstacle it also has the part of the motion along a circle or at a plane that
-/// turns, which exists without a force.
+/// Second derivative of the gap in time [L/T^2]. For two particles it contains only the part
+/// of the forces. At an obstacle it also contains the part of the motion along a circle or at a
+/// plane that turns, which exists without a force.
 template <int D>
 double Impacts<D>::acceleration_of_gap(const Approach& approach, double t) const {
   const Vector n = normal_of(approach, t);
@@ -237,10 +238,10 @@ double Impacts<D>::acceleration_of_gap(const Approach& approach, double t) const
   return acceleration + dot(turns, 2.0 * u + cross(obstacle.angular_velocity, arm));
 }
 
-/// The first time in [`from`, `until`] at which the gap closes; std::nullopt if it stays open. After
-/// a blow the gap is 0 but for rounding errors, of either sign. A gap that opens at `from` therefore
-/// closes when it falls to 0, or, if it is < 0 at `from`, to its value there. The velocity of an
-/// obstacle must not jump between the two times.
+/// The first time in [`from`, `until`] at which the gap closes; std::nullopt if it stays open.
+/// After a blow the gap is 0 but for rounding errors, of either sign. A gap that opens at `from`
+/// therefore closes when it falls to 0, or, if it is < 0 at `from`, to its value there. The
+/// velocity of an obstacle must not jump between the two times.
 template <int D>
 std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, double from,
                                                   double until) const {
@@ -274,7 +275,8 @@ std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, doub
     return t <= until ? std::optional(t) : std::nullopt;
   }
   // With the normal n at `from`, the gap at the time from + s is gap + rate s + curvature s^2. Two
-  // particles that leave each other turn around each other, which adds the second part of curvature.
+  // particles that leave each other turn around each other, which adds the second part of
+  // curvature.
   double curvature = dot(n, approach.acceleration(from)) / 2;
   if (obstacle == nullptr && rate > 0)
     curvature += (dot(v, v) - rate * rate) / (2 * (approach.sum + gap + closed));
@@ -329,7 +331,8 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   // the pair touched at the beginning of the step and neither approached nor opened faster than
   // `unseen`, or, if it bore a load, approached no faster than `pulled`. Such a pair is hit only if
   // it approaches faster than `pulled`, because slower hits would keep a packing shaking. A pair
-  // without load that opens is in the flight after a blow, also if its gap is still below `touching`.
+  // without load that opens is in the flight after a blow, also if its gap is still below
+  // `touching`.
   const double pulled = 5 * step_.h *
                         std::max({std::abs(dot(normal, acceleration(of.second))),
                                   std::abs(dot(normal, acceleration(of.first))), std::abs(pull)});

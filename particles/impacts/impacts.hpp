@@ -114,8 +114,8 @@ class Impacts {
       return time != other.time ? time > other.time : pair > other.pair;
     }
   };
-  // The turning of a rigid body around its centre, for the place of a particle in it: after the time
-  // t of the step the body has turned by t rate - late. Without a body all members are 0.
+  // The turning of a rigid body around its centre, for the place of a particle in it: after the
+  // time t of the step the body has turned by t rate - late. Without a body all members are 0.
   struct Arm {
     Vector offset{};  // of the particle from the centre at the beginning of the step [L]
     Vector rate{};    // angular velocity, with the blows so far [1/T]
@@ -130,9 +130,9 @@ class Impacts {
     Vector at(double t) const { return offset + swing(t); }
     bool is_off_centre() const { return offset != Vector{}; }
   };
-  // The motion of the second particle of a pair: at the time t of the step, place() is the vector to
-  // its centre from that of the first particle, or, at an obstacle, from the origin. The parabola
-  // c + a t + b t^2 is the part that does not come from the turning of rigid bodies.
+  // The motion of the second particle of a pair: at the time t of the step, place() is the vector
+  // to its centre from that of the first particle, or, at an obstacle, from the origin. The
+  // parabola c + a t + b t^2 is the part that does not come from the turning of rigid bodies.
   struct Approach {
     Vector c{}, a{}, b{};
     Arm first{}, second{};

@@ -264,7 +264,8 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
         (problem.rows[block.row].offset + problem.product(block.row, changes)) / step_.h;
     Vector push{};
     for (std::size_t r = block.row; r < block.row + block.rows; ++r) {
-      // The coefficients of the first part are the direction in which the second particle is pushed.
+      // The coefficients of the first part are the direction in which the second particle is
+      // pushed.
       const auto& direction = problem.parts[problem.rows[r].first_part].coefficients;
       for (std::size_t d = 0; d < D; ++d) push[d] += problem.impulses[r] * direction[d];
     }

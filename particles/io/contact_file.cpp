@@ -69,8 +69,8 @@ Vector force_of(const CurrentContact& contact) {
   return contact.normal_force * contact.normal + contact.tangential_force;
 }
 
-/// Calls `visit` for each contact in the last step, and for each one of a blow in it, with the first
-/// particle or obstacle, the mean force on the second particle [M L/T^2], and the branch [L].
+/// Calls `visit` for each contact in the last step, and for each one of a blow in it, with the
+/// first particle or obstacle, the mean force on the second particle [M L/T^2], and the branch [L].
 template <class Visit>
 void for_forces(const Setting& setting, const State& state, const Visit& visit) {
   for (const auto& contact : contacts_of(setting, state))

@@ -34,8 +34,8 @@ struct ParticleFile {
 /// (read_csv()); for a value in a column of another dimension; for any other column, such as the
 /// semi-axes of ellipses that write_particles() writes; if some but not all components of the
 /// velocity have columns; for a radius or mass below 1e-100 (in a fluid a mass may be 0) and any
-/// number above 1e100 in magnitude; for more than 2^31 - 1 particles; and for an id that is missing,
-/// occurs twice or is not a whole number from 0 to 2^31 - 1.
+/// number above 1e100 in magnitude; for more than 2^31 - 1 particles; and for an id that is
+/// missing, occurs twice or is not a whole number from 0 to 2^31 - 1.
 ParticleFile read_particles(const std::filesystem::path& path, int dimension,
                             bool in_fluid = false);
 

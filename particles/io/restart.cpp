@@ -162,8 +162,8 @@ bool take_memories(const StoredArrays& arrays, State& state) {
   return true;
 }
 
-/// Sets the blows of the state from the arrays. Returns false if the arrays do not fit each other or
-/// the particles, or if the state has no last step.
+/// Sets the blows of the state from the arrays. Returns false if the arrays do not fit each other
+/// or the particles, or if the state has no last step.
 bool take_blows(const StoredArrays& arrays, State& state) {
   const auto count = arrays.blow_firsts.size();
   if (arrays.blow_impulses.size() != count || arrays.blow_branches.size() != count) return false;

@@ -16,10 +16,11 @@ namespace viscontact::particles {
 /// the particles, and which particles form rigid bodies, are not stored, because the case has them.
 std::string write_restart(const State& state);
 
-/// Reads a restart file of version 6 to 12, also one that begins with lines of provenance. Of rigid
-/// bodies only the motion is set. Throws Error(kBadInput), which names the file, if the file cannot
-/// be read, is not a restart file, has another version, is damaged, or was written with another
-/// byte order. Whether it fits a case is not checked here but in run/particles_earlier_run.hpp.
+/// Reads a restart file of version 6 to 12, also one that begins with lines of provenance. For
+/// rigid bodies only the motion is set. Throws Error(kBadInput), which names the file, if the file
+/// cannot be read, is not a restart file, has another version, is damaged, or was written with
+/// another byte order. Whether it fits a case is not checked here but in
+/// run/particles_earlier_run.hpp.
 State read_restart(const std::filesystem::path& path);
 
 }  // namespace viscontact::particles

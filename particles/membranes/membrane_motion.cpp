@@ -142,7 +142,7 @@ Eigen::MatrixXd Membranes::area_columns(const Eigen::VectorXd& positions) const 
 /// The matrix of Newton's method for step(). Its unknowns are scaled to lengths, so that its
 /// entries have similar sizes. They are the positions [L]; the tensions over `unit`, a force per
 /// length [M/T^2]; and the pressures times the norm of their column of area_columns(), over `unit`.
-/// MembraneMotion::flow_forces must be without the loads.
+/// MembraneMotion::flow_forces must not contain the loads of step().
 Eigen::MatrixXd Membranes::step_matrix(double time, const FluidAnswer& answer,
                                        const Eigen::VectorXd& positions,
                                        const MembraneMotion& motion, double unit) const {
@@ -186,9 +186,10 @@ bool Membranes::solve_step(const Eigen::VectorXd& from, double time, const Fluid
   }
   // The limit is a free choice.
   constexpr int kMostRounds = 30;
-  // Newton's method is quadratic: after a change of the positions by less than kExact of their
-  // size, the next one would be a rounding error. In stiff membranes rounding errors are larger.
-  // Therefore a change below kRounding and above half of the one before also ends the method.
+  // Newton's method is quadratic: after a change of the positions by less than kExact times
+  // their size, the next one would be a rounding error. In stiff membranes rounding errors are
+  // larger. Therefore a change below kRounding and above half of the one before also ends the
+  // method.
   constexpr double kExact = 1e-9, kRounding = 1e-6;
   double last = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds; ++round) {

@@ -26,8 +26,8 @@ std::string particles_picture(const Playback& original, const std::string& title
 /// the page is limited to about 24 MB. If the motion is too long for that, only every 2nd, 4th, ...
 /// frame is shown, and always the first and the last one; if two frames are still too large, no
 /// contacts are shown. Of more than 200 000 particles only every n-th is shown. The page says what
-/// it leaves out. `title` is plain text. The flows that it shows go to `flows`, if that is not null.
-/// Throws the errors of particles_picture().
+/// it leaves out. `title` is plain text. The flows that it shows go to `flows`, if that is not
+/// null. Throws the errors of particles_picture().
 std::string particles_page(const Playback& original, const std::string& title,
                            FlowFrames* flows = nullptr);
 

@@ -154,9 +154,10 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
   }
 }
 
-/// Solves for the impulses of the chosen contacts and of the links, after allow(). With constraints,
-/// half of `length` [L] is what a rough solution allows for all residuals. `iterations` were done in
-/// this step before. Returns the number after the solution, which `max_iterations` limit.
+/// Solves for the impulses of the chosen contacts and of the links, after allow(). With
+/// constraints, half of `length` [L] is what a rough solution allows for all residuals.
+/// `iterations` were done in this step before. Returns the number after the solution, which
+/// `max_iterations` limit.
 template <int D>
 int StepProjection<D>::solve_contacts(bool is_rough, double length, int iterations,
                                       int max_iterations) {
@@ -186,8 +187,8 @@ void StepProjection<D>::allow(double length, double fraction, double of_slips) {
 }
 
 /// Returns `pairs` and, from the third round on, also pairs that are connected with them and whose
-/// gaps may close next: gaps up to the largest change of a displacement in an island. Otherwise each
-/// round would find only the next pair of a chain through which an impulse goes. The chain is
+/// gaps may close next: gaps up to the largest change of a displacement in an island. Otherwise
+/// each round would find only the next pair of a chain through which an impulse goes. The chain is
 /// followed over 1 pair in round 3, and over twice as many in each further round.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
@@ -218,10 +219,10 @@ std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
   return pairs_of_particles_->connected(pairs, depth, may_close);
 }
 
-/// Removes pairs from `pairs` whose gaps the free motion closes by no more than the allowed residual.
-/// Pairs with a film, or with an impulse in the step before, stay. The convex relaxation (5.9) lifts
-/// each pair that takes part and slides. For a particle that slides along an obstacle without load,
-/// rounding errors would decide whether the pair takes part.
+/// Removes pairs from `pairs` whose gaps the free motion closes by no more than the allowed
+/// residual. Pairs with a film, or with an impulse in the step before, stay. The convex relaxation
+/// (5.9) lifts each pair that takes part and slides. For a particle that slides along an obstacle
+/// without load, rounding errors would decide whether the pair takes part.
 template <int D>
 void StepProjection<D>::leave_touching(std::vector<std::size_t>& pairs,
                                        const SolverSettings& settings, double mean_radius) {
@@ -275,9 +276,9 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
     if (result.residuals.converged) break;
     if (is_last || (constraints_ && constraints_->has_given_up() && !is_convex)) {
-      // An island is not solved, or its friction is bounded by given loads in place of Coulomb's law.
-      // Pairs that solutions close are still added, also to other islands, in at most kMostRounds
-      // rounds, a free choice that bounds the time of such a step.
+      // An island is not solved, or its friction is bounded by given loads in place of Coulomb's
+      // law. Pairs that solutions close are still added, also to other islands, in at most
+      // kMostRounds rounds, a free choice that bounds the time of such a step.
       constexpr int kMostRounds = 20;
       if (!constraints_ || is_rough || more.empty() || ++rounds_unsolved > kMostRounds) break;
     }
@@ -404,8 +405,8 @@ ResidualScale ResidualScales<D>::of(const Contact<D>& contact) {
   const std::array particles{contact.first, contact.second};
   auto scale = of(particles, contact.w, std::abs(contact.gap));
   if (!has_constraints_) return scale;
-  // The errors are taken as 1 or, where bodies or links turn, 8 units in the last place of the radii
-  // and of the distances from the origin, because gaps are differences of coordinates.
+  // The errors are taken as 1 or, where bodies or links turn, 8 units in the last place of the
+  // radii and of the distances from the origin, because gaps are differences of coordinates.
   const double rounding =
       (system_.is_held(contact) ? 8 : 1) * std::numeric_limits<double>::epsilon();
   double lengths = 0;

@@ -47,11 +47,11 @@ struct ResidualScale {
 };
 
 /// The fraction of the impulse at work that ResidualScale::allowed() gets for slips [1], > 0. It
-/// keeps friction to its law in short steps, in which friction moves nothing by the tolerance of
-/// gaps. The fraction is larger than that of gaps, because redundant impulses in a packing must grow
-/// until the slips are allowed. With the default tolerance it is 1e-4, about what the tolerance of
-/// gaps allows in the steps of bench/box2d.cpp. With 1e-6, 1000 settled discs without films take
-/// twice as many iterations.
+/// keeps friction to its law in short steps, in which the slips are smaller than the tolerance of
+/// gaps. The fraction is larger than that of gaps, because redundant impulses in a packing must
+/// grow until the slips are allowed. With the default tolerance it is 1e-4, about what the
+/// tolerance of gaps allows in the steps of bench/box2d.cpp. With 1e-6, 1000 settled discs without
+/// films take twice as many iterations.
 inline double fraction_of_slips(const SolverSettings& settings) {
   constexpr double kOfTolerance = 100;
   return std::max(settings.impulse_tolerance, kOfTolerance * settings.tolerance);
@@ -79,8 +79,9 @@ class ResidualScales {
   /// Scales of a contact, from its own particles, w and gap. In a step with friction, bodies or
   /// links, rounding errors are at least the last place of the radii and of the distances of the
   /// particles from the origin, because smaller displacements of particles at rest are errors of
-  /// the solutions. Allowed residuals far from the origin are therefore larger. In an island with a rigid body or link
-  /// (ContactSystem::is_held()) they are larger, because finite turns move points of the surface.
+  /// the solutions. Allowed residuals far from the origin are therefore larger. In an island with a
+  /// rigid body or link (ContactSystem::is_held()) they are larger, because finite turns move
+  /// points of the surface.
   ResidualScale of(const Contact<D>& contact);
 
  private:
@@ -137,8 +138,9 @@ struct ProjectionResult {
 /// The step has converged if each contact meets two conditions, with its gap d after the step
 /// (ContactSystem::gap()), impulse p and change w of the gap per impulse. The residual
 /// |min(d, w (p - gamma))|, without the tolerated overlap, is at most half of
-/// SolverSettings::tolerance mean radii. The residual over w is at most SolverSettings::impulse_tolerance of the impulse at work,
-/// or within rounding errors. Links are measured likewise.
+/// SolverSettings::tolerance mean radii. The residual over w is at most
+/// SolverSettings::impulse_tolerance of the impulse at work, or within rounding errors. Links are
+/// measured likewise.
 template <int D>
 class StepProjection {
  public:

@@ -12,7 +12,7 @@
 namespace viscontact::particles {
 
 /// Writes particles.html and particles.svg from the frames (states at the output times) and flows
-/// that a run of the case has written into `folder`. Of a long run only every 2nd, 4th, ... frame
+/// that a run of the case has written into `folder`. For a long run only every 2nd, 4th, ... frame
 /// is used, so that the memory is bounded. `provenance` is stored in both files. Throws
 /// Error(kBadInput), which names the file, if a file cannot be read or written or has other
 /// particles than the case, or if there is no frame.

@@ -50,8 +50,9 @@ struct FluidStepReport {
   RelativeErrors force_errors;     ///< of the forces of the fluid on the particles
 };
 
-/// What is recorded of one step. For a contact, let d be its gap after the step [L], linearised
-/// except in groups that turn (ContactSystem::gap()), p its impulse [M L/T], gamma the lower bound
+/// What is recorded of one step. For a contact, let d be its gap after the step [L] as the problem
+/// of the step has it (ContactSystem::gap(): the linearised gap, except in groups that turn), p its
+/// impulse [M L/T], gamma the lower bound
 /// of p (minus the impulse that its film had absorbed before the step) [M L/T], and w the change of
 /// the gap per impulse [T/M].
 struct StepReport {
@@ -70,8 +71,8 @@ struct StepReport {
   /// Largest residual over what is allowed for its contact or link [1], >= 0; infinite if the step
   /// did not converge for another reason.
   double excess = 0;
-  /// Largest overlap -d after the step, divided by the mean radius [1]. The true overlap is at most
-  /// as large, because no gap is smaller than its linearised gap.
+  /// Largest overlap -d, divided by the mean radius [1]. The true overlap is at most as large,
+  /// because no true gap is smaller than d.
   double largest_overlap = 0;
   /// Number of parts into which the step was divided, 1 to 256, where particles move fast; 1 if no
   /// time was left for a step.
@@ -91,7 +92,7 @@ struct StepResiduals {
   double excess = 0;   ///< largest residual over what is allowed for its contact or link [1], >= 0
   /// Largest residual as an impulse, over the impulses at work in its contact or link [1], >= 0.
   double of_impulses = 0;
-  double smallest_gap = 0;  ///< smallest linearised gap after the step [L], at most 0
+  double smallest_gap = 0;  ///< smallest gap d of StepReport [L], at most 0
   Pair deepest_overlap;     ///< the pair with the smallest gap, if this is < 0
   bool converged = true;    ///< true if all residuals are allowed
   /// Residual of each contact over its Contact::w (change of the gap per impulse) [M L/T], >= 0.
@@ -104,7 +105,7 @@ struct StepResiduals {
   /// Takes the residual of an impulse into account. `at_work` >= 0 are the impulses at work, both
   /// [M L/T]; if they are 0, the residual is ignored.
   void take_impulse(double residual, double at_work);
-  /// Takes the linearised gap of a pair after the step into account [L]; NaN stays the smallest.
+  /// Takes the gap d (StepReport) of a pair into account [L]; NaN stays the smallest.
   void take_gap(double gap, const Pair& pair);
 };
 

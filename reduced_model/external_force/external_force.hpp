@@ -74,8 +74,9 @@ class ExternalForce {
 
   /// The times [T] in (0, end), end > 0, at which f_ext changes its sign, by a jump or through 0,
   /// in increasing order; none if there are no changes. In a piece without sinusoids all of them
-  /// are found. In other pieces two of them can be missed if they are closer to each other than 1/32
-  /// of the shortest period. Throws Error(kNotConverged) if `end` is beyond about 3e4 of these periods.
+  /// are found. In other pieces two of them can be missed if they are closer to each other than
+  /// 1/32 of the shortest period. Throws Error(kNotConverged) if `end` is beyond about 3e4 of these
+  /// periods.
   std::vector<double> sign_changes(double end) const;
 
  private:

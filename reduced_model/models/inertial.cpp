@@ -1,11 +1,11 @@
-// Integrates the equation of inertial_equation.hpp with CVODE: restarts it where the force jumps,
-// and makes rows at the required times and where the velocity changes its sign. q is the gap, Gamma
-// the primitive of the resistance R, m the mass, P = m dq/dt + Gamma(q); lengths, masses and times
-// are in any one system of units; motion.hpp and trajectory.hpp have the dimensions and ranges. A
-// CVODE that gives up and, with roughness, a force with too many periods are an
-// Error(kNotConverged), a gap outside the fit, too many rows and a start within the roughness an
-// Error(kBadInput), a stop an Error(kInterrupted). Used by models.cpp. A change of results must
-// raise kModelsRevision (trajectory.hpp).
+// Integrates the equation of inertial_equation.hpp with CVODE: restarts it where the external force
+// jumps, and makes rows at the required times and where the velocity changes its sign. q is the
+// gap, s = ln(q/radius) the unknown of CVODE, Gamma the primitive of the resistance R, m the mass,
+// P = m dq/dt + Gamma(q); lengths, masses and times are in any one system of units; motion.hpp and
+// trajectory.hpp have the dimensions and ranges. A CVODE that gives up and, with roughness, an
+// external force with too many periods are an Error(kNotConverged), a gap outside the fit, too many
+// rows and a start within the roughness an Error(kBadInput), a stop an Error(kInterrupted). Used by
+// models.cpp. A change of results must raise kModelsRevision (trajectory.hpp).
 #include "viscontact/reduced_model/models/inertial.hpp"
 
 #include <algorithm>
@@ -43,8 +43,8 @@ class InertialRun {
 
   Trajectory run() {
     auto stops = motion_.external_force.jumps();
-    // A stop is needed where the force changes its sign, because the force may pull the sphere off
-    // the solids there.
+    // A stop is needed where the external force changes its sign, because it may pull the sphere
+    // off the solids there.
     if (solid_gap_ > 0) {
       std::ranges::copy(motion_.external_force.sign_changes(motion_.end_time),
                         std::back_inserter(stops));
@@ -108,7 +108,8 @@ class InertialRun {
     const double restitution = motion_.restitution();
     double after = -restitution * before;
     const double pull = motion_.external_force.value(now_);
-    // Of end_time; a shorter flight counts as rest. viscous_contact_exact.cpp repeats it.
+    // A flight that is shorter than this part of end_time counts as rest.
+    // viscous_contact_exact.cpp has the same number.
     constexpr double kShortestFlight = 1e-6;
     rests_ =
         !(after > 0) || (pull < 0 && 2 * m * after < -pull * kShortestFlight * motion_.end_time);
@@ -117,7 +118,7 @@ class InertialRun {
     solid_impulse_ += m * (after - before);
     solid_work_ += m / 2 * (after - before) * (after + before);
     if (before < 0) {
-      // The velocity that the drag takes between the initial gap and the solids.
+      // The velocity that the sphere loses by the drag between the initial gap and the solids.
       const double film = (force_.impulse(motion_.initial_gap) - force_.impulse(solid_gap_)) / m;
       const double approach = before - film, leaving = std::max(0.0, after - film);
       trajectory_.rebounds.push_back({now_, approach, -m * before, leaving, leaving / -approach});
@@ -134,14 +135,15 @@ class InertialRun {
     return (equation_.momentum(now_) - force_.impulse(solid_gap_)) / motion_.mass;
   }
 
-  /// True if the force, which has one sign until the next stop, pulls the sphere off the solids.
+  /// True if the external force, which has one sign until the next stop, pulls the sphere off the
+  /// solids.
   bool leaves_solids() {
     if (!(motion_.external_force.mean(now_, stop_) > 0)) return false;
     rests_ = false;
     return true;
   }
 
-  /// Lets the sphere rest on the solids, which carry the force, until the time `stop`.
+  /// Lets the sphere rest on the solids, which carry the external force, until the time `stop`.
   void rest_until(double stop) {
     const double carried =
         motion_.external_force.impulse(stop) - motion_.external_force.impulse(now_);
@@ -191,8 +193,8 @@ class InertialRun {
   }
 
   InertialInstant instant_of(double t, double s) const {
-    // At the stop time the force has jumped, but the velocity has not. The force is therefore taken
-    // just before.
+    // At the stop time the external force has jumped, but the velocity has not. The force is
+    // therefore taken just before.
     const double force_time = t == stop_ ? std::nextafter(stop_, last_stop_) : t;
     return equation_.instant(t, equation_.gap_of(s), force_time);
   }
@@ -242,7 +244,7 @@ class InertialRun {
   InertialEquation equation_;
   double now_ = 0;  // end of the last step, or time of the restart
   Cvode cvode_;
-  double stop_ = 0, last_stop_ = 0;  // next and last jump of f_ext
+  double stop_ = 0, last_stop_ = 0;  // next and last time at which CVODE must stop
   double given_up_at_ = -1;          // time at which CVODE failed last; -1: it never did
   // Sign of the velocity when it was last larger than its error.
   double last_sign_ = 0;

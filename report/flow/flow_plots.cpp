@@ -36,7 +36,7 @@ struct PlotView {
   double stretch() const { return plot_height / window.height() / (plot_width / window.width()); }
 };
 
-// Of a plot: width, largest height, and height if heights are stretched [pixels].
+// Width of a plot, its largest height, and its height if heights are stretched [pixels].
 constexpr double kPlotWidth = 640;
 constexpr double kTallestPlot = 640;
 constexpr double kStretchedPlot = 360;

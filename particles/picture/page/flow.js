@@ -5,7 +5,7 @@
 // Nothing is checked or thrown. particles/picture/page/picture.js calls viscontactFlow.
 'use strict';
 const viscontactFlow = (() => {
-  const kNothing = 255, kLevels = 254;  // level of a point without flow; highest level of others
+  const kNothing = 255, kLevels = 254;  // level of a point without flow; highest level of a flow
   // Marks a line without an arrow; the number of steps of a coordinate across the window.
   const kNoArrow = 65535, kSteps = 65535;
 

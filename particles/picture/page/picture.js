@@ -294,7 +294,8 @@ function drawLinks() {
 let withContacts = true;  // whether the reader wants to see contacts
 
 // The colours of contacts: first without a film of fluid, from no friction to sliding, then with
-// one, from little to much impulse that it has absorbed. Contacts i are those of `lines`.
+// one, from little to much impulse that it has absorbed. `i` is the number of a
+// contact in `lines` (motion.js).
 const ofFriction = motion.friction.length ? motion.friction : [motion.touching];
 const colours = [...ofFriction, ...motion.colours];
 const slides = i => lines.friction[i] === 255;

@@ -251,8 +251,8 @@ TEST(RigidBodiesInACell, TwoDiscsHalfAPeriodApartDoNotDetermineTheirImages) {
 }
 
 TEST_P(RigidBodies, ABoxOfBodiesWithoutFrictionDoesNotDependOnTheirOrder) {
-  // Loads in a packing are not unique. Sweeps chose them by the order of the contacts, so that films
-  // differed, and positions by 6e-5.
+  // Loads in a packing are not unique. Sweeps chose them by the order of the contacts, so that
+  // films differed, and positions by 6e-5.
   constexpr int kBodies = 20, kInARow = 4;
   for (const double gamma_min : {-0.5, 0.0}) {
     SCOPED_TRACE(gamma_min);

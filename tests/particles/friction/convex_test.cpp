@@ -331,8 +331,9 @@ TEST(ConvexFrictionInThePlane, JammedDiscsThatComeToRestInTheirFilmsStaySolved) 
 
 TEST_P(ConvexFriction, EveryStepOfABodyThatFallsIntoACornerConverges) {
   // A body of three particles turns as it falls on two walls, so that corrections for its finite
-  // turns change the loads. With films, loads bound the friction. In space, 13 to 24 of the 60 steps
-  // failed with each film and each mu_s when each correction took the loads of the solution before.
+  // turns change the loads. With films, loads bound the friction. In space, 13 to 24 of the 60
+  // steps failed with each film and each mu_s when each correction took the loads of the solution
+  // before.
   const int dimension = GetParam();
   for (const double mu_s : {0.5, 1.0, 2.0})
     for (const double gamma_min : {-2.0, -0.5, 0.0}) {
@@ -361,8 +362,8 @@ TEST_P(ConvexFriction, EveryStepOfABodyThatFallsIntoACornerConverges) {
 
 TEST_P(ConvexFriction, EveryStepOfABodyInAWedgeOfMovingWallsConverges) {
   // The walls move downwards along themselves. For mu_s > 1 the relaxation turns the body so far in
-  // a step that corrections for finite turns do not converge. Friction then has given loads. Without
-  // them the speed grew to 88, and a step ended with an opening of 0.8.
+  // a step that corrections for finite turns do not converge. Friction then has given loads.
+  // Without them the speed grew to 88, and a step ended with an opening of 0.8.
   for (const double mu_s : {1.5, 2.0}) {
     SCOPED_TRACE(mu_s);
     auto setting = convex_setting(0.02, mu_s);
@@ -386,7 +387,8 @@ TEST_P(ConvexFriction, EveryStepOfABodyInAWedgeOfMovingWallsConverges) {
     run(simulation, 1, [&](const StepReport& report) {
       EXPECT_TRUE(report.converged) << report.time;
       with_given_loads += report.has_given_loads ? 1 : 0;
-      // The openings of the relaxation push the body out at up to 20 times the speed 0.5 of the walls.
+      // The openings of the relaxation push the body out at up to 20 times the speed 0.5 of the
+      // walls.
       EXPECT_LT(norm(simulation.state().particles.velocity(0)), 15) << report.time;
     });
     EXPECT_GT(with_given_loads, 0);
@@ -456,9 +458,9 @@ void add_locked_particle(State& state, Setting& setting, double corner) {
 }
 
 TEST_P(ConvexFriction, AGroupOfParticlesDoesNotFeelAnotherOneFarAwayWithEitherLaw) {
-  // Groups shared the accuracy of interior points, the order of sweeps, the number of iterations and
-  // of rough solutions, whose loads bound the friction of films, and given loads where one group had
-  // no solution. Then the positions of the first group changed by up to 0.1.
+  // Groups shared the accuracy of interior points, the order of sweeps, the number of iterations
+  // and of rough solutions, whose loads bound the friction of films, and given loads where one
+  // group had no solution. Then the positions of the first group changed by up to 0.1.
   for (const auto method : {FrictionMethod::kConvex, FrictionMethod::kFixedPoint})
     for (const bool is_fast : {false, true})
       for (const double gamma_min : {-0.3, 0.0}) {

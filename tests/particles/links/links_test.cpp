@@ -268,10 +268,10 @@ TEST(Arms, ParticlesThatAnArmHoldsInTouchTurnAsOneWhateverTheirContactWouldBe) {
 }
 
 TEST(Arms, ADiscWithoutRoomBetweenTwoThatAnArmHoldsTurnsWithThem) {
-  // The arm turns with the rate W = w - p/2, where p is the impulse of friction on each end. Friction
-  // sets off the ends with p/I and the disc between them with 2 p/I, for masses and radii of 1,
-  // until surfaces rest, 3 p/I = 2 W. When contacts were linear along the normals at the beginning
-  // of a step, they contradicted the arm, and the energy grew from 4 to 4661.
+  // The arm turns with the rate W = w - p/2, where p is the impulse of friction on each end.
+  // Friction sets off the ends with p/I and the disc between them with 2 p/I, for masses and radii
+  // of 1, until surfaces rest, 3 p/I = 2 W. When contacts were linear along the normals at the
+  // beginning of a step, they contradicted the arm, and the energy grew from 4 to 4661.
   constexpr double kInertia = 0.5;
   for (const auto method : {FrictionMethod::kFixedPoint, FrictionMethod::kConvex})
     for (const double w : {0.01, 1.0})
