@@ -405,15 +405,16 @@ ResidualScale ResidualScales<D>::of(const Contact<D>& contact) {
   const std::array particles{contact.first, contact.second};
   auto scale = of(particles, contact.w, std::abs(contact.gap));
   if (!has_constraints_) return scale;
-  // The errors are taken as 1 or, where bodies or links turn, 8 units in the last place of the
-  // radii and of the distances from the origin, because gaps are differences of coordinates.
-  const double rounding =
-      (system_.is_held(contact) ? 8 : 1) * std::numeric_limits<double>::epsilon();
+  // The errors are taken as 1 unit in the last place of the radii. Where bodies or links turn, they
+  // are 8 units, also of the distances from the origin, because lengths of links are differences of
+  // coordinates.
+  const bool is_held = system_.is_held(contact);
+  const double rounding = (is_held ? 8 : 1) * std::numeric_limits<double>::epsilon();
   double lengths = 0;
   for (const auto particle : particles)
     if (particle >= 0)
       lengths += state_.particles.radii[index_of(particle)] +
-                 norm(state_.particles.position(index_of(particle)));
+                 (is_held ? norm(state_.particles.position(index_of(particle))) : 0);
   scale.rounding = std::max(scale.rounding, rounding * lengths);
   return scale;
 }

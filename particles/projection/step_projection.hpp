@@ -77,11 +77,10 @@ class ResidualScales {
   /// the gap, of the displacements of the particles, and of a solution for all connected contacts.
   ResidualScale of(std::span<const std::int32_t> particles, double w, double length);
   /// Scales of a contact, from its own particles, w and gap. In a step with friction, bodies or
-  /// links, rounding errors are at least the last place of the radii and of the distances of the
-  /// particles from the origin, because smaller displacements of particles at rest are errors of
-  /// the solutions. Allowed residuals far from the origin are therefore larger. In an island with a
-  /// rigid body or link (ContactSystem::is_held()) they are larger, because finite turns move
-  /// points of the surface.
+  /// links, rounding errors are at least the last place of the radii, because smaller displacements
+  /// of particles at rest are errors of the solutions. In an island with a rigid body or link
+  /// (ContactSystem::is_held()) they are larger, because finite turns move points of the surface,
+  /// and grow with the distance of the particles from the origin.
   ResidualScale of(const Contact<D>& contact);
 
  private:

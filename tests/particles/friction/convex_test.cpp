@@ -395,6 +395,23 @@ TEST_P(ConvexFriction, EveryStepOfABodyInAWedgeOfMovingWallsConverges) {
   }
 }
 
+TEST_P(ConvexFriction, AFilmAbsorbsSmallImpulsesFarFromTheOrigin) {
+  // In a step a force moves the particles by 1e-10, less than the last place of their coordinates. The
+  // film absorbs its impulse, and as much is needed to pull the particles apart.
+  constexpr double kForce = 1e-6, kFar = 1e6;
+  constexpr int kSteps = 20;
+  auto setting = convex_setting(0.01, 0.5, -1);
+  State state = no_particles(GetParam());
+  for (const double side : {-1, 1}) add_particle(state, {kFar + side, 0, 0}, 1, 1);
+  add_rotation(state.particles);
+  setting.forces[0] = constant({kForce, 0, 0});
+  setting.forces[1] = constant({-kForce, 0, 0});
+  Simulation simulation(setting, state, 1);
+  take_steps(simulation, kSteps);
+  const double impulse = kSteps * setting.time_step * kForce;
+  EXPECT_NEAR(pair_of(simulation.state(), 0, 1).gamma, -impulse, 1e-9 * impulse);
+}
+
 TEST_P(ConvexFriction, AParticleThatSlidesAlongAPlaneWithoutLoadIsNotLifted) {
   // The relaxation lifts a contact that takes part and slides. Whether the free motion closes a gap
   // by a rounding error must not decide that.
