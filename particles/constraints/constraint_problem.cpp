@@ -152,6 +152,16 @@ BlockResidual residual_of(const ConstraintBlock& block, const double* v, const d
   return residual;
 }
 
+template <int D>
+BlockResidual residual_after(const ConstraintProblem<D>& problem, const ConstraintBlock& block,
+                             std::span<const Motion<D>> motions) {
+  std::array<double, kMostRows> v{};
+  for (std::size_t k = 0; k < block.rows; ++k)
+    v[k] = problem.rows[block.row + k].offset + problem.product(block.row + k, motions);
+  const auto w = block_mobilities(problem, block);
+  return residual_of(block, v.data(), &problem.impulses[block.row], w.data());
+}
+
 template RigidUnit<2> unit_of_particle<2>(double, double, const double*, const double*);
 template RigidUnit<3> unit_of_particle<3>(double, double, const double*, const double*);
 template RigidUnit<2> unit_of_body<2>(const BodyStep&);
@@ -166,6 +176,10 @@ template std::array<double, kMostRows> block_mobilities<3>(const ConstraintProbl
                                                            const ConstraintBlock&);
 template std::vector<double> row_mobilities<2>(const ConstraintProblem<2>&);
 template std::vector<double> row_mobilities<3>(const ConstraintProblem<3>&);
+template BlockResidual residual_after<2>(const ConstraintProblem<2>&, const ConstraintBlock&,
+                                         std::span<const Motion<2>>);
+template BlockResidual residual_after<3>(const ConstraintProblem<3>&, const ConstraintBlock&,
+                                         std::span<const Motion<3>>);
 
 namespace {
 

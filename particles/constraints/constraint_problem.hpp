@@ -240,6 +240,12 @@ struct BlockResidual {
 BlockResidual residual_of(const ConstraintBlock& block, const double* v, const double* p,
                           const double* w);
 
+/// The residual of `block`, which may differ from that of the problem in its FrictionBound, for
+/// the motions of all units and the impulses of the problem [L].
+template <int D>
+BlockResidual residual_after(const ConstraintProblem<D>& problem, const ConstraintBlock& block,
+                             std::span<const Motion<D>> motions);
+
 /// What add_contact_row() must know of a contact besides its normal and gap.
 template <int D>
 struct ContactTangents {

@@ -19,6 +19,7 @@
 #include <optional>
 #include <utility>
 
+#include "viscontact/particles/constraints/block_factor.hpp"
 #include "viscontact/particles/constraints/cone.hpp"
 #include "viscontact/particles/constraints/contact_sweeps.hpp"
 #include "viscontact/particles/constraints/interior_points.hpp"
@@ -391,7 +392,60 @@ ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_i
   return Iteration<D>(problem, start).solve(max_iterations);
 }
 
+template <int D>
+ConstraintSolution<D> solve_with_given_loads(ConstraintProblem<D>& problem, bool without_friction) {
+  give_loads(problem);
+  if (without_friction) {
+    for (auto& block : problem.blocks) block.given_load = 0;
+    std::ranges::fill(problem.impulses, 0.0);
+    problem.keeps_loads = problem.is_near = false;
+  }
+  auto solution = solve_constraints(problem, kMostOfGivenLoads);
+  problem.keeps_loads = true;
+  return solution;
+}
+
+template <int D>
+std::vector<double> least_violations(const ConstraintProblem<D>& problem) {
+  // Proximal steps: each minimises the sum of v^2/(kEpsilon w) plus the square of the change of the
+  // motions in the norm of M/h, masses over the step's length, which keeps the matrix regular. A
+  // step multiplies errors by about kEpsilon if the rows determine the motions well. The number of
+  // steps is a free choice.
+  constexpr double kEpsilon = 1e-6;
+  constexpr int kSteps = 30;
+  const auto w = row_mobilities(problem);
+  UnitMatrix<D> matrix(problem, true);
+  auto y = motions<D>(problem, std::vector<double>(problem.rows.size(), 0.0));
+  std::vector<double> violations(problem.blocks.size());
+  for (int n = 0;; ++n) {
+    matrix.set_to_masses();
+    std::vector<Motion<D>> missing(y.size(), Motion<D>{});
+    for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+      const auto& block = problem.blocks[b];
+      violations[b] = 0;
+      if (!block.is_contact && block.compliance > 0) continue;
+      for (std::size_t r = block.row; r < block.row + (block.is_contact ? 1 : block.rows); ++r) {
+        const double value = problem.rows[r].offset + problem.product(r, y);
+        if (block.is_contact && value >= 0) continue;
+        violations[b] = std::max(violations[b], std::abs(value));
+        const double weight = 1 / (kEpsilon * w[r]);
+        matrix.add_product(b, r, r, weight);
+        problem.add_impulse(r, -weight * value, missing);
+      }
+    }
+    if (n == kSteps || !matrix.factorise()) break;
+    const auto change = matrix.solution_of(missing);
+    for (std::size_t u = 0; u < y.size(); ++u)
+      for (std::size_t k = 0; k < y[u].size(); ++k) y[u][k] += change[u][k];
+  }
+  return violations;
+}
+
 template ConstraintSolution<2> solve_constraints<2>(ConstraintProblem<2>&, int, ConstraintStart);
 template ConstraintSolution<3> solve_constraints<3>(ConstraintProblem<3>&, int, ConstraintStart);
+template ConstraintSolution<2> solve_with_given_loads<2>(ConstraintProblem<2>&, bool);
+template ConstraintSolution<3> solve_with_given_loads<3>(ConstraintProblem<3>&, bool);
+template std::vector<double> least_violations<2>(const ConstraintProblem<2>&);
+template std::vector<double> least_violations<3>(const ConstraintProblem<3>&);
 
 }  // namespace viscontact::particles

@@ -47,4 +47,22 @@ template <int D>
 ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations,
                                         ConstraintStart start = ConstraintStart::kSweeps);
 
+/// Most iterations of a solution with given loads. Such solutions take 100 to 200 iterations, and
+/// some of them 1000.
+inline constexpr int kMostOfGivenLoads = 3000;
+
+/// Bounds the friction of `problem` by given loads (FrictionBound::kGiven) in place of those of the
+/// solution, and solves it in at most kMostOfGivenLoads iterations. The loads are those at the
+/// present impulses, or, if `without_friction`, those of a solution without friction. The problem
+/// keeps them. If it is not solved, SolverResult::residual is larger than 1.
+template <int D>
+ConstraintSolution<D> solve_with_given_loads(ConstraintProblem<D>& problem, bool without_friction);
+
+/// For each block of `problem`, in order, its violation [L], >= 0, or [rad] of rows of angles, by
+/// the motion that violates gaps and rigid links least: it has the least sum of v^2/w over the rows
+/// of rigid links and the negative gaps, with the value v and the mobility w of a row. Tangential
+/// rows and links with a compliance do not count.
+template <int D>
+std::vector<double> least_violations(const ConstraintProblem<D>& problem);
+
 }  // namespace viscontact::particles

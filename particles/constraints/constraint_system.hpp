@@ -86,14 +86,18 @@ class ConstraintSystem {
   /// The equations of a problem are linear in the motions. The problem is therefore solved again,
   /// with offsets corrected by the difference between the lengths of links and the gaps of bodies
   /// after finite turns and their linear values, until this difference is below half of what is
-  /// allowed. Gaps are at first taken along the normals at the beginning of the step. If the
-  /// corrected problem is not solved, or corrections diverge, ContactSystem::use_distances()
-  /// applies, and the solution begins anew.
+  /// allowed. If the links of an island were solved before it had contacts, the first equations are
+  /// corrected by the motion of that solution: equations about the beginning of the step would stop
+  /// a particle that a hinge or arm takes past an obstacle. Otherwise, or if these equations have no
+  /// solution or corrections diverge, the first equations are those about the beginning of the
+  /// step. Gaps are at first taken along the normals at the beginning of the step. If this fails,
+  /// too, ContactSystem::use_distances() applies, and the solution begins anew.
   ///
   /// If Coulomb's law is not solved in `max_iterations`, the friction of the island is bounded by
-  /// the loads of the best iterate, in this and all later calls, so that at least gaps, films and
-  /// links are exact. If these loads are so large that this fails, too, the friction is bounded by
-  /// the loads of a solution without friction. residual() remains that of Coulomb's law.
+  /// the loads of the best iterate, so that at least gaps, films and links are exact. Some hundred
+  /// iterations from that solution may solve Coulomb's law. If they do not, the given loads remain,
+  /// in this and all later calls. If these loads are so large that this fails, too, the friction is
+  /// bounded by the loads of a solution without friction. residual() remains that of Coulomb's law.
   ///
   /// The convex relaxation (5.9) has no solution where friction locks particles that must move. If
   /// iterations no longer reduce its residual, the friction is bounded by the loads of a solution
@@ -111,11 +115,11 @@ class ConstraintSystem {
   /// Writes friction of contact `c`, and the impulse that its solids carry, to memory [M L/T]. This
   /// and the next functions need solve().
   void remember(std::size_t c, PairMemory& memory) const {
-    memory.set_friction(frictions_[c]);
-    memory[Remembered::kCarried] = carried_[c];
+    memory.set_friction(of_contacts_[c].friction);
+    memory[Remembered::kCarried] = of_contacts_[c].carried;
   }
   /// Residual of contact number `c`, from 0 in the order of add(), in the last solution [L].
-  const BlockResidual& residual(std::size_t c) const { return residuals_[c]; }
+  const BlockResidual& residual(std::size_t c) const { return of_contacts_[c].residual; }
   /// Residual of link `l` of links() in the last solution [L]; of angles times the mean radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
   /// For each constraint of the last solve(), first all contacts, then all links, its violation
@@ -141,6 +145,20 @@ class ConstraintSystem {
     enum class Solved : unsigned char { kNot, kRoughly, kAccurately } solved = Solved::kNot;
     int iterations = 0;
   };
+  // What is known of a contact besides what the ContactSystem has.
+  struct OfContact {
+    ContactTangents<D> tangents;
+    Vector friction{};      // impulse of friction [M L/T]
+    double carried = 0;     // part of the impulse that solids carry [M L/T]
+    double first_load = 0;  // load with which solutions begin, that of the last rough solution or
+                            // of the step before [M L/T]
+    double given_load = 0;  // load that bounds the friction after the island has given up [M L/T]
+    bool gave_up = false, could_not_give_up = false;  // its island
+    BlockResidual residual;                           // in the last solution
+    // ConstraintBlock::given_load in the last solution that was not rough [M L/T]; without a value
+    // before.
+    std::optional<double> last_load;
+  };
   void find_islands(ContactSystem<D>& system);
   bool is_solved(const ContactSystem<D>& system, const Island& island, bool is_rough) const;
   SolverResult solve_island(ContactSystem<D>& system, Island& island, bool is_rough,
@@ -153,16 +171,19 @@ class ConstraintSystem {
   UnitMotion motion_of(std::int32_t unit, std::span<const Motion<D>> motions) const;
   void move_particles(const ContactSystem<D>& system, const Island& island,
                       std::span<const Motion<D>> motions);
-  double correct(ContactSystem<D>& system, Island& island, const ConstraintSolution<D>& solution);
+  double correct(ContactSystem<D>& system, Island& island, std::span<const Motion<D>> motions);
+  bool has_motions_without_contacts(const Island& island) const;
+  std::vector<Motion<D>> motions_without_contacts(const ContactSystem<D>& system,
+                                                  const Island& island) const;
   bool has_large_shifts(const Island& island) const;
   bool can_use_distances(ContactSystem<D>& system, const Island& island) const;
   void make_problem(const ContactSystem<D>& system, Island& island, bool is_rough,
                     double roughly_allowed);
   bool give_up(Island& island, bool have_diverged, ConstraintSolution<D>& solution,
                SolverResult& result);
+  bool solve_again(Island& island, ConstraintProblem<D> with_own_loads,
+                   ConstraintSolution<D>& solution, SolverResult& result);
   void give_loads_of_step(Island& island);
-  bool solve_with_given_loads(ConstraintProblem<D>& problem, bool without_friction,
-                              ConstraintSolution<D>& solution, SolverResult& result);
   BlockResidual residual_of_contact(const Island& island, std::size_t b,
                                     const ConstraintSolution<D>& solution) const;
   void take_over(ContactSystem<D>& system, const Island& island,
@@ -178,11 +199,12 @@ class ConstraintSystem {
   std::vector<double> free_turns_;     // h w* of all particles
   std::vector<BodyStep> free_bodies_;  // motions of bodies without contacts and links
   std::vector<LinkEquations> links_;
-  std::vector<ContactTangents<D>> tangents_;  // of all contacts, as are the next three arrays
-  std::vector<Vector> frictions_;             // impulses of friction [M L/T]
-  std::vector<double> carried_;               // parts of the impulses that solids carry [M L/T]
-  std::vector<BlockResidual> residuals_;
+  std::vector<OfContact> of_contacts_;
   std::vector<double> link_residuals_, link_forces_;
+  // Forces of links with which solutions begin, in the order of link_forces_.
+  std::vector<double> first_link_forces_;
+  // Motions of the unit of each body of the ContactSystem whose island was solved without contacts.
+  std::vector<std::optional<Motion<D>>> without_contacts_;
   // Place in ConstraintProblem::units of the particles and rigid bodies of the island that is
   // solved.
   std::vector<std::int32_t> unit_of_particle_, unit_of_body_;
@@ -191,16 +213,6 @@ class ConstraintSystem {
   std::vector<Progress> progress_;  // of all bodies of the ContactSystem
   std::size_t known_contacts_ = 0;  // number of contacts in the last solve()
   bool has_given_up_ = false;       // an island has given up
-  // For each contact: whether its island had given up or could not, and the loads that then bound
-  // its friction [M L/T].
-  std::vector<char> gave_up_, could_not_give_up_;
-  std::vector<double> given_loads_;
-  // Loads of all contacts with which solutions begin [M L/T]: those of the last rough solution, or
-  // of the step before.
-  std::vector<double> first_loads_;
-  // ConstraintBlock::given_load of each contact in the last solution that was not rough [M L/T];
-  // without a value before.
-  std::vector<std::optional<double>> last_loads_;
 };
 
 }  // namespace viscontact::particles

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "viscontact/particles/domain/periods.hpp"
+#include "viscontact/particles/membranes/membrane_curve.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -248,6 +248,12 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
+  // Contacts close where links do not prevent it.
+  if (constraints_ && !constraints_->links().empty()) {
+    allow(settings.tolerance / 2 * mean_radius, settings.impulse_tolerance,
+          fraction_of_slips(settings));
+    result.iterations = solve_contacts(false, 0, 0, settings.max_iterations);
+  }
   auto closed = closed_by_free_motion();
   if (is_convex) leave_touching(closed, settings, mean_radius);
   choose(closed);

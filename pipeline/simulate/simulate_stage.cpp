@@ -17,6 +17,7 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/pipeline/simulate/run_checks.hpp"
+#include "viscontact/pipeline/simulate/run_inputs.hpp"
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/results/foreign_files.hpp"

@@ -37,6 +37,10 @@ class ShippedRun {
   void to(double time) {
     to(time, [] {});
   }
+  template <class Look>
+  void to_end(const Look& look) {
+    to(case_.end_time, look);
+  }
   void to_end() { to(case_.end_time); }
 
   const ParticlesCase& of() const { return case_; }
@@ -137,7 +141,7 @@ TEST(BilliardBreak, FilmsHoldTheRackTogetherAndWithoutThemItParts) {
   EXPECT_EQ(viscous.now().positions, inelastic.now().positions);
   EXPECT_EQ(viscous.now().velocities, inelastic.now().velocities);
   std::ptrdiff_t most = 0;
-  inelastic.to(inelastic.of().end_time, [&] { most = std::max(most, inelastic.films()); });
+  inelastic.to_end([&] { most = std::max(most, inelastic.films()); });
   EXPECT_EQ(most, 0);
   viscous.to_end();
   EXPECT_GT(viscous.films(), 0);
@@ -146,7 +150,7 @@ TEST(BilliardBreak, FilmsHoldTheRackTogetherAndWithoutThemItParts) {
 TEST(Lottery, BallsHangFromTheWallsThatPressedThem) {
   ShippedRun lottery("lottery");
   bool overhead = false;
-  lottery.to(lottery.of().end_time, [&] {
+  lottery.to_end([&] {
     const auto& planes = lottery.of().setting.planes;
     for (const auto& c : lottery.contacts())
       overhead =
@@ -161,7 +165,8 @@ TEST(Lottery, BallsHangFromTheWallsThatPressedThem) {
 TEST(LotteryWithFriction, WallsTurnTheBallsAndCarryThemUp) {
   ShippedRun lottery("lottery_friction");
   bool slides = false, sticks = false;
-  lottery.to(5, [&] {
+  // In a quarter of the runs with slightly different starts a step is solved only at a second try.
+  lottery.to_end([&] {
     for (const auto& c : lottery.contacts()) {
       slides = slides || c.friction == ContactFriction::kSlides;
       sticks = sticks || c.friction == ContactFriction::kSticks;
@@ -195,7 +200,7 @@ TEST(Heap, RoughDiscsComeToRestInAHeapOnTheFloorThatHingesHold) {
 TEST(Catapult, ThrowsADiscAndTheHoistLiftsItsLoad) {
   ShippedRun catapult("catapult");
   double highest = 0;
-  catapult.to(catapult.of().end_time, [&] {
+  catapult.to_end([&] {
     const auto& p = catapult.now();
     highest = std::max(highest, p.position(8)[1]);
     EXPECT_NEAR(norm(p.position(3) - Vector{0, 4, 0}), 0, 1e-9) << catapult.time();

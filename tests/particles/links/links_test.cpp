@@ -147,6 +147,40 @@ TEST_P(Hinges, ALargeSwingKeepsThePointAndTheEnergy) {
   EXPECT_NEAR(highest, -std::cos(2.5), 5e-3);
 }
 
+TEST(Hinges, APlaneThatASwingingDiscPassesAtASmallDistanceChangesNothing) {
+  // The disc swings about the origin from one side of its lowest point to the other. Equations about
+  // the beginning of a step see the tangent of its circle, which the plane cuts before the lowest
+  // point.
+  constexpr double kRadius = 0.5;
+  for (const double clearance : {1e-6, 1e-3, 0.05})
+    for (const bool has_friction : {false, true})
+      for (const double h : {0.01, 0.017, 0.1}) {
+        const auto swing = [&](bool has_plane) {
+          auto setting = setting_of(h, Scheme::kEuler);
+          if (has_friction) setting.laws.friction = FrictionLaw{0.3};
+          State state = no_particles(2);
+          const double angle = -0.5, rate = 1;
+          const Vector place{std::sin(angle), -std::cos(angle), 0};
+          add_particle(state, place, kRadius, 1, rate * Vector{-place[1], place[0], 0});
+          add_rotation(state.particles);
+          state.particles.angular_velocities[0] = rate;
+          Hinge hinge;
+          hinge.point = {0, -1 * place};
+          setting.links.hinges = {hinge};
+          if (has_plane)
+            setting.planes = {plane_at_rest({0, -1 - kRadius - clearance, 0}, {0, 1, 0})};
+          Simulation simulation(setting, state, 1);
+          run(simulation, 1, expect_converged);
+          return simulation.state().particles;
+        };
+        const auto with = swing(true), without = swing(false);
+        SCOPED_TRACE("clearance " + std::to_string(clearance) + ", step " + std::to_string(h));
+        EXPECT_GT(with.angular_velocities[0], 0.9);
+        EXPECT_NEAR(with.angular_velocities[0], without.angular_velocities[0], 1e-8);
+        EXPECT_NEAR(norm(with.position(0) - without.position(0)), 0, 1e-8);
+      }
+}
+
 TEST(TorsionSprings, ADiscOnAHingeTurnsAsAnOscillator) {
   auto setting = setting_of(0.01);
   State state = no_particles(2);
