@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace viscontact::particles {
 namespace {
@@ -286,7 +287,10 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
       // law. Pairs that solutions close are still added, also to other islands, in at most
       // kMostRounds rounds, a free choice that bounds the time of such a step.
       constexpr int kMostRounds = 20;
-      if (!constraints_ || is_rough || more.empty() || ++rounds_unsolved > kMostRounds) break;
+      if (!constraints_ || ++rounds_unsolved > kMostRounds) break;
+      // The gaps of a rough solution are not accurate.
+      if (more.empty() && !std::exchange(is_rough, false)) break;
+      is_rough = false;
     }
     // After kPatience rounds (a free choice) without gain or new pair, rounding errors are left.
     constexpr int kPatience = 10;
