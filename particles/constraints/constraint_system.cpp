@@ -379,7 +379,10 @@ SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
       progress.solved = is_rough               ? Solved::kRoughly
                         : solved.residual <= 1 ? Solved::kAccurately
                                                : Solved::kNot;
-      for (const auto b : island.bodies) progress_[index_of(b)] = progress;
+      // The solution without contacts leaves all iterations to those with contacts.
+      auto of_bodies = progress;
+      if (island.contacts.empty() && solved.residual <= 1) of_bodies.iterations = 0;
+      for (const auto b : island.bodies) progress_[index_of(b)] = of_bodies;
       result.residual = largest_or_nan(result.residual, solved.residual);
     }
     result.iterations = std::max(result.iterations, progress.iterations);
@@ -408,6 +411,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
   constexpr double kSmallPart = 1e-3;
   // Corrected problems take 10 to 300 iterations, unless constraints contradict each other.
   constexpr int kMostCorrected = 1000;
+  // They may take this number also if the solution before left fewer iterations.
+  constexpr int kLeastCorrected = 100;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double last_change = kInfinity, gained_change = kInfinity;
   int growing = 0, gained_at = 0;
@@ -432,16 +437,18 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
   SolverResult result;
   for (int n = 0;; ++n) {
     int most = island.has_given_up ? kMostOfGivenLoads : max_iterations - result.iterations;
+    if (n > 0) most = std::max(most, kLeastCorrected);
     const bool is_corrected = n > 0 || begins_without_contacts;
     if (n > 0 ? begins_without_contacts || can_use_distances(system, island)
               : begins_without_contacts && problem.is_convex)
       most = std::min(most, kMostCorrected);
     solution = solve_constraints(problem, std::max(1, most));
     result.iterations += solution.result.iterations;
-    const bool is_exhausted =
-        result.iterations >= max_iterations + (island.has_given_up ? kMostOfGivenLoads : 0);
+    const auto is_exhausted = [&] {
+      return result.iterations >= max_iterations + (island.has_given_up ? kMostOfGivenLoads : 0);
+    };
     // A convex problem is given up only if further iterations would not solve it.
-    if (!(solution.result.residual <= 1) && !is_rough && !(is_convex_ && is_exhausted)) {
+    if (!(solution.result.residual <= 1) && !is_rough && !(is_convex_ && is_exhausted())) {
       if (is_corrected && begin_anew()) {
         max_iterations += result.iterations;
         n = -1;
@@ -461,11 +468,12 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
       gained_change = change;
       gained_at = n;
     }
-    const bool is_unsolved = !(solution.result.residual <= std::max(1.0, kSmallPart * change));
+    const bool is_unsolved =
+        !(solution.result.residual <= (is_exhausted() ? 1 : std::max(1.0, kSmallPart * change)));
     // Half of what is allowed is left to the residual of the solution.
-    if (change <= 0.5 || is_rough || is_unsolved || is_exhausted) break;
+    if (change <= 0.5 || is_rough || is_unsolved) break;
     if (growing == kPatience || n - gained_at == kMostWithoutGain) {
-      if (!has_large_shifts(island)) break;
+      if (!begins_without_contacts && !has_large_shifts(island)) break;
       if (begin_anew()) {
         n = -1;
         continue;

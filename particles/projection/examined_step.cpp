@@ -23,7 +23,9 @@ bool take(double residual, const ResidualScale& scale, const SolverSettings& set
 }  // namespace
 
 /// The scale of the residual of a link: that of a contact whose change of the gap per impulse is
-/// the sum of the mobilities of the particles of the link.
+/// the sum of the mobilities of the particles of the link. Its impulse at work is at least that
+/// which moves this gap by the largest change of a displacement, because a particle that a link
+/// holds may be at rest without any other force.
 template <int D>
 ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
                                                ResidualScales<D>& scales) const {
@@ -32,13 +34,17 @@ ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
   for (const auto& part : link.parts()) {
     particles.push_back(part.particle);
     w += mobilities_[index_of(part.particle)];
-    length += norm(state_.particles.position(index_of(part.particle)));
+    // A particle at the origin has the rounding errors of its neighbours, which its radius bounds.
+    length += norm(state_.particles.position(index_of(part.particle))) +
+              state_.particles.radii[index_of(part.particle)];
     // Residuals of angles are arcs [L], with the rounding errors of angles of 1 rad or more.
     if (link.is_angle())
       length +=
           state_.particles.radii[index_of(part.particle)] * (1 + std::abs(link.rows.front().value));
   }
-  return scales.of(particles, w, length);
+  auto scale = scales.of(particles, w, length);
+  scale.impulse = std::max(scale.impulse, scales.largest_change(particles) / w);
+  return scale;
 }
 
 /// Adds the residuals of the links to `result`, and names links that contradict each other.

@@ -49,12 +49,18 @@ StepProjection<D>::StepProjection(State& state, double h,
       pool_(pool),
       is_chosen_(pair_count(), 0),
       system_(displacements, mobilities, state.particles) {
-  if (std::ranges::none_of(planes, &PlanePosition::is_curved)) return;
-  const auto& p = state.particles;
-  for (const auto& wall : state.walls) {
+  find_tangents();
+}
+
+template <int D>
+void StepProjection<D>::find_tangents() {
+  if (std::ranges::none_of(planes_, &PlanePosition::is_curved)) return;
+  const auto& p = state_.particles;
+  tangents_.clear();
+  for (const auto& wall : state_.walls) {
     const auto j = index_of(wall.second);
-    tangents_.push_back(tangent_at(planes[wall.plane()],
-                                   p.position(j) + point_of(displacements.data(), j, p.dimension)));
+    tangents_.push_back(tangent_at(
+        planes_[wall.plane()], p.position(j) + point_of(displacements_.data(), j, p.dimension)));
   }
 }
 
@@ -254,6 +260,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     allow(settings.tolerance / 2 * mean_radius, settings.impulse_tolerance,
           fraction_of_slips(settings));
     result.iterations = solve_contacts(false, 0, 0, settings.max_iterations);
+    find_tangents();
   }
   auto closed = closed_by_free_motion();
   if (is_convex) leave_touching(closed, settings, mean_radius);
@@ -385,6 +392,23 @@ typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
   return scale;
 }
 
+/// The scale of a particle, with its contacts if it takes part.
+template <int D>
+typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
+    std::int32_t particle) const {
+  const auto body = system_.body_of(particle);
+  return body < 0 ? of_particle(particle, &displacements_[index_of(particle) * D])
+                  : body_scales_[index_of(body)];
+}
+
+template <int D>
+double ResidualScales<D>::largest_change(std::span<const std::int32_t> particles) const {
+  double largest = 0;
+  for (const auto particle : particles)
+    largest = std::max(largest, mobilities_[index_of(particle)] * of_particle(particle).impulse);
+  return largest;
+}
+
 template <int D>
 ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, double w,
                                     double length) {
@@ -396,8 +420,7 @@ ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, dou
     if (particle < 0) continue;
     const auto k = index_of(particle);
     const auto body = system_.body_of(particle);
-    const auto own =
-        body < 0 ? of_particle(particle, &displacements_[k * D]) : body_scales_[index_of(body)];
+    const auto own = of_particle(particle);
     scale.impulse = std::min(scale.impulse, own.impulse);
     scale.rounding += mobilities_[k] * own.impulse + own.moved;
     if (body >= 0) around = std::max(around, island_impulses_[index_of(system_.island(body))]);

@@ -82,6 +82,8 @@ class ResidualScales {
   /// (ContactSystem::is_held()) they are larger, because finite turns move points of the surface,
   /// and grow with the distance of the particles from the origin.
   ResidualScale of(const Contact<D>& contact);
+  /// Largest change of the displacement of a particle by its impulse at work [L], >= 0.
+  double largest_change(std::span<const std::int32_t> particles) const;
 
  private:
   /// Contribution of a particle to the scales of its contacts.
@@ -91,6 +93,7 @@ class ResidualScales {
     double moved = 0;
   };
   ParticleScale of_particle(std::int32_t particle, const double* moves) const;
+  ParticleScale of_particle(std::int32_t particle) const;
 
   const State& state_;
   double h_;
@@ -222,6 +225,7 @@ class StepProjection {
   void allow(double length, double fraction, double of_slips);
   std::vector<std::size_t> examine(const SolverSettings& settings, double mean_radius,
                                    bool is_final, ProjectionResult& result);
+  void find_tangents();
   ResidualScale scale_of_link(const LinkEquations& link, ResidualScales<D>& scales) const;
   void examine_links(const SolverSettings& settings, double mean_radius, ProjectionResult& result);
   void name_contradictions(const std::vector<std::size_t>& beyond, double mean_radius,
@@ -233,8 +237,8 @@ class StepProjection {
   std::span<double> displacements_;
   std::span<const double> mobilities_;
   ThreadPool& pool_;
-  // The tangent of each pair in state.walls where the free motion ends; empty if no obstacle is
-  // curved. The particle cannot leave a circle in the step, because the circle is convex.
+  // The tangent of each pair in state.walls where the motion without contacts ends; empty if no
+  // obstacle is curved. The particle cannot leave a circle in the step, because the circle is convex.
   std::vector<PlanePosition> tangents_;
   double tolerated_ = 0;             // largest overlap that is left as it is [L]
   double margin_ = 0;                // gap below which a pair is nearly closed [L]
