@@ -204,6 +204,28 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
   return largest;
 }
 
+/// Makes the equations those about the motion without contacts. If it leaves all contacts open, it
+/// is the solution, so that its impulses become the guess.
+template <int D>
+void ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Island& island) {
+  auto& problem = island.problem;
+  const auto motions = motions_without_contacts(system, island);
+  correct(system, island, motions);
+  for (std::size_t b = 0; b < island.contacts.size(); ++b) {
+    const auto& block = problem.blocks[b];
+    if (block.lowest != 0 ||
+        problem.rows[block.row].offset + problem.product(block.row, motions) < 0)
+      return;
+  }
+  std::ranges::fill(problem.impulses, 0.0);
+  for (std::size_t b = 0; b < island.links.size(); ++b) {
+    const auto& link = links_[island.links[b]];
+    const auto& block = problem.blocks[island.contacts.size() + b];
+    for (std::size_t k = 0; !block.is_contact && k < block.rows; ++k)
+      problem.impulses[block.row + k] = times_.kick * link_forces_[link.first_force + k];
+  }
+}
+
 /// True if a last correction is larger than rounding errors and errors of solutions are.
 template <int D>
 bool ConstraintSystem<D>::has_large_shifts(const Island& island) const {
@@ -419,7 +441,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
   bool begins_without_contacts = !island.contacts.empty() && has_motions_without_contacts(island);
   const auto restart = [&] {
     make_problem(system, island, is_rough, roughly_allowed);
-    if (begins_without_contacts) correct(system, island, motions_without_contacts(system, island));
+    if (begins_without_contacts) begin_without_contacts(system, island);
     last_change = gained_change = kInfinity;
     growing = gained_at = 0;
   };

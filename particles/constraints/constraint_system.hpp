@@ -175,6 +175,7 @@ class ConstraintSystem {
   bool has_motions_without_contacts(const Island& island) const;
   std::vector<Motion<D>> motions_without_contacts(const ContactSystem<D>& system,
                                                   const Island& island) const;
+  void begin_without_contacts(ContactSystem<D>& system, Island& island);
   bool has_large_shifts(const Island& island) const;
   bool can_use_distances(ContactSystem<D>& system, const Island& island) const;
   void make_problem(const ContactSystem<D>& system, Island& island, bool is_rough,

@@ -181,6 +181,46 @@ TEST(Hinges, APlaneThatASwingingDiscPassesAtASmallDistanceChangesNothing) {
       }
 }
 
+TEST(Hinges, ADiscThatLeavesThePlaneStopsWhereItMeetsThePlaneAgain) {
+  // The hinge is 0.006 beside the contact. A force turns the disc about it, so that the disc rises,
+  // and meets the plane again after twice the angle atan(0.006/0.8).
+  auto setting = setting_of(0.01, Scheme::kEuler);
+  setting.planes = {plane_at_rest({0, -1, 0}, {0, 1, 0})};
+  setting.forces[0] = constant({-100, 0, 0});
+  State state = no_particles(2);
+  add_particle(state, {}, 1, 1.6);
+  add_rotation(state.particles);
+  Hinge hinge;
+  hinge.at = {-0.006, -0.8, 0};
+  hinge.point = {0, hinge.at};
+  setting.links.hinges = {hinge};
+  Simulation simulation(setting, state, 1);
+  run(simulation, 0.1, expect_converged);
+  const auto& p = simulation.state().particles;
+  EXPECT_NEAR(p.angles[0], 2 * std::atan(0.006 / 0.8), 1e-6);
+  EXPECT_NEAR(p.angular_velocities[0], 0, 1e-6);
+}
+
+TEST(Arms, ADiscSwingsAroundAnotherThatAHingeHoldsAtTheOrigin) {
+  // Nothing but the arm acts on the particles, and the coordinates of the first are 0.
+  auto setting = setting_of(0.01, Scheme::kEuler);
+  State state = no_particles(2);
+  add_particle(state, {}, 1, 1);
+  add_particle(state, {3, 0, 0}, 1, 1, {0, 3, 0});
+  add_rotation(state.particles);
+  setting.links.hinges = {Hinge{}};
+  setting.links.arms = {{0, 1, SinusoidalLength{3, 0, 0, 0}}};
+  Simulation simulation(setting, state, 1);
+  run(simulation, 1, [&](const StepReport& report) {
+    expect_converged(report);
+    EXPECT_NEAR(distance(simulation.state()), 3, 1e-9);
+  });
+  const auto& p = simulation.state().particles;
+  EXPECT_NEAR(norm(p.velocity(1)), 3, 1e-3);
+  // The angle is 1 up to the square of the turn in a step, 0.01.
+  EXPECT_NEAR(std::atan2(p.position(1)[1], p.position(1)[0]), 1, 1e-3);
+}
+
 TEST(TorsionSprings, ADiscOnAHingeTurnsAsAnOscillator) {
   auto setting = setting_of(0.01);
   State state = no_particles(2);
