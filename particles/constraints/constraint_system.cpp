@@ -1,5 +1,5 @@
-// Makes and solves the problem for the impulses of the contacts, rigid bodies and links of a time
-// step, and finds constraints that contradict each other (constraint_system.hpp, which has the
+// Solves the problem for the impulses of the contacts, rigid bodies and links of a time step,
+// which island_problem.cpp makes, and finds constraints that contradict each other (constraint_system.hpp, which has the
 // shapes and ranges). Lengths [L], masses [M] and times [T] are in any consistent units. Nothing is
 // thrown; residual() tells whether a step is solved. projection/ uses it. A change must keep that
 // hinges and arms hold after finite turns, and the order of the link forces, which restart files
@@ -163,8 +163,8 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system, const I
 
 /// Moves the particles, and changes the offsets of the rows so that their linear values after these
 /// motions of the units become those after finite turns: gaps as ContactSystem::gap() gives them,
-/// and lengths of links. Stores the changes as shifts, and returns the largest one over its bound, without those of
-/// contacts that stay open.
+/// and lengths of links. Stores the changes as shifts, and returns the largest one over its bound,
+/// without those of contacts that stay open.
 template <int D>
 double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
                                     std::span<const Motion<D>> motions) {
@@ -204,10 +204,10 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system, Island& island,
   return largest;
 }
 
-/// Makes the equations those about the motion without contacts. If it leaves all contacts open, it
-/// is the solution, so that its impulses become the guess.
+/// Makes the equations those about the motion without contacts, and its impulses the guess, if it
+/// leaves all contacts open, so that it is the solution. Returns whether it does.
 template <int D>
-void ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Island& island) {
+bool ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Island& island) {
   auto& problem = island.problem;
   const auto motions = motions_without_contacts(system, island);
   correct(system, island, motions);
@@ -215,7 +215,7 @@ void ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Islan
     const auto& block = problem.blocks[b];
     if (block.lowest != 0 ||
         problem.rows[block.row].offset + problem.product(block.row, motions) < 0)
-      return;
+      return false;
   }
   std::ranges::fill(problem.impulses, 0.0);
   for (std::size_t b = 0; b < island.links.size(); ++b) {
@@ -224,6 +224,7 @@ void ConstraintSystem<D>::begin_without_contacts(ContactSystem<D>& system, Islan
     for (std::size_t k = 0; !block.is_contact && k < block.rows; ++k)
       problem.impulses[block.row + k] = times_.kick * link_forces_[link.first_force + k];
   }
+  return true;
 }
 
 /// True if a last correction is larger than rounding errors and errors of solutions are.
@@ -311,7 +312,7 @@ BlockResidual ConstraintSystem<D>::residual_of_contact(
 }
 
 /// Solves the problem of an island `with_own_loads`, Coulomb's law, from the present solution with
-/// given loads, which is near it although the iterations before did not get there. Returns true if
+/// given loads, which may be near it although the iterations before did not get there. Returns true if
 /// it is solved. Otherwise leaves the problem and `solution` as they are. Adds the iterations to
 /// `result` in any case.
 template <int D>
@@ -319,7 +320,7 @@ bool ConstraintSystem<D>::solve_again(Island& island, ConstraintProblem<D> with_
                                       ConstraintSolution<D>& solution, SolverResult& result) {
   // Solutions take 20 to 200 iterations. Where a try ends near a solution, another one with the
   // loads of that end may get there. Jammed packings of 1000 discs end far from it, with residuals
-  // of 1e4 to 3e5 of what is allowed, also after 1000 iterations. All three numbers are free choices.
+  // of 1e4 to 3e5 of what is allowed, also after 1000 iterations. These numbers are free choices.
   constexpr int kMostTries = 6, kMostIterations = 300;
   constexpr double kNear = 100;
   auto given = island.problem;
@@ -372,8 +373,7 @@ bool ConstraintSystem<D>::give_up(Island& island, bool have_diverged,
     problem = with_own_loads;
     return false;
   }
-  if (!is_convex_ && !have_diverged && solve_again(island, with_own_loads, solution, result))
-    return true;
+  if (!have_diverged && solve_again(island, with_own_loads, solution, result)) return true;
   for (std::size_t b = 0; b < island.contacts.size(); ++b) {
     auto& of = of_contacts_[island.contacts[b]];
     of.gave_up = true;
@@ -441,7 +441,10 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
   bool begins_without_contacts = !island.contacts.empty() && has_motions_without_contacts(island);
   const auto restart = [&] {
     make_problem(system, island, is_rough, roughly_allowed);
-    if (begins_without_contacts) begin_without_contacts(system, island);
+    if (begins_without_contacts && !begin_without_contacts(system, island)) {
+      begins_without_contacts = false;
+      make_problem(system, island, is_rough, roughly_allowed);
+    }
     last_change = gained_change = kInfinity;
     growing = gained_at = 0;
   };
@@ -461,8 +464,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     int most = island.has_given_up ? kMostOfGivenLoads : max_iterations - result.iterations;
     if (n > 0) most = std::max(most, kLeastCorrected);
     const bool is_corrected = n > 0 || begins_without_contacts;
-    if (n > 0 ? begins_without_contacts || can_use_distances(system, island)
-              : begins_without_contacts && problem.is_convex)
+    if (begins_without_contacts || (n > 0 && can_use_distances(system, island)))
       most = std::min(most, kMostCorrected);
     solution = solve_constraints(problem, std::max(1, most));
     result.iterations += solution.result.iterations;

@@ -86,12 +86,12 @@ class ConstraintSystem {
   /// The equations of a problem are linear in the motions. The problem is therefore solved again,
   /// with offsets corrected by the difference between the lengths of links and the gaps of bodies
   /// after finite turns and their linear values, until this difference is below half of what is
-  /// allowed. If the links of an island were solved before it had contacts, the first equations are
-  /// corrected by the motion of that solution: equations about the beginning of the step would stop
-  /// a particle that a hinge or arm takes past an obstacle. Otherwise, or if these equations have no
-  /// solution or corrections diverge, the first equations are those about the beginning of the
-  /// step. Gaps are at first taken along the normals at the beginning of the step. If this fails,
-  /// too, ContactSystem::use_distances() applies, and the solution begins anew.
+  /// allowed. If the links of an island were solved before it had contacts, and their motion leaves
+  /// all contacts open, the first equations are those about that motion, which is the solution:
+  /// equations about the beginning of the step would stop a particle that a hinge or arm takes past
+  /// an obstacle. Otherwise, or if corrections diverge, the first equations are those about the
+  /// beginning of the step. Gaps are at first taken along the normals at the beginning of the step.
+  /// If this fails, too, ContactSystem::use_distances() applies, and the solution begins anew.
   ///
   /// If Coulomb's law is not solved in `max_iterations`, the friction of the island is bounded by
   /// the loads of the best iterate, so that at least gaps, films and links are exact. Some hundred
@@ -175,7 +175,7 @@ class ConstraintSystem {
   bool has_motions_without_contacts(const Island& island) const;
   std::vector<Motion<D>> motions_without_contacts(const ContactSystem<D>& system,
                                                   const Island& island) const;
-  void begin_without_contacts(ContactSystem<D>& system, Island& island);
+  bool begin_without_contacts(ContactSystem<D>& system, Island& island);
   bool has_large_shifts(const Island& island) const;
   bool can_use_distances(ContactSystem<D>& system, const Island& island) const;
   void make_problem(const ContactSystem<D>& system, Island& island, bool is_rough,

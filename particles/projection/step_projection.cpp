@@ -255,7 +255,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   constexpr double kMargin = 5e-3;
   const bool has_friction = step_ != nullptr && step_->laws.friction;
   const bool is_convex = has_friction && step_->laws.friction->method == FrictionMethod::kConvex;
-  // Contacts close where links do not prevent it.
+  // The motion with links and without contacts decides which contacts take part: a free particle
+  // would meet walls that its hinge or arm takes it past.
   if (constraints_ && !constraints_->links().empty()) {
     allow(settings.tolerance / 2 * mean_radius, settings.impulse_tolerance,
           fraction_of_slips(settings));
