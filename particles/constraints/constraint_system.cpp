@@ -1,9 +1,10 @@
 // Solves the problem for the impulses of the contacts, rigid bodies and links of a time step,
-// which island_problem.cpp makes, and finds constraints that contradict each other (constraint_system.hpp, which has the
-// shapes and ranges). Lengths [L], masses [M] and times [T] are in any consistent units. Nothing is
-// thrown; residual() tells whether a step is solved. projection/ uses it. A change must keep that
-// hinges and arms hold after finite turns, and the order of the link forces, which restart files
-// store. A unit is a particle, or a rigid body of several.
+// which island_problem.cpp makes, and finds constraints that contradict each other
+// (constraint_system.hpp, which has the shapes and ranges). Lengths [L], masses [M] and times [T]
+// are in any consistent units. Nothing is thrown; residual() tells whether a step is solved.
+// projection/ uses it. A change must keep that hinges and arms hold after finite turns, and the
+// order of the link forces, which restart files store. A unit is a particle, or a rigid body of
+// several.
 #include "viscontact/particles/constraints/constraint_system.hpp"
 
 #include <algorithm>
@@ -312,8 +313,8 @@ BlockResidual ConstraintSystem<D>::residual_of_contact(
 }
 
 /// Solves the problem of an island `with_own_loads`, Coulomb's law, from the present solution with
-/// given loads, which may be near it although the iterations before did not get there. Returns true if
-/// it is solved. Otherwise leaves the problem and `solution` as they are. Adds the iterations to
+/// given loads, which may be near it although the iterations before did not get there. Returns true
+/// if it is solved. Otherwise leaves the problem and `solution` as they are. Adds the iterations to
 /// `result` in any case.
 template <int D>
 bool ConstraintSystem<D>::solve_again(Island& island, ConstraintProblem<D> with_own_loads,
