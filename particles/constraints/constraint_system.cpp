@@ -77,14 +77,14 @@ bool ConstraintSystem<D>::is_held_apart(const Pair& pair) const {
 template <int D>
 void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
                               const PairMemory& memory) {
-  OfContact of;
-  of.tangents = tangents_of(contact, particles_, step_.obstacles, step_.begin, step_.end);
-  of.tangents.capacity =
+  ContactState state;
+  state.tangents = tangents_of(contact, particles_, step_.obstacles, step_.begin, step_.end);
+  state.tangents.capacity =
       pair.gamma -
       step_.laws.lowest_gamma(pair, memory, radii_of(pair, particles_, step_.obstacles));
-  of.friction = memory.friction();
-  of.carried = of.first_load = memory[Remembered::kCarried];
-  of_contacts_.push_back(of);
+  state.friction = memory.friction();
+  state.carried = state.first_load = memory[Remembered::kCarried];
+  contact_states_.push_back(state);
 }
 
 /// Finds the islands of `system`, in the order of their first bodies, with their contacts and
@@ -106,8 +106,8 @@ void ConstraintSystem<D>::find_islands(ContactSystem<D>& system) {
   for (std::size_t c = 0; c < system.contacts.size(); ++c) {
     auto& island = island_of(system.contacts[c].second);
     island.contacts.push_back(c);
-    island.has_given_up |= of_contacts_[c].gave_up;
-    island.can_give_up &= !of_contacts_[c].could_not_give_up;
+    island.has_given_up |= contact_states_[c].gave_up;
+    island.can_give_up &= !contact_states_[c].could_not_give_up;
   }
   for (std::size_t l = 0; l < links_.size(); ++l)
     island_of(links_[l].parts().front().particle).links.push_back(l);
@@ -125,7 +125,7 @@ bool ConstraintSystem<D>::is_solved(const ContactSystem<D>& system, const Island
   return (island.has_given_up && !is_convex_) ||
          (std::ranges::all_of(island.contacts,
                               [&](std::size_t c) {
-                                const auto& residual = of_contacts_[c].residual;
+                                const auto& residual = contact_states_[c].residual;
                                 return residual.normal <= system.contacts[c].allowed &&
                                        residual.tangential <= slips_allowed[c];
                               }) &&
@@ -260,14 +260,15 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system, const Island& isla
   for (const auto c : island.contacts) {
     const auto& block = problem.blocks[b];
     const double impulse = problem.impulses[block.row];
-    auto& of = of_contacts_[c];
+    auto& state = contact_states_[c];
     system.contacts[c].impulse = impulse;
-    of.friction = {};
-    of.carried = block.rows > 1 ? FrictionLaw::carried(impulse, block.capacity) : 0;
+    state.friction = {};
+    state.carried = block.rows > 1 ? FrictionLaw::carried(impulse, block.capacity) : 0;
     for (std::size_t k = 1; k < block.rows; ++k)
-      of.friction = of.friction + problem.impulses[block.row + k] * of.tangents.directions[k - 1];
-    of.residual = residual_of_contact(island, b, solution);
-    of.residual.normal += island.shifts[b];
+      state.friction =
+          state.friction + problem.impulses[block.row + k] * state.tangents.directions[k - 1];
+    state.residual = residual_of_contact(island, b, solution);
+    state.residual.normal += island.shifts[b];
     ++b;
   }
   const auto forces_of = [&](std::size_t l) {
@@ -370,15 +371,15 @@ bool ConstraintSystem<D>::give_up(Island& island, bool have_diverged,
   island.has_given_up = (!have_diverged && is_solved(false)) || is_solved(true);
   if (!island.has_given_up) {
     island.can_give_up = false;
-    for (const auto c : island.contacts) of_contacts_[c].could_not_give_up = true;
+    for (const auto c : island.contacts) contact_states_[c].could_not_give_up = true;
     problem = with_own_loads;
     return false;
   }
   if (!have_diverged && solve_again(island, with_own_loads, solution, result)) return true;
   for (std::size_t b = 0; b < island.contacts.size(); ++b) {
-    auto& of = of_contacts_[island.contacts[b]];
-    of.gave_up = true;
-    of.given_load = problem.blocks[b].given_load;
+    auto& state = contact_states_[island.contacts[b]];
+    state.gave_up = true;
+    state.given_load = problem.blocks[b].given_load;
   }
   return true;
 }
@@ -434,27 +435,22 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
   constexpr double kSmallPart = 1e-3;
   // Corrected problems take 10 to 300 iterations, unless constraints contradict each other.
   constexpr int kMostCorrected = 1000;
-  // They may take this number also if the solution before left fewer iterations.
+  // Corrected problems may take this many also if the solution before left fewer iterations.
   constexpr int kLeastCorrected = 100;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double last_change = kInfinity, gained_change = kInfinity;
   int growing = 0, gained_at = 0;
-  bool begins_without_contacts = !island.contacts.empty() && has_motions_without_contacts(island);
   const auto restart = [&] {
     make_problem(system, island, is_rough, roughly_allowed);
-    if (begins_without_contacts && !begin_without_contacts(system, island)) {
-      begins_without_contacts = false;
+    if (has_motions_without_contacts(island) && !begin_without_contacts(system, island))
       make_problem(system, island, is_rough, roughly_allowed);
-    }
     last_change = gained_change = kInfinity;
     growing = gained_at = 0;
   };
-  // Begins anew with other equations. Returns false if there are none.
-  const auto begin_anew = [&] {
-    const bool has_distances = !begins_without_contacts && can_use_distances(system, island);
-    if (!begins_without_contacts && !has_distances) return false;
-    begins_without_contacts = false;
-    if (has_distances) system.use_distances(island.bodies.front());
+  // Begins anew with gaps that are distances. Returns false if this would change no gap.
+  const auto use_distances = [&] {
+    if (!can_use_distances(system, island)) return false;
+    system.use_distances(island.bodies.front());
     restart();
     return true;
   };
@@ -464,9 +460,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
   for (int n = 0;; ++n) {
     int most = island.has_given_up ? kMostOfGivenLoads : max_iterations - result.iterations;
     if (n > 0) most = std::max(most, kLeastCorrected);
-    const bool is_corrected = n > 0 || begins_without_contacts;
-    if (begins_without_contacts || (n > 0 && can_use_distances(system, island)))
-      most = std::min(most, kMostCorrected);
+    if (n > 0 && can_use_distances(system, island)) most = std::min(most, kMostCorrected);
     solution = solve_constraints(problem, std::max(1, most));
     result.iterations += solution.result.iterations;
     const auto is_exhausted = [&] {
@@ -474,7 +468,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     };
     // A convex problem is given up only if further iterations would not solve it.
     if (!(solution.result.residual <= 1) && !is_rough && !(is_convex_ && is_exhausted())) {
-      if (is_corrected && begin_anew()) {
+      if (n > 0 && use_distances()) {
         max_iterations += result.iterations;
         n = -1;
         continue;
@@ -498,8 +492,8 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     // Half of what is allowed is left to the residual of the solution.
     if (change <= 0.5 || is_rough || is_unsolved) break;
     if (growing == kPatience || n - gained_at == kMostWithoutGain) {
-      if (!begins_without_contacts && !has_large_shifts(island)) break;
-      if (begin_anew()) {
+      if (!has_large_shifts(island)) break;
+      if (use_distances()) {
         n = -1;
         continue;
       }
@@ -520,7 +514,7 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     // after it, from the same first loads as before it, and later ones keep them.
     if (n == 0 && !problem.keeps_loads)
       for (std::size_t b = 0; b < island.contacts.size(); ++b)
-        problem.blocks[b].given_load = of_contacts_[island.contacts[b]].first_load;
+        problem.blocks[b].given_load = contact_states_[island.contacts[b]].first_load;
     if (n > 0) problem.keeps_loads = true;
     problem.is_near =
         n > 0 && solution.result.residual <= 1 && (is_fast || !has_large_shifts(island));
@@ -534,16 +528,16 @@ SolverResult ConstraintSystem<D>::solve_island(ContactSystem<D>& system, Island&
     }
   }
   if (is_rough)
-    for (const auto c : island.contacts) of_contacts_[c].first_load = of_contacts_[c].carried;
+    for (const auto c : island.contacts) contact_states_[c].first_load = contact_states_[c].carried;
   if (is_rough || island.has_given_up) return result;
   for (std::size_t b = 0; b < island.contacts.size(); ++b)
-    of_contacts_[island.contacts[b]].last_load = problem.blocks[b].given_load;
+    contact_states_[island.contacts[b]].last_load = problem.blocks[b].given_load;
   return result;
 }
 
 template <int D>
 std::vector<double> ConstraintSystem<D>::least_violations() const {
-  const std::size_t contacts = of_contacts_.size();
+  const std::size_t contacts = contact_states_.size();
   std::vector<double> all(contacts + links_.size());
   for (const auto& island : islands_) {
     if (island.problem.blocks.empty()) continue;

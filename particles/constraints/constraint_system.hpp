@@ -87,11 +87,10 @@ class ConstraintSystem {
   /// with offsets corrected by the difference between the lengths of links and the gaps of bodies
   /// after finite turns and their linear values, until this difference is below half of what is
   /// allowed. If the links of an island were solved before it had contacts, and their motion leaves
-  /// all contacts open, the first equations are those about that motion, which is the solution:
-  /// equations about the beginning of the step would stop a particle that a hinge or arm takes past
-  /// an obstacle. Otherwise, or if corrections diverge, the first equations are those about the
-  /// beginning of the step. Gaps are at first taken along the normals at the beginning of the step.
-  /// If this fails, too, ContactSystem::use_distances() applies, and the solution begins anew.
+  /// all contacts open, that motion is the solution. Equations about the beginning of the step
+  /// would stop a particle that a hinge or arm takes past an obstacle. Gaps are at first taken along
+  /// the normals at the beginning of the step. If the corrected problem is not solved, or
+  /// corrections diverge, ContactSystem::use_distances() applies, and the solution begins anew.
   ///
   /// If Coulomb's law is not solved in `max_iterations`, the friction of the island is bounded by
   /// the loads of the best iterate, so that at least gaps, films and links are exact. Some hundred
@@ -115,11 +114,11 @@ class ConstraintSystem {
   /// Writes friction of contact `c`, and the impulse that its solids carry, to memory [M L/T]. This
   /// and the next functions need solve().
   void remember(std::size_t c, PairMemory& memory) const {
-    memory.set_friction(of_contacts_[c].friction);
-    memory[Remembered::kCarried] = of_contacts_[c].carried;
+    memory.set_friction(contact_states_[c].friction);
+    memory[Remembered::kCarried] = contact_states_[c].carried;
   }
   /// Residual of contact number `c`, from 0 in the order of add(), in the last solution [L].
-  const BlockResidual& residual(std::size_t c) const { return of_contacts_[c].residual; }
+  const BlockResidual& residual(std::size_t c) const { return contact_states_[c].residual; }
   /// Residual of link `l` of links() in the last solution [L]; of angles times the mean radius.
   double link_residual(std::size_t l) const { return link_residuals_[l]; }
   /// For each constraint of the last solve(), first all contacts, then all links, its violation
@@ -146,7 +145,7 @@ class ConstraintSystem {
     int iterations = 0;
   };
   // What is known of a contact besides what the ContactSystem has.
-  struct OfContact {
+  struct ContactState {
     ContactTangents<D> tangents;
     Vector friction{};      // impulse of friction [M L/T]
     double carried = 0;     // part of the impulse that solids carry [M L/T]
@@ -200,7 +199,7 @@ class ConstraintSystem {
   std::vector<double> free_turns_;     // h w* of all particles
   std::vector<BodyStep> free_bodies_;  // motions of bodies without contacts and links
   std::vector<LinkEquations> links_;
-  std::vector<OfContact> of_contacts_;
+  std::vector<ContactState> contact_states_;
   std::vector<double> link_residuals_, link_forces_;
   // Forces of links with which solutions begin, in the order of link_forces_.
   std::vector<double> first_link_forces_;

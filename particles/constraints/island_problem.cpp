@@ -1,6 +1,6 @@
 // Makes the problem of an island of a ConstraintSystem (constraint_system.hpp, which has the shapes
 // and ranges): its units, the rows and bounds of its contacts, the equations of its links, and the
-// motions about which the first equations are linear. Lengths [L], masses [M] and times [T] are in
+// motions of its units without contacts. Lengths [L], masses [M] and times [T] are in
 // any consistent units. Nothing is checked or thrown. A change of the order of rows changes results
 // by rounding errors.
 #include <algorithm>
@@ -56,8 +56,8 @@ ContactSide ConstraintSystem<D>::side_of(std::int32_t particle) const {
 template <int D>
 void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c, double allowed_slip,
                                       ConstraintProblem<D>& problem) {
-  const auto& of = of_contacts_[c];
-  const auto& tangents = of.tangents;
+  const auto& state = contact_states_[c];
+  const auto& tangents = state.tangents;
   ConstraintBlock block;
   block.row = problem.rows.size();
   block.lowest = contact.lowest;
@@ -70,12 +70,12 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c, 
   block.rows = rubs ? static_cast<std::size_t>(D) : 1;
   if (problem.is_convex && rubs) {
     block.friction_bound = block.has_film() ? FrictionBound::kGiven : FrictionBound::kCone;
-    block.given_load = of.first_load;
+    block.given_load = state.first_load;
   }
   problem.blocks.push_back(block);
   const auto first = side_of(contact.first), second = side_of(contact.second);
   for (std::size_t k = 0; k < block.rows; ++k) {
-    const double guess = k == 0 ? contact.impulse : dot(tangents.directions[k - 1], of.friction);
+    const double guess = k == 0 ? contact.impulse : dot(tangents.directions[k - 1], state.friction);
     add_contact_row(contact, tangents, first, second, k, guess, problem);
   }
 }
@@ -102,10 +102,10 @@ void ConstraintSystem<D>::add_link(std::size_t l, double allowed, ConstraintProb
   }
 }
 
-/// True if a part of the island was solved without contacts before.
+/// True if the island has contacts, and a part of it was solved without contacts before.
 template <int D>
 bool ConstraintSystem<D>::has_motions_without_contacts(const Island& island) const {
-  return std::ranges::any_of(island.bodies, [&](std::int32_t b) {
+  return !island.contacts.empty() && std::ranges::any_of(island.bodies, [&](std::int32_t b) {
     return index_of(b) < without_contacts_.size() && without_contacts_[index_of(b)];
   });
 }
@@ -131,10 +131,11 @@ template <int D>
 void ConstraintSystem<D>::give_loads_of_step(Island& island) {
   give_loads(island.problem);
   for (std::size_t b = 0; b < island.contacts.size(); ++b) {
-    auto& of = of_contacts_[island.contacts[b]];
-    if (!of.gave_up) of.given_load = of.could_not_give_up ? of.first_load : of.carried;
-    of.gave_up = true;
-    island.problem.blocks[b].given_load = of.given_load;
+    auto& state = contact_states_[island.contacts[b]];
+    if (!state.gave_up)
+      state.given_load = state.could_not_give_up ? state.first_load : state.carried;
+    state.gave_up = true;
+    island.problem.blocks[b].given_load = state.given_load;
   }
 }
 
@@ -157,14 +158,14 @@ void ConstraintSystem<D>::make_problem(const ContactSystem<D>& system, Island& i
     for (auto& block : problem.blocks) block.allowed = roughly_allowed;
   for (const auto l : island.links)
     add_link(l, is_rough ? roughly_allowed : links_allowed[l], problem);
-  const auto has_load = [&](std::size_t c) { return of_contacts_[c].last_load.has_value(); };
+  const auto has_load = [&](std::size_t c) { return contact_states_[c].last_load.has_value(); };
   if (island.has_given_up) {
     give_loads_of_step(island);
   } else if (!is_rough && std::ranges::all_of(island.contacts, has_load)) {
     // Without further pairs the loads of the last solution remain, so that the motion does not
     // depend on how often it is solved, which rounding errors may decide.
     for (std::size_t b = 0; b < island.contacts.size(); ++b)
-      problem.blocks[b].given_load = *of_contacts_[island.contacts[b]].last_load;
+      problem.blocks[b].given_load = *contact_states_[island.contacts[b]].last_load;
     problem.keeps_loads = true;
   }
 }

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace viscontact::particles {
 namespace {
@@ -296,8 +295,8 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
       // kMostRounds rounds, a free choice that bounds the time of such a step.
       constexpr int kMostRounds = 20;
       if (!constraints_ || ++rounds_unsolved > kMostRounds) break;
-      // The gaps of a rough solution are not accurate.
-      if (more.empty() && !std::exchange(is_rough, false)) break;
+      // The gaps of a rough solution are not accurate, so that another solution must follow it.
+      if (more.empty() && !is_rough) break;
       is_rough = false;
     }
     // After kPatience rounds (a free choice) without gain or new pair, rounding errors are left.

@@ -133,8 +133,8 @@ struct ProjectionResult {
 
 /// Chooses the pairs that a film holds (gamma < 0, minus the impulse that the film has absorbed),
 /// that had an impulse in the last step, or whose gap the motion without contacts, but with links,
-/// would close, and solves the problem (5.4) for them and their particles. u* are velocities without
-/// contacts and links. If the solution closes further gaps,
+/// would close, and solves the problem (5.4) for them and their particles. u* are the velocities
+/// without contacts and links. If the solution closes further gaps,
 /// their pairs are added and the problem is solved again, until no gap is closed. A rough solution
 /// comes first, because it finds most of these pairs with little work.
 ///

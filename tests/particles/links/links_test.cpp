@@ -155,6 +155,8 @@ TEST(Hinges, APlaneThatASwingingDiscPassesAtASmallDistanceChangesNothing) {
   for (const double clearance : {1e-6, 1e-3, 0.05})
     for (const bool has_friction : {false, true})
       for (const double h : {0.01, 0.017, 0.1}) {
+        SCOPED_TRACE(testing::Message() << "clearance " << clearance << ", step " << h
+                                        << ", friction " << has_friction);
         const auto swing = [&](bool has_plane) {
           auto setting = setting_of(h, Scheme::kEuler);
           if (has_friction) setting.laws.friction = FrictionLaw{0.3};
@@ -174,7 +176,6 @@ TEST(Hinges, APlaneThatASwingingDiscPassesAtASmallDistanceChangesNothing) {
           return simulation.state().particles;
         };
         const auto with = swing(true), without = swing(false);
-        SCOPED_TRACE("clearance " + std::to_string(clearance) + ", step " + std::to_string(h));
         EXPECT_GT(with.angular_velocities[0], 0.9);
         EXPECT_NEAR(with.angular_velocities[0], without.angular_velocities[0], 1e-8);
         EXPECT_NEAR(norm(with.position(0) - without.position(0)), 0, 1e-8);
