@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -22,6 +23,7 @@
 #include "viscontact/particles/constraints/block_factor.hpp"
 #include "viscontact/particles/constraints/cone.hpp"
 #include "viscontact/particles/constraints/contact_sweeps.hpp"
+#include "viscontact/particles/constraints/coulomb_path.hpp"
 #include "viscontact/particles/constraints/interior_points.hpp"
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
@@ -65,8 +67,16 @@ class Iteration {
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return finish();
     proximal_.emplace(problem_, w_, matrix());
     proximal_->set_epsilon(epsilon_);
+    static const int most_before = std::getenv("BEFORE") ? std::atoi(std::getenv("BEFORE")) : 50;
+    const int before_path = best_.result.iterations + most_before;
+    bool has_followed = false;
     while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant()) {
-      take_proximal_step(max_iterations);
+      if (!has_followed && best_.result.iterations >= before_path && !problem_.is_rough) {
+        has_followed = true;
+        follow_path(max_iterations);
+      } else {
+        take_proximal_step(max_iterations);
+      }
       note_progress();
     }
     return finish();
@@ -106,6 +116,19 @@ class Iteration {
   bool is_stagnant() const {
     constexpr int kPatience = 3000, kPatienceOfCones = 300;
     return best_.result.iterations - gained_at_ > (has_cones_ ? kPatienceOfCones : kPatience);
+  }
+
+  /// Follows the path of smoothed problems to a point near a solution.
+  void follow_path(int max_iterations) {
+    constexpr double kAccuracy = 1e-7;
+    constexpr int kMostIterations = 2000;
+    const int most = std::clamp(max_iterations - best_.result.iterations, 1, kMostIterations);
+    CoulombPath<D> path(problem_, w_, matrix());
+    best_.result.iterations += path.follow(kAccuracy, most);
+    problem_.impulses = path.impulses();
+    update();
+    epsilon_ = kFirstEpsilon;
+    proximal_->set_epsilon(epsilon_);
   }
 
   /// Takes a proximal step of a problem with Coulomb's law. Between jammed particles that stick,
