@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -67,15 +66,33 @@ class Iteration {
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return finish();
     proximal_.emplace(problem_, w_, matrix());
     proximal_->set_epsilon(epsilon_);
-    static const int most_before = std::getenv("BEFORE") ? std::atoi(std::getenv("BEFORE")) : 50;
-    const int before_path = best_.result.iterations + most_before;
-    bool has_followed = false;
+    // Proximal steps solve easy problems in fewer iterations than a path takes. Near a solution,
+    // where a path ends, 0 to 20 iterations are the rule.
+    constexpr int kMostBeforePath = 50, kMostAfterPath = 200;
+    int paths = 0, next = best_.result.iterations + kMostBeforePath;
+    bool is_after_path = false;
+    auto before = problem_.impulses;
+    double epsilon_before = epsilon_;
+    const auto use = [&](const std::vector<double>& impulses, double epsilon) {
+      problem_.impulses = impulses;
+      update();
+      epsilon_ = epsilon;
+      proximal_->set_epsilon(epsilon);
+    };
     while (residual_ > 1 && best_.result.iterations < max_iterations && !is_stagnant()) {
-      if (!has_followed && best_.result.iterations >= before_path && !problem_.is_rough) {
-        has_followed = true;
-        follow_path(max_iterations);
-      } else {
+      if (best_.result.iterations < next || (!is_after_path && paths == CoulombPath<D>::kPaths)) {
         take_proximal_step(max_iterations);
+      } else {
+        // After a path that does not help, proximal steps go on where they were.
+        if (is_after_path) {
+          use(before, epsilon_before);
+        } else {
+          before = problem_.impulses;
+          epsilon_before = epsilon_;
+          use(end_of_path(paths++, max_iterations), kFirstEpsilon);
+        }
+        is_after_path = !is_after_path;
+        next = best_.result.iterations + kMostAfterPath;
       }
       note_progress();
     }
@@ -118,17 +135,15 @@ class Iteration {
     return best_.result.iterations - gained_at_ > (has_cones_ ? kPatienceOfCones : kPatience);
   }
 
-  /// Follows the path of smoothed problems to a point near a solution.
-  void follow_path(int max_iterations) {
+  /// Follows path number `number` of smoothed problems. Returns the impulses at its end.
+  std::vector<double> end_of_path(int number, int max_iterations) {
     constexpr double kAccuracy = 1e-7;
-    constexpr int kMostIterations = 2000;
-    const int most = std::clamp(max_iterations - best_.result.iterations, 1, kMostIterations);
+    // A long path is left for another one, which seldom is as long.
+    const int longest = number + 1 < CoulombPath<D>::kPaths ? 400 : 2000;
+    const int most = std::clamp(max_iterations - best_.result.iterations, 1, longest);
     CoulombPath<D> path(problem_, w_, matrix());
-    best_.result.iterations += path.follow(kAccuracy, most);
-    problem_.impulses = path.impulses();
-    update();
-    epsilon_ = kFirstEpsilon;
-    proximal_->set_epsilon(epsilon_);
+    best_.result.iterations += path.follow(number, kAccuracy, most);
+    return path.impulses();
   }
 
   /// Takes a proximal step of a problem with Coulomb's law. Between jammed particles that stick,
@@ -161,7 +176,6 @@ class Iteration {
       if (close_gaps(center, max_iterations)) return;
       next_try_ = steps_ + steps_ / kShareOfSteps;
     }
-    if (proximal_->followed_path()) return;
     epsilon_ /= taken <= kFewIterations ? kLargeFactor : kFactor;
     epsilon_ = std::max(kLeastEpsilon, epsilon_);
     proximal_->set_epsilon(epsilon_);

@@ -313,38 +313,6 @@ BlockResidual ConstraintSystem<D>::residual_of_contact(
   return residual_after(problem, block, solution.motions);
 }
 
-/// Solves the problem of an island `with_own_loads`, Coulomb's law, from the present solution with
-/// given loads, which may be near it although the iterations before did not get there. Returns true
-/// if it is solved. Otherwise leaves the problem and `solution` as they are. Adds the iterations to
-/// `result` in any case.
-template <int D>
-bool ConstraintSystem<D>::solve_again(Island& island, ConstraintProblem<D> with_own_loads,
-                                      ConstraintSolution<D>& solution, SolverResult& result) {
-  // Solutions take 20 to 200 iterations. Where a try ends near a solution, another one with the
-  // loads of that end may get there. Jammed packings of 1000 discs end far from it, with residuals
-  // of 1e4 to 3e5 of what is allowed, also after 1000 iterations. These numbers are free choices.
-  constexpr int kMostTries = 6, kMostIterations = 300;
-  constexpr double kNear = 100;
-  auto given = island.problem;
-  for (int n = 0; n < kMostTries; ++n) {
-    with_own_loads.impulses = given.impulses;
-    auto again =
-        solve_constraints(with_own_loads, kMostIterations,
-                          n % 2 == 1 ? ConstraintStart::kSweeps : ConstraintStart::kLeastImpulses);
-    result.iterations += again.result.iterations;
-    if (again.result.residual <= 1) {
-      island.problem = std::move(with_own_loads);
-      island.has_given_up = false;
-      solution = std::move(again);
-      return true;
-    }
-    if (!(again.result.residual <= kNear)) break;
-    given = with_own_loads;
-    result.iterations += solve_with_given_loads(given, false).result.iterations;
-  }
-  return false;
-}
-
 /// Solves the problem of an island with given loads in place of those of the solution, in which
 /// further iterations or corrections make no progress. Returns true if it is solved. The loads are
 /// those of a solution without friction if `have_diverged`, because those of the present
@@ -375,7 +343,6 @@ bool ConstraintSystem<D>::give_up(Island& island, bool have_diverged,
     problem = with_own_loads;
     return false;
   }
-  if (!have_diverged && solve_again(island, with_own_loads, solution, result)) return true;
   for (std::size_t b = 0; b < island.contacts.size(); ++b) {
     auto& state = contact_states_[island.contacts[b]];
     state.gave_up = true;

@@ -93,9 +93,8 @@ class ConstraintSystem {
   /// corrections diverge, ContactSystem::use_distances() applies, and the solution begins anew.
   ///
   /// If Coulomb's law is not solved in `max_iterations`, the friction of the island is bounded by
-  /// the loads of the best iterate, so that at least gaps, films and links are exact. Some hundred
-  /// iterations from that solution may solve Coulomb's law. If they do not, the given loads remain,
-  /// in this and all later calls. If these loads are so large that this fails, too, the friction is
+  /// the loads of the best iterate, so that at least gaps, films and links are exact. The
+  /// given loads remain in all later calls. If these loads are so large that this fails, too, the friction is
   /// bounded by the loads of a solution without friction. residual() remains that of Coulomb's law.
   ///
   /// The convex relaxation (5.9) has no solution where friction locks particles that must move. If
@@ -181,8 +180,6 @@ class ConstraintSystem {
                     double roughly_allowed);
   bool give_up(Island& island, bool have_diverged, ConstraintSolution<D>& solution,
                SolverResult& result);
-  bool solve_again(Island& island, ConstraintProblem<D> with_own_loads,
-                   ConstraintSolution<D>& solution, SolverResult& result);
   void give_loads_of_step(Island& island);
   BlockResidual residual_of_contact(const Island& island, std::size_t b,
                                     const ConstraintSolution<D>& solution) const;

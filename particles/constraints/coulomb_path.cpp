@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <utility>
 
 namespace viscontact::particles {
 namespace {
@@ -19,7 +21,8 @@ constexpr double kRegularisation = 1e-10;
 /// The product of `bound` and `spare` over tau, and that of the points of the friction cone. A
 /// larger first one smooths the bound of the friction more, which removes folds of the path. With
 /// 1, 3 and 10, 88 problems of 300 to 1900 contacts took 9100, 7300 and 7600 factorisations.
-constexpr double kOfBound = 10, kOfFriction = 2;
+constexpr std::array<double, 3> kSmoothing = {10, 100, 30};
+constexpr double kOfFriction = 2;
 
 /// The products stay between kNear and 1/kNear times their values on the path. With 0.2 and 0.5 the
 /// problems above took 7600 and 8800 factorisations.
@@ -96,9 +99,9 @@ void CoulombPath<D>::set_parts() {
       part.compliance = block.compliance * part.scale * part.scale;
       part.is_bound_given = block.friction_bound == FrictionBound::kGiven;
       // Friction with a given bound is left out if it moves nothing by half of what is allowed.
-      part.rubs = block.is_contact && block.rows > 1 &&
-                  !(part.is_bound_given &&
-                    block.bound(0) * w_[block.row + 1] <= block.allowed_slip / 2);
+      part.rubs =
+          block.is_contact && block.rows > 1 &&
+          !(part.is_bound_given && block.bound(0) * w_[block.row + 1] <= block.allowed_slip / 2);
       if (part.rubs) {
         part.of_slip = 1 / std::sqrt(w_[block.row + 1]);
         part.factor = block.friction * part.scale / part.of_slip;
@@ -127,8 +130,7 @@ template <int D>
 void CoulombPath<D>::measure() {
   for (std::size_t u = 0; u < error_.size(); ++u) {
     Motion<D> left;
-    for (std::size_t k = 0; k < kMotion; ++k)
-      left[k] = problem_.units[u].free[k] - state_.y[u][k];
+    for (std::size_t k = 0; k < kMotion; ++k) left[k] = problem_.units[u].free[k] - state_.y[u][k];
     error_[u] = problem_.units[u].impulse_of(left);
   }
   for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -140,8 +142,7 @@ void CoulombPath<D>::measure() {
     if (!part.rubs) continue;
     part.slip_error = slip(part, state_.y);
     for (std::size_t k = 0; k < kTangents; ++k) {
-      part.slip_error[k] +=
-          part.of_slip * problem_.rows[part.row + 1 + k].offset - point.v[k];
+      part.slip_error[k] += part.of_slip * problem_.rows[part.row + 1 + k].offset - point.v[k];
       problem_.add_impulse(part.row + 1 + k, part.of_slip * point.p[k], error_);
     }
   }
@@ -174,10 +175,9 @@ void CoulombPath<D>::start() {
     if (part.is_bound_given) {
       point.bound = block.bound(0) / part.of_slip;
     } else {
-      const double unused =
-          part.factor * (point.r - (block.capacity - block.lowest) / part.scale);
-      point.bound = positive_root(unused, kOfBound * tau);
-      point.spare = kOfBound * tau / point.bound;
+      const double unused = part.factor * (point.r - (block.capacity - block.lowest) / part.scale);
+      point.bound = positive_root(unused, smoothing_ * tau);
+      point.spare = smoothing_ * tau / point.bound;
     }
     point.z = kOfFriction * tau / point.bound;
   }
@@ -202,8 +202,7 @@ bool CoulombPath<D>::factorise() {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     auto& part = parts_[i];
     const auto& point = state_.points[i];
-    part.weight =
-        1 / ((part.is_equation ? part.compliance : point.u / point.r) + kRegularisation);
+    part.weight = 1 / ((part.is_equation ? part.compliance : point.u / point.r) + kRegularisation);
     matrix_.add_product(part.block, part.row, part.row, part.weight * part.scale * part.scale);
     if (!part.rubs) continue;
     const auto of_slip = matrix_of(point.bound, -1 / point.bound, point.p, point.p);
@@ -214,9 +213,8 @@ bool CoulombPath<D>::factorise() {
     for (std::size_t k = 0; k < kTangents; ++k)
       right[k] = point.z * point.p[k] / point.bound - point.v[k];
     part.by_bound = times(part.inverse, right);
-    const double of_r = part.is_bound_given
-                            ? 0
-                            : part.factor * point.bound / (point.bound + point.spare);
+    const double of_r =
+        part.is_bound_given ? 0 : part.factor * point.bound / (point.bound + point.spare);
     for (std::size_t l = 0; l < kTangents; ++l) {
       Tangent column;
       for (std::size_t k = 0; k < kTangents; ++k) column[k] = of_slip[k * kTangents + l];
@@ -258,20 +256,19 @@ void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* 
       change.u = 0;
       return change;
     }
-    change.r = part.weight * ((of_tau - of_errors * at.u * at.r - second.u * second.r) / at.r -
-                              change.u);
+    change.r =
+        part.weight * ((of_tau - of_errors * at.u * at.r - second.u * second.r) / at.r - change.u);
     change.u += kRegularisation * change.r;
     if (!part.rubs) return change;
     if (!part.is_bound_given) {
       const double of_r = part.factor * change.r;
-      change.bound = (kOfBound * of_tau - of_errors * at.bound * at.spare -
+      change.bound = (smoothing_ * of_tau - of_errors * at.bound * at.spare -
                       second.bound * second.spare + at.bound * of_r) /
                      (at.bound + at.spare);
       change.spare = change.bound - of_r;
     }
     if (is_moved) change.v = slip(part, changes.y);
-    const double goal = kOfFriction * of_tau -
-                        of_errors * (at.bound * at.z + inner(at.p, at.v)) -
+    const double goal = kOfFriction * of_tau - of_errors * (at.bound * at.z + inner(at.p, at.v)) -
                         second.bound * second.z - inner(second.p, second.v);
     for (std::size_t k = 0; k < kTangents; ++k)
       change.v[k] += of_errors * part.slip_error[k] - of_tau * part.slip_error_of_tau[k];
@@ -286,8 +283,8 @@ void CoulombPath<D>::find_changes(double of_errors, double of_tau, const State* 
       change.p[k] += part.by_bound[k] * change.bound;
       change.v[k] += kRegularisation * change.p[k];
     }
-    change.z = (goal - at.z * change.bound - inner(at.p, change.v) - inner(at.v, change.p)) /
-               at.bound;
+    change.z =
+        (goal - at.z * change.bound - inner(at.p, change.v) - inner(at.v, change.p)) / at.bound;
     return change;
   };
   for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -307,7 +304,7 @@ template <int D>
 double CoulombPath<D>::product(const State& a, const State& b) const {
   double sum = degree_ * a.tau * b.tau / (state_.tau * state_.tau);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const auto &part = parts_[i];
+    const auto& part = parts_[i];
     const auto &at = state_.points[i], &x = a.points[i], &y = b.points[i];
     if (part.is_equation) continue;
     sum += x.u * y.u / (at.u * at.u) + x.r * y.r / (at.r * at.r);
@@ -325,10 +322,8 @@ double CoulombPath<D>::product(const State& a, const State& b) const {
 template <int D>
 bool CoulombPath<D>::is_inside(const Step& step, double length) const {
   const double square = length * length;
-  const auto sum = [&](auto member) {
-    return member(step.correction) + length * member(step.tangent) + square * member(step.second);
-  };
-  const double tau = step.at.tau + sum([](const State& s) { return s.tau; });
+  const double tau =
+      step.at.tau + step.correction.tau + length * step.tangent.tau + square * step.second.tau;
   if (!(tau > 0)) return false;
   const auto is_near = [&](double product, double goal) {
     return product >= kNear * goal && product <= goal / kNear;
@@ -347,7 +342,8 @@ bool CoulombPath<D>::is_inside(const Step& step, double length) const {
     if (!(u > 0 && r > 0 && is_near(u * r, tau))) return false;
     if (!part.rubs) continue;
     const double bound = number(&Point::bound), spare = number(&Point::spare);
-    if (!part.is_bound_given && !(bound > 0 && spare > 0 && is_near(bound * spare, kOfBound * tau)))
+    if (!part.is_bound_given &&
+        !(bound > 0 && spare > 0 && is_near(bound * spare, smoothing_ * tau)))
       return false;
     const double z = number(&Point::z);
     Tangent p, v, across;
@@ -393,7 +389,7 @@ typename CoulombPath<D>::State CoulombPath<D>::end_of(const Step& step, double l
 }
 
 /// Sets the tangent of the path and the correction at right angles to it, at state_. Returns false
-/// if the matrix is singular.
+/// if the matrix is singular, or if the correction does not lead to a point near the path.
 template <int D>
 bool CoulombPath<D>::find_direction(Step& step) {
   measure();
@@ -402,41 +398,60 @@ bool CoulombPath<D>::find_direction(Step& step) {
   find_changes(0, tau, nullptr, step.tangent);
   find_changes(1, tau, nullptr, step.correction);
   step.tangent.tau = tau;
-  const double square = product(step.tangent, step.tangent);
-  add(-product(step.correction, step.tangent) / square, step.tangent, step.correction);
-  // The second derivative by ln(tau), at right angles to the tangent.
-  find_changes(0, 0, &step.tangent, step.second);
-  add(-product(step.second, step.tangent) / square, step.tangent, step.second);
+  add(-product(step.correction, step.tangent) / product(step.tangent, step.tangent), step.tangent,
+      step.correction);
   // tau falls along the path where the determinant is positive, as it is at the start.
   if (matrix_.sign_of_determinant() > 0) add(-2, State(step.tangent), step.tangent);
+  step.second.tau = 0;
+  step.second.points.assign(parts_.size(), Point{});
   step.at = state_;
-  return true;
+  return is_inside(step, 0);
+}
+
+/// Sets half of the second derivative of the path by the length, at right angles to the tangent.
+template <int D>
+void CoulombPath<D>::find_second(Step& step) {
+  find_changes(0, 0, &step.tangent, step.second);
+  add(-product(step.second, step.tangent) / product(step.tangent, step.tangent), step.tangent,
+      step.second);
 }
 
 template <int D>
-int CoulombPath<D>::follow(double accuracy, int max_iterations) {
+int CoulombPath<D>::follow(int number, double accuracy, int max_iterations) {
   // Lengths of steps are changes of ln(tau) far from folds. A step may be kGrowth times as long as
-  // the one before, and is shortened by kLess until it ends near the path. If its end cannot be
-  // corrected, it is taken again with kShorter times its length. All are free choices.
-  constexpr double kLongest = 0.9, kGrowth = 4, kLess = 0.7, kShorter = 0.3;
-  // Rounding errors stop the path if a step is shorter, or after kMostWithoutStep points at which
-  // no length leads to a point near the path.
+  // the one before, and is shortened by kLess until it ends near the path. All numbers are free
+  // choices.
+  constexpr double kLongest = 0.9, kGrowth = 4, kLess = 0.7;
+  // If the end of a step cannot be corrected, it is taken again with kShorter times its length,
+  // and after kMostTries the same is done with the step before. kKept steps are kept for this.
+  constexpr double kShorter = 0.3;
+  constexpr int kMostTries = 3;
+  constexpr std::size_t kKept = 8;
+  // Rounding errors stop the path after kMostWithoutStep points at which no length of kShortest or
+  // more leads to a point near the path. The length after such a point is kAfterNone.
   constexpr double kShortest = 1e-5, kAfterNone = 1e-3;
   constexpr int kMostWithoutStep = 20;
+  smoothing_ = kSmoothing[static_cast<std::size_t>(number)];
   set_parts();
   start();
-  Step step, next;
+  std::deque<Step> kept;
+  Step step;
   double length = kLongest;
-  int iterations = 0, without_step = 0;
+  int iterations = 0, without_step = 0, tries = 0;
   while (size_ > 0 && iterations < max_iterations) {
     ++iterations;
-    if (!find_direction(next) || !is_inside(next, 0)) {
-      length *= kShorter;
-      if (iterations == 1 || length < kShortest) break;
-      state_ = end_of(step, length);
+    if (!find_direction(step)) {
+      if (++tries > kMostTries && !kept.empty()) {
+        kept.pop_back();
+        tries = 1;
+      }
+      if (kept.empty()) break;
+      length = kept.back().length *= kShorter;
+      state_ = end_of(kept.back(), length);
       continue;
     }
-    std::swap(step, next);
+    tries = 0;
+    find_second(step);
     length = std::min(kLongest, kGrowth * length);
     while (length >= kShortest && !is_inside(step, length)) length *= kLess;
     if (length < kShortest) {
@@ -444,6 +459,13 @@ int CoulombPath<D>::follow(double accuracy, int max_iterations) {
       length = 0;
     }
     state_ = end_of(step, length);
+    step.length = length;
+    kept.push_back(std::move(step));
+    step = {};
+    if (kept.size() > kKept) {
+      step = std::move(kept.front());
+      kept.pop_front();
+    }
     if (length == 0) length = kAfterNone;
     if (std::sqrt(state_.tau) <= accuracy * size_) break;
   }
@@ -461,8 +483,7 @@ void CoulombPath<D>::take_impulses() {
     const bool is_open = !part.is_equation && point.u > point.r;
     impulses_[part.row] = part.base + (is_open ? 0 : part.scale * point.r);
     for (std::size_t k = 0; part.rubs && k < kTangents; ++k)
-      impulses_[part.row + 1 + k] =
-          is_open && !part.is_bound_given ? 0 : part.of_slip * point.p[k];
+      impulses_[part.row + 1 + k] = is_open && !part.is_bound_given ? 0 : part.of_slip * point.p[k];
   }
 }
 

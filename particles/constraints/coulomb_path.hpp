@@ -39,10 +39,14 @@ class CoulombPath {
   CoulombPath(const ConstraintProblem<D>& problem, const std::vector<double>& w,
               UnitMatrix<D>& matrix);
 
-  /// Follows the path until the root of tau, which is a violation, is at most `accuracy`, in (0,
+  /// Number of different paths to a solution, which differ in how they smooth the bound of the
+  /// friction. On nearly all problems the first one suffices.
+  static constexpr int kPaths = 3;
+
+  /// Follows path `number`, from 0 to kPaths - 1, until the root of tau, which is a violation, is at most `accuracy`, in (0,
   /// 1), times the largest scaled value of a row with the least impulses. Stops before if rounding
   /// errors prevent progress, or after `max_iterations` factorisations. Returns their number.
-  int follow(double accuracy, int max_iterations);
+  int follow(int number, double accuracy, int max_iterations);
 
   /// The impulses at the end of the last follow(), one for each row [M L/T].
   const std::vector<double>& impulses() const { return impulses_; }
@@ -70,24 +74,24 @@ class CoulombPath {
     std::vector<Point> points;
     double tau = 0;
   };
-  // The point length = 0 of a step, and its polynomial in the length: at + correction + length
-  // tangent + length^2 second.
+  // A step of the path: its end is at + correction + length tangent + length^2 second.
   struct Step {
     State at, correction, tangent, second;
+    double length = 0;  // in which it was taken
   };
   // A contact, or a row of a link.
   struct Part {
     std::size_t block = 0, row = 0;
-    bool is_equation = false;         // a row of a link
-    bool rubs = false;                // with friction
-    bool is_bound_given = false;      // the bound of the friction is constant
-    double scale = 1, of_slip = 1;    // of the row, and of the tangential rows [(M/T)^(1/2)]
-    double base = 0;                  // impulse at which r is 0 [M L/T]
-    double compliance = 0;            // of an equation, over w [1]
-    double factor = 0;                // change of bound - spare by that of r [1]
-    double error = 0;                 // value of the row minus u; of an equation its left side
-    Tangent slip_error{};             // values of the tangential rows minus v
-    double error_of_tau = 0;          // the same at the start, over tau [(T/M)^(1/2)/L]
+    bool is_equation = false;       // a row of a link
+    bool rubs = false;              // with friction
+    bool is_bound_given = false;    // the bound of the friction is constant
+    double scale = 1, of_slip = 1;  // of the row, and of the tangential rows [(M/T)^(1/2)]
+    double base = 0;                // impulse at which r is 0 [M L/T]
+    double compliance = 0;          // of an equation, over w [1]
+    double factor = 0;              // change of bound - spare by that of r [1]
+    double error = 0;               // value of the row minus u; of an equation its left side
+    Tangent slip_error{};           // values of the tangential rows minus v
+    double error_of_tau = 0;        // the same at the start, over tau [(T/M)^(1/2)/L]
     Tangent slip_error_of_tau{};
     // From factorise(): derivatives of the change of r by that of the value of the row, and of the
     // change of p by that of the slip and of the bound.
@@ -107,17 +111,19 @@ class CoulombPath {
   static void add(double factor, const State& changes, State& to);
   static State end_of(const Step& step, double length);
   bool find_direction(Step& step);
+  void find_second(Step& step);
   void take_impulses();
 
   const ConstraintProblem<D>& problem_;
   const std::vector<double>& w_;
   UnitMatrix<D>& matrix_;
   std::vector<Part> parts_;
-  State state_;                                 // the present point
+  State state_;                                  // the present point
   std::vector<Motion<D>> error_, error_of_tau_;  // impulses on units minus M/h (y - y*) [M L/T]
   std::vector<double> impulses_;
-  double size_ = 0;    // the largest scaled value of a row with the least impulses
-  double degree_ = 0;  // number of products
+  double size_ = 0;       // the largest scaled value of a row with the least impulses
+  double degree_ = 0;     // number of products
+  double smoothing_ = 1;  // bound times spare on the path over tau
 };
 
 }  // namespace viscontact::particles
