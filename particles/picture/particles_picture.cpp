@@ -1,8 +1,9 @@
 // Arranges frames of a motion of particles in an SVG, all at one scale, with the flow behind them
-// and the scales of colours below (particles_picture.hpp). Sizes and coordinates on the page are in
-// page units, of which the picture is 1000 wide; sizes without a reason are free choices. Lengths
-// [L] and speeds [L/T] of the motion are in the units of the case. A flow that cannot be read is an
-// Error(kBadInput). Used by run/particles_pages.cpp. A change must keep one complete SVG.
+// and the scales of colours below; particles_picture.hpp has the ranges. Sizes and coordinates on
+// the page are in page units, of which the picture is 1000 wide; sizes without a reason are free
+// choices. Lengths [L] and speeds [L/T] of the motion are in the units of the case. A flow that
+// cannot be read is an Error(kBadInput). Used by run/particles_pages.cpp. A change must keep one
+// complete SVG.
 #include "viscontact/particles/picture/particles_picture.hpp"
 
 #include <fmt/format.h>
