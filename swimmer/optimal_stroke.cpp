@@ -1,9 +1,9 @@
-// Newton's method for the stroke of least energy (optimal_stroke.hpp), whose loop in the space of
-// arms has polynomials as coordinates (polynomial_loop.hpp). Numbers are in the units of the fit;
-// energies are those in a period of 1; optimal_stroke.hpp has the dimensions and ranges. Loops that
-// leave the table are an Error(kBadInput), a failure of Newton's method an Error(kNotConverged), a
-// stop an Error(kInterrupted). Used by swimmer/case, swimmer/job and python/. A change must keep
-// energies to the digits of docs/swimmer.md.
+// Newton's method for the stroke of least energy, whose loop in the space of arms has polynomials
+// as coordinates (polynomial_loop.hpp). Numbers are in the units of the fit; optimal_stroke.hpp has
+// the dimensions and ranges. An energy is that in a period of 1, which is
+// LoopSums::energy_times_period. Loops that leave the table are an Error(kBadInput), a failure of
+// Newton's method an Error(kNotConverged), a stop an Error(kInterrupted). Used by swimmer/case,
+// swimmer/job and python/. A change must keep energies to the digits of docs/swimmer.md.
 #include "viscontact/swimmer/optimal_stroke.hpp"
 
 #include <Eigen/Cholesky>
@@ -25,7 +25,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// A loop that satisfies the conditions of least energy at its displacement, with the multiplier of
-/// the displacement [M L/T^2] and the energy [M L^2/T^2].
+/// the displacement [M L/T^2] and the energy in a period of 1 [M L^2/T^2].
 struct Extremal {
   PolynomialLoop loop;
   double multiplier = 0;
@@ -144,8 +144,8 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
     stop.throw_if_stop_requested();
     const auto sums = functional_(*loop);
     const VectorXd gradient = sums.energy_gradient - multiplier * sums.displacement_gradient;
-    if (std::sqrt(gradient.dot(factor_.solve(gradient)) / sums.energy) < kTolerance)
-      return Extremal{*loop, multiplier, sums.energy};
+    if (std::sqrt(gradient.dot(factor_.solve(gradient)) / sums.energy_times_period) < kTolerance)
+      return Extremal{*loop, multiplier, sums.energy_times_period};
     const auto step = newton_step(*loop, sums, multiplier);
     if (!step) return {};
     const VectorXd direction = step->head(step->size() - 1);
@@ -157,7 +157,8 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
     for (int halvings = 0; !next && halvings < kMostHalvings; ++halvings, share /= 2) {
       next = scaled_to(moved(*loop, direction, share), displacement);
       // The energy may rise by 1e-13 of itself, its rounding error near the end.
-      if (next && functional_(*next).energy > sums.energy * (1 + 1e-13)) next.reset();
+      if (next && functional_(*next).energy_times_period > sums.energy_times_period * (1 + 1e-13))
+        next.reset();
     }
     loop = next;
   }

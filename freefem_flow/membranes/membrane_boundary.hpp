@@ -32,7 +32,8 @@ struct InnerCurves {
 
 /// Throws Error(kNotConverged) if a node of a membrane is outside the domain or inside a disc, or
 /// if a disc is not inside the domain; a place that is NaN counts as outside. The message
-/// multiplies lengths by `unit`, the unit of `curves` in that of the case.
+/// multiplies lengths by `unit` > 0, which is the unit of length of `curves`, measured in that of
+/// the case.
 void check_places(const particles::Domain& domain, const InnerCurves& curves, double unit);
 
 /// If the box is periodic along x: the distance [L] from its left side to the middle of the widest

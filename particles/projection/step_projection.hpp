@@ -1,9 +1,10 @@
 // The projection of a time step: the problem for the impulses of contacts that keeps gaps open,
-// docs/physics.md (5.3) and (5.4). Chooses the pairs that take part in it, sets their tolerances,
-// solves it, and measures the residuals of the solution by scales that do not depend on units. h
-// [T] is the length of the step, u* are the velocities at its end without contacts and links, v
-// those with them. Units are any consistent ones. Nothing is thrown: ProjectionResult tells whether
-// the step is solved. simulation.cpp uses it. Results must not depend on the number of threads.
+// docs/physics.md (5.3) and (5.4). Chooses the contacts of the problem, sets their tolerances,
+// solves the problem, and measures the residuals of the solution by scales that do not depend on
+// units. h [T] is the length of the step, u* are the velocities at its end without contacts and
+// links, v those with them. Units are any consistent ones. Nothing is thrown: ProjectionResult
+// tells whether the step is solved. simulation.cpp uses it. Results must not depend on the number
+// of threads.
 #pragma once
 
 #include <algorithm>
@@ -156,9 +157,10 @@ class StepProjection {
                  std::span<const double> mobilities, ThreadPool& pool);
   /// Makes solve() treat friction, rigid bodies and links, too. `step` must outlive this object.
   void add_constraints(const ConstraintStep& step);
-  /// Makes solve() linearise contacts where collisions (impacts/) have left their particles,
-  /// because elsewhere they could stop particles that pass each other. Distances are not used then,
-  /// because the projection after blows would add energy with them. `impacts` must outlive this.
+  /// Makes solve() linearise contacts where blows (collisions of solids, impacts/) have left their
+  /// particles, because elsewhere they could stop particles that pass each other. Distances are not
+  /// used then, because the projection after blows would add energy with them. `impacts` must
+  /// outlive this.
   void follow(const Impacts<D>& impacts) {
     impacts_ = &impacts;
     system_.forbid_distances();
@@ -239,7 +241,8 @@ class StepProjection {
   std::span<const double> mobilities_;
   ThreadPool& pool_;
   // The tangent of each pair in state.walls where the motion without contacts ends; empty if no
-  // obstacle is curved. The particle cannot leave a circle in the step, because the circle is convex.
+  // obstacle is curved. The particle cannot leave a circle in the step, because the circle is
+  // convex.
   std::vector<PlanePosition> tangents_;
   double tolerated_ = 0;             // largest overlap that is left as it is [L]
   double margin_ = 0;                // gap below which a pair is nearly closed [L]

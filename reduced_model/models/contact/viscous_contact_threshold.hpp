@@ -1,8 +1,8 @@
-// Viscous contact at a threshold gap q_c, with the whole fitted resistance R(q) at gaps q above it
-// (physics.md (4.7)). Gamma is the primitive of R, gamma minus the impulse that the film below q_c
-// has absorbed, gamma_min its value at which the solids touch, m the mass, u the velocity. Lengths,
-// masses and times are in any consistent units. models.cpp lists the model. A change of results
-// must raise kModelsRevision.
+// Viscous contact at a threshold gap q_c, with the whole fitted resistance R(q) at gaps q > q_c
+// (physics.md (4.7)). Gamma is the primitive of R. gamma is minus the impulse that the film below
+// q_c has absorbed, and gamma_min is the value of gamma at which the solids touch. m is the mass, u
+// the velocity. Lengths, masses and times are in any consistent units. models.cpp lists the model.
+// A change of results must raise kModelsRevision.
 #pragma once
 
 #include <algorithm>
