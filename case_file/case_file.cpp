@@ -131,8 +131,8 @@ void force_file_keys(Keys& keys, std::string& file) {
 }
 
 /// The path of a file that the case names relative to `folder`, the folder of the case. If there is
-/// no such file, but `folder` itself contains a file of this name, returns the path of the latter,
-/// because a run copies the case and the files that it names into one folder.
+/// no such file, but `folder` itself contains a file of the same name, returns the path of that
+/// file, because a run copies the case and the files that it names into one folder.
 fs::path force_file(const fs::path& folder, const fs::path& file) {
   const auto copy = folder / file.filename();
   // exists() fails for a text that cannot be the name of a file; reading the file reports it.

@@ -88,7 +88,7 @@ std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
 std::optional<MatrixXd> LoopOptimizer::lagrangian_hessian(const PolynomialLoop& loop,
                                                           double multiplier) const {
   // The best step balances the relative rounding error of the gradients, 1e-14, with the error of
-  // the differences by third derivatives: about the cube root of the former.
+  // the differences by third derivatives. It is about the cube root of the rounding error.
   constexpr double kRelativeStep = 1e-5;
   const double step = kRelativeStep * loop.coefficients.norm();
   MatrixXd hessian(loop.coefficients.size(), loop.coefficients.size());

@@ -64,9 +64,9 @@ std::string line_after(const std::string& output, std::string_view prefix);
 
 /// The version of FreeFEM: that of the Debian package that has installed the executable, and the
 /// one that FreeFEM states, such as "4.11+dfsg1-3 (Debian package freefem++; FreeFEM says 4.9)". If
-/// there is no package, only the latter, "4.9", which may differ from the number of the release.
-/// Throws Error(kInterrupted) if freefem.stop requests a stop, and Error(kExternalProgram) if
-/// FreeFEM cannot be started, fails, or does not answer within freefem.version_limit.
+/// there is no package, only what FreeFEM states, "4.9", which may differ from the number of the
+/// release. Throws Error(kInterrupted) if freefem.stop requests a stop, and Error(kExternalProgram)
+/// if FreeFEM cannot be started, fails, or does not answer within freefem.version_limit.
 std::string freefem_version(const FreeFem& freefem);
 
 }  // namespace viscontact::freefem_axi

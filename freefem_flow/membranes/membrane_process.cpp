@@ -94,7 +94,7 @@ class MembraneProcess : public particles::FluidSolver {
   SolverLimits limits_;
   std::string opening_;
   particles::Domain domain_;
-  double unit_;  // unit of length of the arguments in that of the case
+  double unit_;  // unit of length of the arguments, measured in that of the case
   std::vector<Membrane> membranes_;
   int edges_;          // on each membrane
   int edges_of_disc_;  // on each disc

@@ -107,10 +107,11 @@ void StepProjection<D>::name_contradictions(const std::vector<std::size_t>& beyo
   }
 }
 
-/// Writes the residuals of the present solution to `result`: those of the chosen contacts and of
-/// the links only if `is_final`, and those of pairs that are not chosen, whose gaps must not be
-/// closed. Returns the numbers of the latter pairs whose gap is closed by more than allowed. Pairs
-/// whose particles move freely are not tested, because free motion closes only chosen pairs.
+/// Writes the residuals of the present solution to `result`: always those of pairs that are not
+/// chosen, whose gaps must not be closed, and if `is_final` also those of the chosen contacts and
+/// of the links. Returns the numbers of the pairs that are not chosen and whose gaps are closed by
+/// more than allowed. Pairs whose particles move freely are not tested, because free motion closes
+/// only chosen pairs.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settings,
                                                     double mean_radius, bool is_final,
