@@ -1,6 +1,7 @@
 // Benchmark of rows of the tabulation: error against exact solutions, error estimate, computing
 // time and memory; then the error of a textbook script (textbook.edp) in the same computing time.
-// bench/run runs it. Radius, viscosity and speed are 1.
+// Radius, viscosity and speed are 1; times are CPU times in seconds. An Error ends the program with
+// its message. bench/run runs it.
 #include <fmt/format.h>
 #include <sys/resource.h>
 

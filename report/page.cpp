@@ -298,7 +298,7 @@ void Report::draw(std::vector<Plot> plots, const StopToken& stop) {
     drawn.assign(plots.size(), "");
   }
   for (auto& drawing : drawings)
-    if (drawing.valid()) drawing.wait();  // it refers to its plot, which is moved below
+    if (drawing.valid()) drawing.wait();  // the drawing refers to its plot, which is moved below
   for (std::size_t i = 0; i < plots.size(); ++i)
     figures_.push_back({std::move(plots[i]), std::move(drawn[i])});
 }

@@ -111,9 +111,9 @@ std::optional<VectorXd> LoopOptimizer::newton_step(const PolynomialLoop& loop, c
   const VectorXd& normal = sums.displacement_gradient;
   const auto exact = lagrangian_hessian(loop, multiplier);
   if (!exact) return {};
-  // On the plane of constant displacement the Hessian must be positive definite, or Newton's method
-  // would go to a saddle point. A multiple of the Hessian for a constant metric is added to make it
-  // so; it grows from a small value until it suffices.
+  // On the plane of constant displacement the Hessian must be positive definite; otherwise Newton's
+  // method would go to a saddle point. A multiple of the Hessian for a constant metric is added to
+  // make it so; it grows from a small value until it suffices.
   const Eigen::HouseholderQR<MatrixXd> qr(normal);
   const MatrixXd basis = MatrixXd(qr.householderQ()).rightCols(normal.size() - 1);
   MatrixXd hessian = *exact;

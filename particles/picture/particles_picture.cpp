@@ -287,7 +287,7 @@ std::string particles_picture(const Playback& original, const std::string& title
     bars.push_back(report::film_scale(scene.lowest_gamma, kContactColours, scene.film_words));
   const bool has_friction = scene.playback.friction_coefficient && scene.touches;
   if (has_friction) bars.push_back(report::friction_scale(kFrictionColours, kFrictionWords));
-  // What has no scale of colours is said in a line of words.
+  // A line of words explains the colours that have no scale.
   auto words = scene.force_words;
   const auto say = [&](const char* more) {
     words += (words.empty() ? "" : "; ") + std::string(more);

@@ -23,9 +23,9 @@ bool take(double residual, const ResidualScale& scale, const SolverSettings& set
 }  // namespace
 
 /// The scale of the residual of a link: that of a contact whose change of the gap per impulse is
-/// the sum of the mobilities of the particles of the link. Its impulse at work is at least that
-/// which moves this gap by the largest change of a displacement, because a particle that a link
-/// holds may be at rest without any other force.
+/// the sum of the mobilities of the particles of the link. The impulse at work is at least the
+/// impulse that changes this gap by the largest change of a displacement, because a particle that a
+/// link holds may be at rest without any other force.
 template <int D>
 ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
                                                ResidualScales<D>& scales) const {

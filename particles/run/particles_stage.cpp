@@ -160,7 +160,7 @@ class Run {
     return write_particles(reported, FluidForces{forces, errors, case_.setting.fluid->semi_axes});
   }
 
-  /// `record`, to whose computing time and memory those of this call are added.
+  /// A copy of `record`, to which computing time and memory of this call are added.
   RunRecord with_costs(RunRecord record) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
