@@ -31,8 +31,8 @@ struct FreeFem {
 };
 
 /// The FreeFEM of the user: the executable is the value of the environment variable
-/// VISCONTACT_FREEFEM if it is set and not empty, else FreeFem++-nw, of which it is not checked
-/// that it exists. VISCONTACT_FREEFEM_TIME_LIMIT [s], if set, replaces both time limits. Throws
+/// VISCONTACT_FREEFEM if it is set and not empty, else FreeFem++-nw. Whether it exists is not
+/// checked. VISCONTACT_FREEFEM_TIME_LIMIT [s], if set, replaces both time limits. Throws
 /// Error(kExternalProgram) if the scripts are not found (freefem::find_script_folder()), and
 /// Error(kWrongUsage) if the limit is not a whole number from 1 to 10 million.
 FreeFem default_freefem(const StopToken& stop = {});

@@ -18,8 +18,9 @@ inline constexpr int kFirstMembraneLabel = 20;
 /// The largest number of membranes: their labels must be below those of particles.
 inline constexpr int kMostMembranes = kFirstParticleLabel - kFirstMembraneLabel;
 
-/// The places of the nodes of each membrane, a matrix with 2 edges rows and two columns, (x, y)
-/// [L]: the ends and the middles of its edges in turn, beginning with an end, counter-clockwise.
+/// The places of the nodes of each membrane: a matrix with two rows for each edge and two columns,
+/// (x, y) [L]. The rows are the ends and the middles of its edges in turn, beginning with an end,
+/// counter-clockwise.
 using NodesOfMembranes = std::vector<Eigen::MatrixXd>;
 
 /// The curves inside the domain.

@@ -115,11 +115,11 @@ inline double rounding_error_of_gaps(const ContactConditions& conditions) {
              fastest(conditions.free_velocities, conditions.layout);
 }
 
-/// Contact::w of a contact that takes no part, because hinges hold its gap.
+/// Contact::w of a contact that is left out of the problem, because hinges hold its gap.
 inline constexpr double kHeld = -1;
 
 /// Sets Contact::allowed, the allowed residual [L], from the tolerances of gaps and impulses. For
-/// contacts with w <= 0, which take no part, it is the tolerance of gaps alone.
+/// contacts with w <= 0, which are left out of the problem, it is the tolerance of gaps alone.
 ///
 /// Returns the impulses at work in each contact [M L/T]. For a particle this is the largest of the
 /// impulses of its contacts and of those that alone would keep their gaps from changing; for a
@@ -129,7 +129,8 @@ std::vector<double> set_allowed(std::span<Contact<2>> contacts,
 
 /// Measures the residuals of contacts, for their impulses and the velocities that the particles
 /// have with these. Sets Contact::allowed. StepResiduals::impulse_errors has one number for each
-/// contact, 0 if it takes no part; StepResiduals::converged says whether all are allowed.
+/// contact, 0 if the contact is left out of the problem; StepResiduals::converged says whether all
+/// residuals are allowed.
 StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const double> velocities,
                                 const ContactConditions& conditions);
 

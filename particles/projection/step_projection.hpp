@@ -37,7 +37,7 @@ struct ResidualScale {
   double impulse = 0;
   double rounding = 0;  ///< rounding errors of the gap after the step [L], > 0
   /// Allowed residual [L], > 0: the smaller of `length` > 0 [L] and of the change of the gap by the
-  /// part `fraction` > 0 of the impulse at work, where the latter is at least `rounding`.
+  /// part `fraction` > 0 of the impulse at work, which counts as at least `rounding`.
   double allowed(double length, double fraction) const {
     return std::min(length, std::max(fraction * impulse * w, rounding));
   }
@@ -79,9 +79,10 @@ class ResidualScales {
   ResidualScale of(std::span<const std::int32_t> particles, double w, double length);
   /// Scales of a contact, from its own particles, w and gap. In a step with friction, bodies or
   /// links, rounding errors are at least the last place of the radii, because smaller displacements
-  /// of particles at rest are errors of the solutions. In an island with a rigid body or link
-  /// (ContactSystem::is_held()) they are larger, because finite turns move points of the surface,
-  /// and grow with the distance of the particles from the origin.
+  /// of particles at rest are errors of the solutions. In an island (particles that contacts or
+  /// links join) with a rigid body or link (ContactSystem::is_held()) they are larger, because
+  /// finite turns move points of the surface, and grow with the distance of the particles from the
+  /// origin.
   ResidualScale of(const Contact<D>& contact);
   /// Largest change of the displacement of a particle by its impulse at work [L], >= 0.
   double largest_change(std::span<const std::int32_t> particles) const;
@@ -112,7 +113,8 @@ inline constexpr double kBroken = 1e-3;
 
 /// Result of the projection of a step.
 struct ProjectionResult {
-  /// Number of iterations of all solutions, with constraints of the island with the most, >= 0.
+  /// Number of iterations of all solutions, >= 0. With constraints each island is solved by itself,
+  /// and this is the number of the island that needs most.
   int iterations = 0;
   StepResiduals residuals;  ///< of the last solution; impulse_errors are in the order of `pairs`
   /// Number of contacts with an impulse or a film (gamma < 0) whose particles move around each
