@@ -46,8 +46,8 @@ void add_part(RowResults& results, const Part& part) {
 struct Study {
   Points points;                     ///< the points; their keys are the first columns
   std::vector<std::string> results;  ///< columns with results; a last column `failure` follows
-  /// Lines "# key: value" for the head of the file. They must contain all that the results depend
-  /// on, so that two files with the same head and the same columns have the same rows.
+  /// Lines "# key: value" for the head of the file. These lines must contain all that the results
+  /// depend on, so that two files with the same head and the same columns have the same rows.
   std::map<std::string, std::string> comments;
   /// Computes the results of row `index`, from 0. Several threads call this function at once. It
   /// throws Error(kInterrupted) if `stop` requests a stop; any other Error that it throws ends the
@@ -168,8 +168,8 @@ struct SweepOutcome {
 /// Error(kBadInput) if the file cannot be read.
 SweepOutcome read_outcome(const Study& study, const std::filesystem::path& path);
 
-/// Number of rows of this sweep that are finished, in PATH or PATH.part; 0 if neither belongs to
-/// it. Throws Error(kBadInput) if PATH exists and is not a regular file.
+/// Number of rows of this sweep that are finished, in PATH or PATH.part; 0 if neither file belongs
+/// to this sweep. Throws Error(kBadInput) if PATH exists and is not a regular file.
 std::uint64_t finished_rows(const Study& study, const std::filesystem::path& path);
 
 }  // namespace viscontact::sweep

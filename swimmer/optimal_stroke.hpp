@@ -46,7 +46,7 @@ struct OptimalStroke {
 };
 
 /// Finds a loop of least energy. Newton's method solves the conditions of Karush, Kuhn and Tucker.
-/// It starts from four small loops, which lie in four directions from the given shape. The
+/// The method starts from four small loops, which lie in four directions from the given shape. The
 /// displacement of each loop is then raised step by step to the wanted one. The loop with the least
 /// energy of the four is improved with more polynomials. Throws Error(kBadInput) if all four loops
 /// leave the table, Error(kNotConverged) if Newton's method fails with `request.polynomials`, and
