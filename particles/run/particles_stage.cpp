@@ -1,6 +1,6 @@
 // Runs a case of many particles (particles_stage.hpp): checks the inputs, continues an earlier run,
 // computes time steps, saves the state and writes the results. Numbers are in the units of the
-// case; errors are those of run_particles(), which particles_stage.hpp lists. A change must keep
+// case; particles_stage.hpp has their ranges and the errors of run_particles(). A change must keep
 // that restart.bin is written after all files that a run needs to continue (Run::save()), so that a
 // run that is killed at any time can be continued. Used by app/ and sweep/.
 #include "viscontact/particles/run/particles_stage.hpp"
