@@ -29,6 +29,7 @@ double child_cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+/// `estimate` is relative; the drag factor is the drag over Stokes' drag.
 struct Row {
   double drag_factor = 0, estimate = 0, unknowns = 0, cpu_seconds = 0, peak_megabytes = 0;
 };
