@@ -156,7 +156,7 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
     double share = 1;
     for (int halvings = 0; !next && halvings < kMostHalvings; ++halvings, share /= 2) {
       next = scaled_to(moved(*loop, direction, share), displacement);
-      // The energy may rise by 1e-13 of itself, its rounding error near the end.
+      // The energy may rise by a relative 1e-13, its rounding error near the end.
       if (next && functional_(*next).energy_times_period > sums.energy_times_period * (1 + 1e-13))
         next.reset();
     }
