@@ -174,7 +174,7 @@ Contact<2> contact_of_plates(const Fluid& fluid, const Particles& start, const P
   };
   const auto of_first = arm(near.first, first), of_second = arm(near.second, second);
   contact.levers = {-cross(of_first, contact.normal), cross(of_second, contact.normal)};
-  // Both arms of friction end at one point in the gap, so that it keeps the angular momentum.
+  // Both arms of friction end at one point in the gap, so that friction keeps the angular momentum.
   const double share = distance / (first.end_radius() + second.end_radius());
   place.arms = {along(of_first, contact.normal) + share * first.end_radius(),
                 share * second.end_radius() - along(of_second, contact.normal)};

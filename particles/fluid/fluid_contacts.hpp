@@ -179,7 +179,7 @@ class ContactProblem {
   bool is_rough() const { return is_rough_; }
 
  private:
-  // Both improve the impulses until the residuals are allowed.
+  // The next two functions improve the impulses until the residuals are allowed.
   void solve_dense();
   void solve_by_products();
   /// Sets the velocities by the responses of all contacts to their impulses.

@@ -202,7 +202,7 @@ void StepProjection<D>::allow(double length, double fraction, double of_slips) {
 template <int D>
 std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
     const std::vector<std::size_t>& pairs, int round) {
-  // Both are free choices; 2 to the power of kLargestDepth must be an int.
+  // Both numbers are free choices; 2 to the power of kLargestDepth must be an int.
   constexpr int kFirstRound = 3, kLargestDepth = 20;
   if (pairs.empty() || round < kFirstRound) return pairs;
   std::vector<double> farthest(system_.bodies().size());  // in each island, at its root
